@@ -16,7 +16,6 @@ const modelOfPicture = (png) => png.toString('latin1').match(/tEXtModel-SHA-256\
 /** Pages with measured figures, and the command that measures them. */
 const pages = {
   'Documentation~/accuracy-and-time.md': 'npm run evaluate, and the tables by hand',
-  'Documentation~/devices.md': 'haptoflow-benchmark measure-full-scale --page',
   'Documentation~/in-the-browser.md': 'npm run bench:web -- --publish',
   'Documentation~/not-proven.md': 'npm run test:soak -- --publish',
   'Training/results/benchmarks.md': 'npm run bench -- --publish, and by hand the figures of Documentation~/live-engine.md',
@@ -32,7 +31,6 @@ const pages = {
 const results = {
   'Training/haptoflow_paper/results/accuracy-time.json': 'npm run evaluate',
   'Training/haptoflow_paper/results/few-shot.json': 'haptoflow-paper few-shot',
-  'Training/results/default/full-scale.json': 'haptoflow-benchmark measure-full-scale',
   'Training/results/default/label-discrimination.json': 'haptoflow-benchmark discriminate',
 };
 

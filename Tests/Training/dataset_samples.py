@@ -32,7 +32,5 @@ def small_recording(
     angle = np.deg2rad(identity.direction_degrees or 0)
     position = np.round(np.outer(distance, [np.cos(angle), np.sin(angle)]), 2)
     return Recording(
-        identity, label, time, np.round(acceleration, 3), force_time, np.round(
-            force, 2
-        ), position_time, position
+        identity, label, time, np.round(acceleration, 3), force_time, np.round(force, 2), position_time, position
     )

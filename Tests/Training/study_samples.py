@@ -7,8 +7,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
-from haptoflow_training.studies.simulated_participants import RatingModel
-from haptoflow_training.studies.simulation import simulate_latency, simulate_similarity
+from haptoflow_training.studies.simulation import RatingModel, simulate_latency, simulate_similarity
 
 SMALL = RatingModel(materials=("jute", "wood"), methods=("ours", "other", "third"))
 

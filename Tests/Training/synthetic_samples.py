@@ -6,11 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from haptoflow_training.recordings.recording import Recording
 from haptoflow_training.recordings.synthetic import (
-    Material,
-    hand_conditions,
-    machine_conditions,
-    record_hand_condition,
-    record_machine_condition,
+    Material, hand_conditions, machine_conditions, record_hand_condition, record_machine_condition
 )
 from haptoflow_training.recordings.synthetic.materials import select_materials
 

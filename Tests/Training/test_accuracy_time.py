@@ -4,25 +4,28 @@ from __future__ import annotations
 
 import json
 import zlib
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+import matplotlib
 import numpy as np
 import pytest
+from matplotlib import pyplot
 
+from haptoflow_paper.metrics.judged_figures import BY_KEY
 from haptoflow_paper.reference.reference_conditions import Condition, conditions
 from haptoflow_paper.reference.reference_rows import REFERENCE_ROWS, reference_waves
 from haptoflow_paper.reference.reference_set import ReferencePair
 from haptoflow_paper.report.accuracy_time import table, timed_rows, with_times
-from haptoflow_paper.report.accuracy_time_chart import draw_chart
+from haptoflow_paper.report.accuracy_time_chart import PANELS, chart_points, draw_chart, draw_panel, draw_spectra
 from haptoflow_paper.report.accuracy_time_report import write_document
-from haptoflow_paper.report.label_spectra import draw_spectra
 from haptoflow_paper.rows import accuracy
 from haptoflow_paper.rows.row_plan import PlannedRow
-from haptoflow_paper.rows.row_summary import summary
+from haptoflow_paper.rows.row_store import read_row
+from haptoflow_paper.rows.row_summary import median_interval, summary, with_interval
 from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.model_stamp import SHIPPED_MODEL
-from haptoflow_training.recordings.synthetic import load_materials
 
 ROOT = Path(__file__).parents[2]
 
@@ -93,25 +96,7 @@ def test_the_table_keeps_the_plan_s_order_and_leaves_out_unmeasured_rows(pairs: 
     assert result["not_measured"] == ["missing"] and timed_rows(result) == {"standard", "rival", "size"}
 
 
-def test_a_rival_is_judged_against_its_named_row_and_not_judged_if_that_row_is_unmeasured(
-    pairs: list[ReferencePair],
-) -> None:
-    measured = _measured(pairs)
-    measured["sketch-same-time"] = measured["rival"]
-    plan = [
-        PlannedRow("standard", "ours", model="m"), PlannedRow("sketch-same-time", "ours", model="t"),
-        PlannedRow("rival", "as-published", model="r", against="sketch-same-time"),
-    ]  # fmt: skip
-    rows = {row["name"]: row for row in table(plan, measured)["rows"]}
-    assert rows["rival"]["against"] == "sketch-same-time" and set(rows["rival"]["verdict"].values()) == {"even"}
-    assert rows["sketch-same-time"]["against"] == "standard" and rows["sketch-same-time"]["verdict"]["lsd_db"] == "ahead"
-    del measured["sketch-same-time"]
-    assert "verdict" not in {row["name"]: row for row in table(plan, measured)["rows"]}["rival"]
-
-
-def test_every_row_has_spreads_of_the_temporal_figures_and_a_verdict(
-    pairs: list[ReferencePair],
-) -> None:
+def test_every_row_has_spreads_of_the_temporal_figures_and_a_verdict(pairs: list[ReferencePair]) -> None:
     rows = {row["name"]: row for row in table(PLAN, _measured(pairs))["rows"]}
     for name in ("standard", "rival", "independent-draw"):
         for figure in FIGURES:
@@ -125,33 +110,6 @@ def test_every_row_has_spreads_of_the_temporal_figures_and_a_verdict(
     assert set(rows["independent-draw"]["verdict"].values()) == {"even"} and "verdict" not in rows["standard"]
     assert set(rows["standard"]["by_label"]) == {"a", "b"} and len(rows["rival"]["worst_cells"]) == 3
     json.dumps(rows)
-
-
-def test_the_page_says_what_the_network_adds_to_the_skeleton_and_how_much_longer_it_takes(
-    pairs: list[ReferencePair], tmp_path: Path
-) -> None:
-    measured = _measured(pairs)
-    plan = [PLAN[0], PlannedRow("sketch", "ours", model="m", tier="sketch")]
-    times = {name: {"ms_paced": {"p50": ms, "p99": ms}} for name, ms in (("standard", 0.6), ("sketch", 0.05))}
-    made = table(plan, {**measured, "sketch": measured["rival"]})
-    result = {**made, "model_sha256": "a" * 64, "rows": [{**row, "ms_per_segment": None, **times[row["name"]]} for row in made["rows"]]}
-    write_document(result, tmp_path / "page.md", None, None)
-    line = next(line for line in (tmp_path / "page.md").read_text().splitlines() if line.startswith("**What the network adds**"))
-    assert "ahead in level, GFC (goodness of fit of the spectra), LSD" in line and "behind in nothing" in line
-    assert line.endswith("It takes 12 times as long at the pace of use.")
-
-
-def test_the_page_says_where_a_recipe_without_one_part_is_better_than_ours(
-    pairs: list[ReferencePair], tmp_path: Path
-) -> None:
-    measured = _measured(pairs)
-    # The full recipe is noise here, and the recipe without one part is an independent draw.
-    plan = [PlannedRow("standard", "ours", model="m"), PlannedRow("less", "ablation", model="n")]
-    made = table(plan, {"standard": measured["rival"], "less": measured["independent-draw"]})
-    write_document({**with_times(made, None), "model_sha256": "a" * 64}, tmp_path / "page.md", None, None)
-    line = next(line for line in (tmp_path / "page.md").read_text().splitlines() if line.startswith("- `less`: "))
-    assert line.startswith("- `less`: better in ") and "LSD" in line.split("; worse in ")[0]
-    assert line.endswith("; worse in nothing.")
 
 
 def test_the_page_covers_the_measured_rows_and_starts_with_who_is_ahead(
@@ -169,7 +127,7 @@ def test_the_page_covers_the_measured_rows_and_starts_with_who_is_ahead(
     images.mkdir()
     draw_chart(result, images / "accuracy-time.png")
     draw_spectra(pairs, [pair.independent for pair in pairs], images / "label-spectra.png", "0" * 64)
-    write_document(result, tmp_path / "document.md", images / "accuracy-time.png", images / "label-spectra.png")
+    write_document(result, tmp_path / "document.md", images, True, True)
     text = (tmp_path / "document.md").read_text(encoding="utf-8")
     top = "\n".join(text.splitlines()[:10])
     assert "**As published**, 1 rival, 9 comparisons" in top and "ahead in" in top and "behind in 0" in top
@@ -180,47 +138,84 @@ def test_the_page_covers_the_measured_rows_and_starts_with_who_is_ahead(
     assert all((images / name).stat().st_size > 5000 for name in ("accuracy-time.png", "label-spectra.png"))
 
 
-def test_the_page_can_be_written_before_anything_is_timed_or_measured(tmp_path: Path) -> None:
-    result = with_times({"model_sha256": "0" * 64, **table(PLAN, {})}, None)
-    draw_chart(result, tmp_path / "accuracy-time.png")
-    write_document(result, tmp_path / "document.md", None, None)
-    text = (tmp_path / "document.md").read_text(encoding="utf-8")
-    assert "Not timed yet." in text and "standard, missing, rival" in text
-
-
-def test_seeds_are_compared_on_the_recordings_that_all_of_them_were_measured_on() -> None:
-    # GFC 0.9 everywhere except at the speed at which the second seed was not measured.
-    def cell(label: str, speed: float, gfc: float) -> dict[str, object]:
-        figures = dict.fromkeys(("level_error_db", "gfc_segment", "rmse", "lsd_db", "continuity"), 0.5)
-        motion = {"label": label, "kind": "constant", "speed_mps": speed, "force_newtons": 1.0, "direction_degrees": 0.0}
-        return {**motion, "crossing_degrees": 0.0, "seed": 1, **figures, "gfc_recording": gfc, "crest_error_db": gfc}
-
-    def result(seed: int, cells: list[dict[str, object]]) -> dict[str, object]:
-        common = {"discrimination": None, "parameters": 5, "bytes": 20, "drift_db_per_min": None}
-        return {"seed": seed, "conditions": cells, **common}
-
-    whole = [cell(label, speed, 0.5 if speed == 1.0 else 0.9) for label in "ab" for speed in (0.1, 1.0)]
-    part = [cell(label, 0.1, 0.8) for label in "ab"]
-    plan = [PlannedRow("standard", "ours", model="m", seeds=(1, 4))]
-    row = table(plan, {"standard": [result(1, whole), result(4, part)]})["rows"][0]
-    assert row["recordings"] == 4 and row["gfc_recording"] == pytest.approx(0.7)
-    assert row["by_seed"]["seeds"] == [1, 4] and row["by_seed"]["recordings"] == 2
-    assert row["by_seed"]["gfc_recording"] == pytest.approx([0.9, 0.8])
-    assert row["by_seed"]["medians"]["crest_error_db"] == pytest.approx([0.9, 0.8])
-
-
-def test_every_fourth_recording_is_a_quarter_of_each_label_and_another_quarter_of_the_next() -> None:
-    chosen = conditions(load_materials())
-    nothing = np.zeros(0, dtype=np.float32)
-    picked = accuracy.every_fourth([ReferencePair(entry, nothing, nothing, nothing) for entry in chosen])
-    labels = [pair.condition.label for pair in picked]
-    assert abs(len(picked) - len(chosen) / 4) < 10 and min(labels.count(label) for label in labels) >= 3
-    speeds = {pair.condition.speed_mps for pair in picked}
-    assert speeds >= {entry.speed_mps for entry in chosen if entry.kind == "constant"}
-
-
 @pytest.mark.parametrize("tier", ["draft", "standard"])
 def test_the_stored_row_of_each_shipped_tier_was_measured_with_the_shipped_graphs(tier: str) -> None:
     graphs = read_model_file(ROOT / SHIPPED_MODEL).graphs
     row = json.loads((ROOT / "Training" / "haptoflow_paper" / "results" / "rows" / f"{tier}-1.json").read_text(encoding="utf-8"))
     assert row["made_from"]["graphs_crc32"] == f"{zlib.crc32(b''.join(graphs.values())):08x}"
+
+
+matplotlib.use("Agg")
+
+
+SHIPPED = json.loads((ROOT / "Training" / "haptoflow_paper" / "results" / "accuracy-time.json").read_text(encoding="utf-8"))
+
+
+def _row(
+    name: str, family: str, milliseconds: float | None, lsd: float | None = None, block: str = "as-published"
+) -> dict[str, Any]:
+    told, intervals = None, {}
+    if lsd is not None:
+        told = {"median": 60.0 + lsd, "p90": 99.0, "worst": 100.0}
+        intervals["lsd_db_interval"] = [lsd - 0.3, lsd + 0.1]
+        intervals["told_apart_percent_interval"] = [58.0 + lsd, 61.0 + lsd]
+    times = None if milliseconds is None else {"p50": milliseconds}
+    return {
+        "name": name, "family": family, "block": block, "ms_per_segment": times, "lsd_db": lsd, "told_apart_percent": told,
+        **intervals,
+    }  # fmt: skip
+
+
+ROWS = [
+    _row("standard", "HaptoFlow", 0.2, 1.1, "ours"),
+    _row("plain-euler-1", "plain flow matching", 0.2, 9.0),
+    _row("plain-euler-4", "plain flow matching", 0.6, 4.0),
+    _row("transformer", "baselines", 0.5, 40.0),
+    _row("ar-ribs", "baselines", 0.4, 1.5, "given-the-same"),
+    _row("paper-codec-size", "baselines", 12.0),
+    _row("one-step-deaf", "ablations", 0.3, 2.0, "ablation"),
+    _row("independent-draw", "reference", None, 0.0, "reference"),
+]
+
+
+@pytest.fixture
+def axes() -> Iterator[Any]:
+    figure, axes = pyplot.subplots()
+    yield axes
+    pyplot.close(figure)
+
+
+def test_each_point_inside_the_scale_has_a_bar_from_end_to_end_of_its_interval(axes: Any) -> None:
+    draw_panel(axes, PANELS[1], ROWS)
+    bars = [segment for collection in axes.collections for segment in collection.get_segments()]
+    found = sorted((round(float(bar[0][1]), 6), round(float(bar[1][1]), 6)) for bar in bars)
+    assert found == [(0.8, 1.2), (1.2, 1.6), (3.7, 4.1), (8.7, 9.1)]
+
+
+@pytest.mark.parametrize("name", ["standard", "draft"])
+def test_the_bars_are_bootstrap_intervals_over_the_stored_recordings_of_the_row(name: str) -> None:
+    kept = read_row(ROOT / "Training" / "haptoflow_paper" / "results" / "rows" / f"{name}-1.json")["conditions"]
+    assert len(kept) == next(row for row in SHIPPED["rows"] if row["name"] == name)["recordings"]
+    for panel in PANELS:
+        point = next(entry for entry in chart_points(SHIPPED["rows"], panel.key) if entry.row == name)
+        if panel.key == "lsd_db":
+            ends = with_interval(kept, panel.key)[1:]
+        else:
+            ends = median_interval(kept, BY_KEY[panel.key])
+        assert (point.low, point.high) == pytest.approx(ends, abs=2e-3)
+
+
+@pytest.mark.parametrize("panel", PANELS, ids=lambda panel: panel.key)
+def test_no_two_names_in_the_shipped_picture_overlap(axes: Any, panel: Any) -> None:
+    axes.figure.set_size_inches(6.0, 5.3)
+    draw_panel(axes, panel, SHIPPED["rows"])
+    axes.figure.canvas.draw()
+    boxes = [text.get_window_extent() for text in axes.texts]
+    covered = [
+        (first.get_text(), second.get_text())
+        for index, first in enumerate(axes.texts) for other, second in enumerate(axes.texts)
+        if index < other and boxes[index].overlaps(boxes[other])
+    ]  # fmt: skip
+    # At least our tiers, the reference and the paper's time.
+    assert len(boxes) >= 4 and np.all([box.width > 0 for box in boxes])
+    assert covered == []

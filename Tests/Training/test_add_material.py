@@ -12,14 +12,21 @@ from typing import Any
 
 import numpy as np
 import pytest
-from own_samples import Stroke, csv_one_axis, stroke
 
-from haptoflow_benchmark.engine.engine_render import read_wav, render_motion
-from haptoflow_paper import cli as paper
+from haptoflow_benchmark.engine_library import default_engine
+from haptoflow_benchmark.engine_render import render_motion
+from haptoflow_benchmark.waveform_metrics import power_spectrum
+from haptoflow_paper.metrics.temporal_metrics import rib_modulation_depth
+from haptoflow_paper.rows.engine_generator import EngineGenerator
 from haptoflow_training.cli import main
+from haptoflow_training.closed_loop.render import UPDATE_RATE_HZ, run_closed_loop
 from haptoflow_training.errors import InputError
-from haptoflow_training.export.model_file import ModelFile, model_space, read_model_file, write_model_file
+from haptoflow_training.export.model_file import ModelFile, model_space, read_model_file
 from haptoflow_training.fewshot.add_label import with_label
+from haptoflow_training.fewshot.sliders import Sliders, find_sliders
+from haptoflow_training.recordings.synthetic import load_materials
+from own_samples import Stroke, csv_one_axis, stroke
+from training_fixtures import still_surfaces
 
 ROOT = Path(__file__).parents[2]
 DEFAULT = ROOT / "Packages" / "com.haptoflow.runtime" / "Runtime" / "Models" / "default.haptoflow"
@@ -43,21 +50,6 @@ def add(*words: str | Path) -> int:
 def read_material(path: Path) -> dict[str, Any]:
     content: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
     return content
-
-
-def test_a_label_in_a_sidecar_never_chooses_the_output(
-    recording: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    own = tmp_path / "own.csv"
-    own.write_bytes(recording.read_bytes())
-    words = json.loads(recording.with_suffix(".json").read_text()) if recording.with_suffix(".json").exists() else {}
-    own.with_suffix(".json").write_text(json.dumps({**words, "label": "../victim/wood"}))
-    inner = tmp_path / "inner"
-    inner.mkdir()
-    monkeypatch.chdir(inner)
-    assert add("--recording", own) == 0
-    assert [path.name for path in inner.iterdir()] == ["own.haptomaterial"]
-    assert read_material(inner / "own.haptomaterial")["name"] == "../victim/wood"
 
 
 @pytest.fixture(scope="module")
@@ -127,26 +119,6 @@ def test_a_further_label_leaves_all_other_labels_unchanged(extended: Path) -> No
     assert model_space(after) == model_space(before)
 
 
-def test_a_further_label_has_its_level_tone_and_licence(extended: Path) -> None:
-    model = read_model_file(extended)
-    label = model.header["labels"][-1]
-    assert len(label["level"]["speeds_mps"]) == len(label["level"]["log_levels"])
-    tone = label["tone"]
-    assert len(tone["gains_db"]) == len(tone["speeds_mps"]) * len(tone["forces_newtons"])
-    assert label["provenance"]["licence"] == "CC BY 4.0"
-    assert label["embedding_row"] == len(model.tensors["embedding"]) - 1
-
-
-def test_a_material_file_and_a_label_hold_the_same_material() -> None:
-    material, model = read_material(RIBBED), with_label(read_model_file(TINY), read_material(RIBBED))
-    label = model.header["labels"][-1]
-    assert {key: label[key] for key in ("level", "tone", "provenance", "friction_coefficient")} == {
-        key: material[key] for key in ("level", "tone", "provenance", "friction_coefficient")
-    }
-    assert "embedding" not in label and "seeds" not in label
-    assert model.tensors["embedding"][-1] == pytest.approx(material["embedding"])
-
-
 def test_a_model_with_a_seed_bank_takes_the_seeds_of_a_further_label() -> None:
     before, material = read_model_file(TINY), read_material(RIBBED)
     after = with_label(before, material)
@@ -154,23 +126,6 @@ def test_a_model_with_a_seed_bank_takes_the_seeds_of_a_further_label() -> None:
     assert after.header["seed_bank"]["entries"] == [*before.header["seed_bank"]["entries"], *stated]
     seeds = [*before.tensors["seeds"], *(seed["samples"] for seed in material["seeds"])]
     np.testing.assert_allclose(after.tensors["seeds"], seeds)
-
-
-def test_a_model_with_a_seed_bank_takes_a_label_without_seeds() -> None:
-    before = read_model_file(TINY)
-    after = with_label(before, read_material(RIBBED.with_name("plain-twin.haptomaterial")))
-    assert after.header["labels"][-1]["name"] == "plain twin"
-    assert after.header["seed_bank"] == before.header["seed_bank"]
-    np.testing.assert_array_equal(after.tensors["seeds"], before.tensors["seeds"])
-
-
-def test_a_material_can_be_added_to_a_model_that_has_one_already(
-    recording: Path, extended: Path, tmp_path: Path
-) -> None:
-    out = tmp_path / "two.haptoflow"
-    words = ["add-material", "--model", str(extended), *QUICK, "--recording", str(recording), "-o", str(out)]
-    assert main([*words, "--name", "rug"]) == 0
-    assert [label["name"] for label in read_model_file(out).header["labels"][-2:]] == ["doormat", "rug"]
 
 
 def test_a_name_that_the_model_has_is_refused_and_nothing_is_written(
@@ -210,21 +165,7 @@ def test_contradictory_options_are_refused(
     assert not list(tmp_path.iterdir())
 
 
-def test_a_recording_that_is_too_short_or_too_slow_is_refused(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    short = csv_one_axis(tmp_path / "short", "a", "a", stroke(1.5))
-    assert add("--recording", short, "-o", tmp_path / "x.haptomaterial") == 3
-    assert "the recording lasts 1.5 s; record 10 s or more" in capsys.readouterr().err
-    slow = csv_one_axis(tmp_path / "slow", "b", "b", stroke(5.0, speeds_mps=(0.0015, 0.003)))
-    assert add("--recording", slow, "-o", tmp_path / "x.haptomaterial") == 3
-    assert "record sliding strokes" in capsys.readouterr().err
-    assert not (tmp_path / "x.haptomaterial").exists()
-
-
-def test_given_wave_vectors_are_used(
-    recording: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_given_wave_vectors_are_used(recording: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     out = tmp_path / "rack.haptomaterial"
     assert add("--recording", recording, "--name", "rack", "--wave-vector", "0", "0.8", "-o", out) == 0
     assert "ribs every 1.25 mm" in capsys.readouterr().out
@@ -245,16 +186,6 @@ def test_a_label_with_path_separators_cannot_write_outside_the_folder(
     assert add("--recording", recording, "--name", "../grey mat/2") == 0
     assert [path.name for path in inner.iterdir()] == ["grey-mat-2.haptomaterial"]
     assert read_material(inner / "grey-mat-2.haptomaterial")["name"] == "../grey mat/2"
-
-
-def test_a_damaged_model_is_refused_by_name(
-    recording: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    broken = tmp_path / "broken.haptoflow"
-    broken.write_bytes(DEFAULT.read_bytes()[:5000])
-    words = ["--recording", str(recording), "-o", str(tmp_path / "x.haptomaterial")]
-    assert main(["add-material", "--model", str(broken), *words]) == 3
-    assert "truncated or damaged" in capsys.readouterr().err
 
 
 def test_a_material_of_another_space_does_not_become_a_label() -> None:
@@ -279,25 +210,93 @@ def test_the_engine_renders_the_other_labels_byte_for_byte_as_before(extended: P
         assert render_wav(tmp_path / f"{label}-after", label, "--model", extended) == before
 
 
-def test_the_engine_renders_the_further_label_and_the_material_file_alike(tmp_path: Path) -> None:
-    material = ROOT / "Tests" / "Golden" / "material" / "denim.haptomaterial"
-    model = tmp_path / "denim.haptoflow"
-    write_model_file(model, with_label(read_model_file(DEFAULT), read_material(material)))
-    folders = tmp_path / "label", tmp_path / "file"
-    render_wav(folders[0], "denim", "--model", model)
-    render_wav(folders[1], "denim", "--model", DEFAULT, "--material", material)
-    waves = [read_wav(folder / "out.wav") for folder in folders]
-    levels = [20.0 * math.log10(float(np.sqrt(np.square(wave, dtype=np.float64).mean()))) for wave in waves]
-    assert levels[0] == pytest.approx(levels[1], abs=1.5)
+SHIPPED = ROOT / "Packages" / "com.haptoflow.runtime" / "Editor" / "Sliders" / "default.sliders.json"
 
 
-def test_the_help_has_examples(capsys: pytest.CaptureFixture[str]) -> None:
-    for program, run, command in (
-        ("haptoflow-training", main, "add-material"),
-        ("haptoflow-training", main, "sliders"),
-        ("haptoflow-paper", paper.main, "few-shot"),
-    ):
-        with pytest.raises(SystemExit):
-            run([command, "--help"])
-        said = capsys.readouterr().out
-        assert f"{program} {command} --model" in said
+@pytest.fixture(scope="module")
+def file() -> ModelFile:
+    return read_model_file(DEFAULT)
+
+
+@pytest.fixture(scope="module")
+def sliders(file: ModelFile) -> Sliders:
+    return find_sliders(file, load_materials())
+
+
+def learnt(file: ModelFile, label: str) -> np.ndarray:
+    names = [entry["name"] for entry in file.header["labels"]]
+    return file.tensors["embedding"][names.index(label)]
+
+
+def slid(file: ModelFile, sliders: Sliders, label: str, name: str, values: tuple[float, ...]) -> list[np.ndarray]:
+    base = learnt(file, label)
+    return [np.concatenate([sliders.slid(base[:60], {name: value}), base[60:]]) for value in values]
+
+
+def rendered(embeddings: list[np.ndarray], velocity: tuple[float, float]) -> np.ndarray:
+    motion = np.tile(np.array([*velocity, 1.0], dtype=np.float32), (len(embeddings), 4400, 1))
+    with EngineGenerator(default_engine(ROOT), DEFAULT) as source:
+        run = run_closed_loop(
+            source, np.stack(embeddings).astype(np.float32), motion, np.arange(len(embeddings)),
+            still_surfaces(len(embeddings)), update_rate_hz=UPDATE_RATE_HZ, seed=3,
+        )  # fmt: skip
+    return run.waves[:, 400:]
+
+
+def centroid_hz(wave: np.ndarray) -> float:
+    power, frequency = power_spectrum(wave, 512), np.fft.rfftfreq(512, 1.0 / 2000.0)
+    band = (frequency >= 20.0) & (frequency <= 900.0)
+    return float((power[band] * frequency[band]).sum() / power[band].sum())
+
+
+def test_coarseness_lowers_the_pitch_step_by_step_and_hardness_raises_it(file: ModelFile, sliders: Sliders) -> None:
+    values, labels = (-1.0, -0.5, 0.0, 0.5, 1.0), ("wood", "stone", "paper", "rubber")
+    for name, sign in (("coarseness", -1.0), ("hardness", 1.0)):
+        asked = [each for label in labels for each in slid(file, sliders, label, name, values)]
+        waves = rendered(asked, (0.08, 0.03))
+        pitch = np.log([centroid_hz(wave) for wave in waves]).reshape(len(labels), len(values)).mean(axis=0)
+        assert (sign * np.diff(pitch) > 0.0).all(), (name, np.exp(pitch))
+        assert sign * (pitch[-1] - pitch[0]) > 0.25
+
+
+def test_regularity_makes_ribs_stand_out(file: ModelFile, sliders: Sliders) -> None:
+    depths = []
+    for label, rate in (("jute", 40.0), ("corduroy", 32.0)):
+        asked = slid(file, sliders, label, "regularity", (-1.0, 1.0))
+        depths.append([rib_modulation_depth(wave, rate) for wave in rendered(asked, (0.08, 0.0))])
+    irregular, regular = np.mean(depths, axis=0)
+    assert regular > irregular
+
+
+def test_no_combination_of_sliders_leaves_the_spread_of_the_labels(file: ModelFile, sliders: Sliders) -> None:
+    rng = np.random.default_rng(1)
+    for label in ("wood", "carpet", "metal mesh"):
+        for _ in range(50):
+            far = rng.choice([-1.0, 1.0, 5.0, -5.0], len(sliders.directions))
+            values = dict(zip(sliders.directions, far, strict=True))
+            along = sliders.axes @ (sliders.slid(learnt(file, label)[:60], values) - sliders.mean)
+            assert (along >= sliders.lowest - 1e-4).all()
+            assert (along <= sliders.highest + 1e-4).all()
+
+
+def test_the_shipped_file_is_what_the_command_writes(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    out = tmp_path / "default.sliders.json"
+    assert main(["sliders", "--model", str(DEFAULT), "-o", str(out)]) == 0
+    assert "stickiness and level" in capsys.readouterr().out
+    made, shipped = (json.loads(path.read_text(encoding="utf-8")) for path in (out, SHIPPED))
+    assert made["space"] == shipped["space"] == model_space(read_model_file(DEFAULT))
+    assert [slider["name"] for slider in shipped["sliders"]] == [
+        "coarseness", "hardness", "regularity", "stickiness", "level",
+    ]  # fmt: skip
+    for one, other in zip(made["sliders"], shipped["sliders"], strict=True):
+        assert one["direction"] == pytest.approx(other["direction"], abs=1e-5)
+    axes = np.array(shipped["axes"])
+    assert axes @ axes.T == pytest.approx(np.eye(len(axes)), abs=1e-4)
+    assert shipped["sliders"][-1]["level_db"] == 12.0
+    assert not any(shipped["sliders"][-1]["direction"])
+
+
+def test_a_model_of_other_labels_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["sliders", "--model", str(TINY), "-o", str(tmp_path / "x.json")]) == 3
+    assert "shares 0 labels" in capsys.readouterr().err
+    assert not (tmp_path / "x.json").exists()

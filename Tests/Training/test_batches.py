@@ -51,9 +51,7 @@ def test_the_condition_is_the_mean_motion_of_the_leading_samples() -> None:
     batch = SegmentBatches(store, "train", BatchConfig((40, 40), 0.0, 0.0), 3).draw(8)
     for row in range(8):
         start = _positions(store.waveform, batch.segment[row, 0])
-        np.testing.assert_allclose(
-            batch.motion[row].numpy(), store.motion[start : start + 40].mean(axis=0), rtol=1e-3
-        )
+        np.testing.assert_allclose(batch.motion[row].numpy(), store.motion[start : start + 40].mean(axis=0), rtol=1e-3)
 
 
 def test_emphasised_labels_are_drawn_emphasis_times_as_often() -> None:
@@ -67,13 +65,6 @@ def test_emphasised_labels_are_drawn_emphasis_times_as_often() -> None:
 def test_an_emphasised_label_without_recordings_is_named() -> None:
     with pytest.raises(InputError, match="emphasised_labels.*'velvet'"):
         SegmentBatches(make_store(), "train", BatchConfig(emphasised_labels=("velvet",)), 8)
-
-
-def test_silence_and_label_switches_appear_as_often_as_asked() -> None:
-    store = make_store()
-    silent = SegmentBatches(store, "train", BatchConfig(silence_probability=0.3, switch_probability=0.0), 4).draw(2000)
-    share = (silent.previous.abs().amax(dim=(1, 2)) == 0).float().mean().item()
-    assert share == pytest.approx(0.3, abs=0.05)
 
 
 def test_the_machine_share_holds_where_both_protocols_exist() -> None:
@@ -94,11 +85,6 @@ def test_a_restored_generator_draws_the_same_pairs() -> None:
     second = SegmentBatches(store, "train", BatchConfig(), 99)
     second.restore(state)
     torch.testing.assert_close(second.draw(4).segment, expected.segment)
-
-
-def test_a_split_without_long_recordings_is_named() -> None:
-    with pytest.raises(ValueError, match="'validation'"):
-        SegmentBatches(make_store(seconds=0.15), "validation", PLAIN, 1)
 
 
 def test_a_pair_states_the_specimen_of_its_recording_and_minus_one_where_none_is_known() -> None:

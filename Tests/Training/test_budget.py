@@ -2,21 +2,23 @@
 
 from __future__ import annotations
 
+import io
 import json
+import re
 import time
 from pathlib import Path
 
 import pytest
-from paper_samples import evaluated
-from test_trainer import ALONE, _config, ask_to_stop_after
-from training_fixtures import make_store
 
 from haptoflow_paper.runs.configuration import EvaluatedConfig
 from haptoflow_paper.runs.trainer import EvaluatedTrainer
-from haptoflow_training.errors import InputError
+from haptoflow_training.commands.minutes import TiersMinutes
+from haptoflow_training.training import trainer as trainer_module
 from haptoflow_training.training.budget import Budget
-from haptoflow_training.training.processes import Processes
-from haptoflow_training.training.trainer import Trainer, TrainingStopped, load_trained
+from haptoflow_training.training.trainer import TimeLimit, Trainer, TrainingStopped, load_trained
+from paper_samples import evaluated
+from test_trainer import ALONE, _config, ask_to_stop_after
+from training_fixtures import make_store
 
 SECONDS_PER_STEP = {"level": 1.0, "field": 4.0, "polish": 1.0}
 
@@ -61,15 +63,6 @@ def test_a_budget_keeps_the_level_phases_and_scales_all_others_by_one_factor() -
     assert alone.allotted_seconds == pytest.approx([40.0, 20.0])
 
 
-def test_the_share_of_steps_done_equals_the_share_of_time_passed(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    budget = Budget([100.0], [25.0])
-    assert budget.steps(0, 50) == 200
-    assert Budget([100.0], [100.0]).steps(0, 77) == 77
-    assert Budget([100.0], [0.0]).steps(0, 0) == 1
-
-
 @pytest.mark.parametrize("seconds", [75.0, 300.0])
 def test_a_run_makes_as_many_steps_as_fit_its_budget(seconds: float, tmp_path: Path, clock: _Clock) -> None:
     EvaluatedTrainer(_budgeted(seconds), make_store(), tmp_path, ALONE).run()
@@ -77,39 +70,6 @@ def test_a_run_makes_as_many_steps_as_fit_its_budget(seconds: float, tmp_path: P
     for name, steps in (("level", 20), ("field", (seconds - 30.0) / 4.0), ("polish", 10)):
         assert phases[name]["steps"] == pytest.approx(steps, abs=1.0), name
     assert sum(phase["core_seconds"] for phase in phases.values()) == pytest.approx(seconds, abs=6.0)
-
-
-def test_steps_that_slow_down_become_fewer_and_the_phase_ends_in_time(
-    tmp_path: Path, clock: _Clock, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    trainer = EvaluatedTrainer(_budgeted(150.0), make_store(), tmp_path, ALONE)
-    enter = trainer.enter
-
-    def slower(phase: object) -> None:
-        monkeypatch.setitem(SECONDS_PER_STEP, "field", 8.0)
-        enter(phase)  # type: ignore[arg-type]
-
-    monkeypatch.setattr(trainer, "enter", slower)
-    trainer.run()
-    phases = _phases(tmp_path)
-    assert phases["field"]["steps"] == 15
-    assert phases["field"]["core_seconds"] == pytest.approx(120.0, abs=8.0)
-
-
-def test_the_learning_rate_has_decayed_when_a_budgeted_phase_ends(tmp_path: Path, clock: _Clock) -> None:
-    trainer = EvaluatedTrainer(_budgeted(300.0), make_store(), tmp_path, ALONE)
-    rates: list[float] = []
-    learning_rate = trainer._learning_rate
-
-    def remember(phase: object) -> float:
-        rates.append(learning_rate(phase))  # type: ignore[arg-type]
-        return rates[-1]
-
-    trainer._learning_rate = remember  # type: ignore[method-assign,assignment]
-    trainer.run()
-    field = rates[20:-10]
-    assert max(field) > 0.9 * 6e-4
-    assert field[-1] < 0.1 * 6e-4
 
 
 def test_a_resumed_run_uses_the_rest_of_its_budget(tmp_path: Path, clock: _Clock) -> None:
@@ -127,6 +87,67 @@ def test_a_resumed_run_uses_the_rest_of_its_budget(tmp_path: Path, clock: _Clock
     assert load_trained(tmp_path)[0].optimiser.budget_seconds == 300.0
 
 
-def test_several_processes_and_a_budget_are_refused(tmp_path: Path) -> None:
-    with pytest.raises(InputError, match="budget_seconds"):
-        EvaluatedTrainer(_budgeted(10.0), make_store(), tmp_path, Processes(rank=0, count=2))
+@pytest.fixture
+def wall(monkeypatch: pytest.MonkeyPatch) -> list[float]:
+    """A wall clock that advances only with training steps."""
+    now = [0.0]
+    monkeypatch.setattr(trainer_module.time, "monotonic", lambda: now[0])
+    train_step = Trainer._train_step
+
+    def step(trainer: Trainer, losses: object, phase: object) -> object:
+        now[0] += SECONDS_PER_STEP[phase.name]  # type: ignore[attr-defined]
+        return train_step(trainer, losses, phase)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(Trainer, "_train_step", step)
+    return now
+
+
+def limited(folder: Path, limit: TimeLimit) -> Trainer:
+    trainer = Trainer(_config(), make_store(), folder, ALONE)
+    trainer.limit_time(limit)
+    return trainer
+
+
+@pytest.mark.parametrize("seconds", [200.0, 400.0])
+def test_timed_steps_and_training_together_take_the_given_time_and_finish(
+    tmp_path: Path, wall: list[float], seconds: float
+) -> None:
+    limited(tmp_path, TimeLimit(seconds)).run()
+    assert wall[0] == pytest.approx(seconds, abs=10.0)
+    _, labels, _ = load_trained(tmp_path)
+    assert labels == ["tone", "noise"]
+
+
+def test_the_bar_shows_the_time_left_including_what_follows_training(
+    tmp_path: Path, wall: list[float], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    shown = io.StringIO()
+    original = trainer_module.tqdm
+    monkeypatch.setattr(trainer_module, "tqdm", lambda **words: original(**{**words, "file": shown}))
+    limited(tmp_path, TimeLimit(300.0, seconds_after=40.0)).run()
+    left = [60 * int(minutes) + int(seconds) for minutes, seconds in re.findall(r"(\d+):(\d\d) left", shown.getvalue())]
+    assert 200 < left[0] <= 340 and left[-1] == pytest.approx(40, abs=6)
+    assert left == sorted(left, reverse=True)
+
+
+def test_a_resumed_run_uses_the_rest_of_its_time(tmp_path: Path, wall: list[float]) -> None:
+    first = limited(tmp_path, TimeLimit(300.0))
+    first._stop = True
+    with pytest.raises(trainer_module.TrainingStopped):
+        first.run()
+    used = wall[0]
+    wall[0] += 5000.0
+    limited(tmp_path, TimeLimit(123.0)).run()
+    assert wall[0] - 5000.0 == pytest.approx(300.0, abs=10.0) and used < 100.0
+
+
+@pytest.mark.parametrize(("networks", "lanes", "rounds"), [(2, 2, 1), (2, 1, 2), (3, 2, 2), (1, 8, 1)])
+def test_a_whole_models_minutes_are_shared_by_base_networks_and_levels(networks: int, lanes: int, rounds: int) -> None:
+    shares = TiersMinutes.of(10.0, time.monotonic() - 60.0, networks, lanes)
+    assert shares.base + rounds * shares.network + shares.levels == pytest.approx(540.0, abs=1.0)
+    assert shares.network > shares.base > shares.levels > 0.0
+
+
+def test_preparing_that_took_most_of_a_whole_models_minutes_leaves_three_tenths() -> None:
+    shares = TiersMinutes.of(10.0, time.monotonic() - 590.0, 2, 2)
+    assert shares.base + shares.network + shares.levels == pytest.approx(180.0)

@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+import dataclasses
+
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
+from haptoflow_training.closed_loop.render import PhaseTrack, SurfaceStatistics, run_closed_loop, spliced
+from haptoflow_training.recordings.synthetic import Material, load_materials
+from haptoflow_training.recordings.synthetic.features import rib_wander_turns, slips_of
+from haptoflow_training.recordings.synthetic.surface import TipPath
+from haptoflow_training.training.config import DataConfig
+from haptoflow_training.training.recordings_source import synthetic_label_infos
 from training_fixtures import still_surfaces
-
-from haptoflow_training.closed_loop.render import hop_positions, run_closed_loop, spliced
-
 
 class Probe:
     """Records its requests and returns segments that count upwards."""
@@ -32,12 +38,6 @@ class Probe:
         self.pasts.append(previous_mps2.copy())
         self.noises.append(noise.copy())
         return np.tile(1000.0 * len(self.pasts) + np.arange(200), (len(embeddings), 1)).astype(np.float32)
-
-
-def test_seventy_two_updates_a_second_are_27_or_28_samples_apart() -> None:
-    positions = hop_positions(2000, 72.0)
-    assert len(positions) == 72
-    assert set(np.diff(positions)) == {27, 28}
 
 
 @pytest.mark.parametrize("rate_hz", [30.0, 72.0, 120.0])
@@ -76,11 +76,6 @@ def test_the_condition_of_a_segment_is_the_motion_before_it_and_not_the_motion_a
     np.testing.assert_array_equal(told, (run.hop_starts > 200).astype(np.float32))
 
 
-def test_a_segment_that_continues_the_old_one_passes_the_splice_unchanged() -> None:
-    wave = np.random.default_rng(1).standard_normal((3, 200)).astype(np.float32)
-    np.testing.assert_allclose(spliced(wave, wave), wave, rtol=1e-5)
-
-
 def test_the_level_is_constant_across_a_splice_of_uncorrelated_segments() -> None:
     generator = np.random.default_rng(2)
     old, new = (generator.standard_normal((20000, 200)).astype(np.float32) for _ in range(2))
@@ -98,9 +93,7 @@ def test_the_phase_of_even_ribs_is_the_travelled_distance_along_each_wave_vector
     motions = np.zeros((2, 4000, 3), np.float32)
     motions[:, :2000, 0], motions[:, :2000, 1] = 0.7, -0.2
     motions[:, 2000:, :2] = -motions[:, :2000, :2]
-    run = run_closed_loop(
-        probe, embeddings, motions, np.arange(2), still_surfaces(2), update_rate_hz=rate_hz, seed=1
-    )
+    run = run_closed_loop(probe, embeddings, motions, np.arange(2), still_surfaces(2), update_rate_hz=rate_hz, seed=1)
     for row, vectors in enumerate(embeddings[:, -4:].astype(float).reshape(2, 2, 2)):
         for hop in range(len(run.hop_starts)):
             travelled_mm = np.zeros(2)
@@ -114,3 +107,122 @@ def test_the_phase_of_even_ribs_is_the_travelled_distance_along_each_wave_vector
             np.testing.assert_allclose(phases[[2, 3, 4, 5]], [0.0, *rates_hz, 0.0], atol=1e-3)
         turns = np.array(probe.phases)[:, row, :3]
         assert np.all((turns >= 0.0) & (turns < 1.0))
+
+
+INFOS = synthetic_label_infos(DataConfig())
+STATISTICS = SurfaceStatistics.of_labels(INFOS)
+NAMES = [info.name for info in INFOS]
+JUTE, RUBBER, WOOD = (NAMES.index(name) for name in ("jute", "rubber", "wood"))
+HOP = 28
+
+
+def _material(name: str) -> Material:
+    return next(material for material in load_materials() if material.label == name)
+
+
+def _embeddings(label: int, rows: int) -> NDArray[np.float32]:
+    embeddings = np.zeros((rows, 64), dtype=np.float32)
+    vectors = np.ravel(INFOS[label].known_wave_vectors)
+    embeddings[:, 60 : 60 + len(vectors)] = vectors
+    return embeddings
+
+
+def _tracked(
+    label: int, rows: int, hops: int, motion: tuple[float, float, float], seed: int = 5
+) -> NDArray[np.float32]:
+    """Phases [hops, rows, 6] of a straight stroke of one label."""
+    track, embeddings = PhaseTrack(STATISTICS, rows, seed), _embeddings(label, rows)
+    labels, motions = np.full(rows, label), np.tile(np.array(motion, dtype=np.float32), (rows, 1))
+    phases = []
+    for _ in range(hops):
+        phases.append(track.at(embeddings, labels, motions))
+        track.advance(motions, HOP)
+    return np.array(phases)
+
+
+def test_the_same_seed_gives_the_same_phases_and_another_seed_other_ones() -> None:
+    first, again, other = (_tracked(JUTE, 3, 5, (0.1, 0.05, 1.0), seed) for seed in (1, 1, 2))
+    np.testing.assert_array_equal(first, again)
+    assert np.abs(first - other).max() > 0.01
+    assert np.abs(first[:, 0] - first[:, 1]).max() > 0.01, "every row has a surface of its own"
+
+
+def test_phases_are_turns_below_one_and_even_ribs_do_not_wander() -> None:
+    phases = _tracked(JUTE, 8, 200, (0.3, -0.2, 1.0))
+    assert 0.0 <= phases[:, :, :3].min() and phases[:, :, :3].max() < 1.0
+    assert np.all(_tracked(WOOD, 2, 20, (0.3, -0.2, 1.0)) == 0.0)
+
+
+def test_each_rate_is_how_fast_its_phase_advances() -> None:
+    for label in (JUTE, RUBBER):
+        phases = _tracked(label, 40, 60, (0.05, 0.02, 1.0)).astype(np.float64)
+        moved = np.diff(phases[:, :, :3], axis=0)
+        told = 0.5 * (phases[1:, :, 3:] + phases[:-1, :, 3:])
+        # Stick-slip has no place: it advances at the rate that was told.
+        told[:, :, 2] = phases[:-1, :, 5]
+        missed = moved - told * HOP / 2000.0
+        assert np.abs(missed - np.rint(missed)).max() < 0.02, NAMES[label]
+
+
+def _jitter(label: int, family: int, rows: int, hops: int, speed_mps: float) -> NDArray[np.float64]:
+    """By how many turns [hops, rows] the ribs of a track lie ahead of evenly spaced ones."""
+    phases = _tracked(label, rows, hops, (speed_mps, 0.0, 1.0))[:, :, family].astype(np.float64)
+    vector = np.array(INFOS[label].known_wave_vectors[family])
+    evenly = 1000.0 * speed_mps * HOP / 2000.0 * np.arange(hops)[:, None] * vector[0]
+    ahead = phases - evenly
+    return ahead - np.rint(ahead)
+
+
+def _straight(speed_mps: float, step_mm: float, count: int) -> TipPath:
+    """A recorder's path, a sample every step_mm."""
+    place = np.outer(step_mm * np.arange(count), (1.0, 0.0))
+    return TipPath(place, np.tile([1000.0 * speed_mps, 0.0], (count, 1)))
+
+
+def test_threads_wander_as_far_and_as_fast_as_the_recorder_s() -> None:
+    material, ruling = _material("jute"), _material("jute").rulings[0]
+    step_mm = 0.7
+    made = _jitter(JUTE, 0, 400, 12, step_mm / 1000.0 * 2000.0 / HOP)
+    path = _straight(0.4, step_mm, 12 * 40)
+    turns = [rib_wander_turns(material, ruling, 0, path, specimen=specimen) for specimen in range(8)]
+    recorded = np.reshape(turns, (-1, 12)).T
+    assert made.std() == pytest.approx(ruling.jitter, rel=0.1)
+    assert recorded.std() == pytest.approx(ruling.jitter, rel=0.1)
+    # As correlated over the millimetres between: the wander is as smooth.
+    kept = [np.mean(each[0] * each[5]) / each.var() for each in (made, recorded)]
+    assert kept[0] == pytest.approx(kept[1], abs=0.15)
+
+
+@pytest.mark.parametrize(("speed_mps", "newtons"), [(0.04, 0.5), (0.1, 2.0), (0.02, 0.01)])
+def test_a_tip_slips_as_often_as_the_recorder_s_on_average_and_from_place_to_place(
+    speed_mps: float, newtons: float
+) -> None:
+    material = _material("rubber")
+    rates = _tracked(RUBBER, 2000, 1, (speed_mps, 0.0, newtons))[0, :, 5]
+    stretch_mm = material.stick_slip_length_mm * max(newtons, 0.05) ** 0.4
+    assert np.exp(np.log(rates).mean()) == pytest.approx(1000.0 * speed_mps / stretch_mm, rel=0.03)
+    path = _straight(speed_mps, step_mm=2.0, count=50)
+    logs = []
+    for specimen in range(20):
+        slips = slips_of(material, path, np.full(50, newtons), 1.0, specimen=specimen)
+        assert slips is not None
+        logs.append(np.log(slips.rate_hz))
+    assert np.log(rates).mean() == pytest.approx(np.mean(logs), abs=0.06)
+    assert np.log(rates).std() == pytest.approx(np.std(logs), rel=0.15)
+
+
+def test_stick_and_slip_goes_on_where_a_stroke_turns_back_and_stops_at_rest() -> None:
+    track, embeddings, labels = PhaseTrack(STATISTICS, 1, 3), _embeddings(RUBBER, 1), np.array([RUBBER])
+    there, back, rest = (np.array([[speed, 0.0, 1.0]], dtype=np.float32) for speed in (0.05, -0.05, 0.0))
+    assert track.at(embeddings, labels, back)[0, 5] == track.at(embeddings, labels, there)[0, 5] > 0.0
+    assert track.at(embeddings, labels, rest)[0, 5] == 0.0
+
+
+def test_statistics_are_those_of_the_materials_and_zero_where_nothing_wanders() -> None:
+    ruled, slipping = _material("jute"), _material("rubber")
+    assert STATISTICS.wander[JUTE, 0] == ruled.rulings[0].jitter > 0.0
+    assert STATISTICS.wavelengths_mm[JUTE, 0] == pytest.approx(7.0 * ruled.rulings[0].wavelength_mm)
+    assert STATISTICS.slips_per_mm[RUBBER] == pytest.approx(1.0 / slipping.stick_slip_length_mm)
+    assert not STATISTICS.wander[WOOD].any() and STATISTICS.slips_per_mm[WOOD] == 0.0
+    unknown = SurfaceStatistics.of_labels([dataclasses.replace(INFOS[JUTE], rib_wander=())])
+    assert not unknown.wander.any()

@@ -8,14 +8,23 @@ import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
+import numpy as np
 import pytest
-from parquet_samples import HUB
-from test_skeleton_training import SMALL_BASE, SMALL_STANDARD
 
+from haptoflow_benchmark.engine_render import render_motion
+from haptoflow_training.cli import main
+from haptoflow_training.errors import InputError
 from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.recordings.cluster_dataset import open_dataset
-from haptoflow_training.recordings.labels import load_labels
+from haptoflow_training.recordings.dataset_writer import TextureEntry, write_recording, write_texture_list
+from haptoflow_training.recordings.labels import LabelDefinition, LabelMap, load_labels
+from haptoflow_training.recordings.recording import Recording, RecordingIdentity
+from haptoflow_training.recordings.synthetic import load_materials, record_machine_condition
+from haptoflow_training.recordings.texture_labels import labels_of_textures
+from parquet_samples import HUB
+from test_skeleton_training import SMALL_BASE, SMALL_STANDARD
 
 NAME = "tamago117/cluster-haptic-texture-dataset"
 SCRIPT = Path(__file__).resolve().parents[2] / "scripts" / "train.mjs"
@@ -100,13 +109,6 @@ def test_chosen_textures_are_downloaded_once_and_handed_to_the_training(tmp_path
     assert [entry.label for entry in open_dataset(tmp_path / "data", labels)] == ["wood", "wood", "stone", "stone"]
 
 
-def test_a_texture_without_recordings_on_the_hub_is_named(tmp_path: Path) -> None:
-    with loopback_hub() as (hub, _):
-        ended = _train(hub, tmp_path, "--textures", "0,7", "--into", "data")
-    assert ended.returncode != 0
-    assert 'no "sensor_data/accel/7"' in ended.stderr
-
-
 def test_wrong_words_are_refused_before_anything_is_asked_for(tmp_path: Path) -> None:
     with loopback_hub() as (hub, asked):
         for words, sentence in (
@@ -122,8 +124,117 @@ def test_wrong_words_are_refused_before_anything_is_asked_for(tmp_path: Path) ->
     assert _brought(asked) == ["texture_list.xlsx"], "nothing is asked for by words that are refused"
 
 
-def test_a_hub_that_is_not_reached_is_named(tmp_path: Path) -> None:
-    with loopback_hub() as (hub, _):
-        pass
-    ended = _train(hub, tmp_path, "--textures", "0", "--into", "data")
-    assert ended.returncode != 0 and hub in ended.stderr
+ROOT = Path(__file__).parents[2]
+CONFIGURATIONS = ROOT / "Training" / "configs" / "cluster"
+# Only sizes and steps are smaller than in the recipe.
+SMALLER = {
+    "base": "[model]\nhidden = 8\n[optimiser]\nlevel_steps = 2\nsteps = 2\nbatch_size = 4\n"
+    "[recipe]\nfilter_steps = 2\nenergy_steps = 1\nenergy_batch_size = 2\nself_forcing_steps = 1\n",
+    "draft": "[model]\nhidden = 8\nwidth = 8\nprevious_width = 4\n[optimiser]\nbatch_size = 4\n"
+    "[recipe]\nenergy_steps = 1\nenergy_batch_size = 2\nself_forcing_steps = 1\n",
+}
+SMALLER["standard"] = SMALLER["draft"]
+TEXTURES = {0: "wood", 103: "corduroy"}
+RIB_MM = 2.5
+MOTION = np.tile(np.array([0.05, 0.0, 0.8]), (1600, 1))
+
+
+def _pass_over(texture: int, direction_degrees: int, speed_mmps: int) -> Recording:
+    material = {each.label: each for each in load_materials()}[TEXTURES[texture]]
+    identity = RecordingIdentity(texture, direction_degrees, speed_mmps, 500, 0)
+    return record_machine_condition(material, identity, seed=1)
+
+
+@pytest.fixture(scope="module")
+def data_set(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Two textures in the published layout, under the published names; nothing states an origin or ribs."""
+    root = tmp_path_factory.mktemp("cluster")
+    for direction in range(0, 360, 45):
+        for speed in (40, 60):
+            for texture in TEXTURES:
+                write_recording(root, _pass_over(texture, direction, speed))
+    names = {0: "Nyatoh", 38: "Granite", 103: "Corduroy"}
+    write_texture_list(root, [TextureEntry(number, name, {}) for number, name in names.items()])
+    return root
+
+
+@pytest.fixture(scope="module")
+def model(data_set: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("trained")
+    configs = folder / "configs"
+    configs.mkdir()
+    for name, smaller in SMALLER.items():
+        (configs / f"{name}.toml").write_text(f'extends = "{CONFIGURATIONS / name}.toml"\n{smaller}', encoding="utf-8")
+    file = folder / "cluster.haptoflow"
+    words = ["--configs", str(configs), "--recordings", str(data_set), "--out", str(folder / "runs"), "--lanes", "1"]
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("PYTHONPATH", str(ROOT / "Training"))
+        assert main(["train-tiers", *words, "--export", str(file)]) == 0
+    return file
+
+
+@pytest.fixture(scope="module")
+def header(model: Path) -> dict[str, Any]:
+    return read_model_file(model).header
+
+
+def test_a_cluster_training_has_the_tiers_that_ship_and_states_the_data_set(header: dict[str, Any]) -> None:
+    kinds = [(tier["name"], tier["kind"]) for tier in header["tiers"]]
+    assert kinds == [("sketch", "skeleton"), ("draft", "refine"), ("standard", "refine")]
+    assert header["name"] == "cluster" and header["default_tier"] == "standard"
+    provenance = header["provenance"]
+    assert provenance["licence"] == "CC BY 4.0" and "Cluster Haptic Texture Dataset" in provenance["statement"]
+    emphasised = provenance["configuration"]["batch"]["emphasised_labels"]
+    assert list(emphasised) == ["corduroy"], "those of the recipe that the data set has"
+
+
+def test_wave_vectors_are_found_where_ribs_are_and_only_there(header: dict[str, Any]) -> None:
+    periods = {label["name"]: label["wavelength_metres"] for label in header["labels"]}
+    assert periods["wood"] is None and periods["corduroy"] == pytest.approx(1e-3 * RIB_MM, rel=0.02)
+
+
+@pytest.mark.parametrize("tier", ["sketch", "draft", "standard"])
+def test_the_engine_renders_every_tier_of_a_cluster_training(model: Path, tier: str, tmp_path: Path) -> None:
+    engine = ROOT / "build" / "native" / "haptoflow"
+    made = render_motion(engine, "corduroy", MOTION, tmp_path, model=model, options=("--quality", tier))
+    assert np.isfinite(made.waveform_mps2).all() and np.std(made.waveform_mps2) > 1e-3
+    assert made.report["tier"] == tier and made.report["failures"] == 0
+
+
+LISTED = {0: "Nyatoh", 1: "Steel", 38: "Granite", 49: "HDPE", 103: "Corduroy", 104: "Cotton broadcloth"}
+
+
+def test_chosen_textures_become_labels_known_or_of_their_own_name(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / "labels.toml"
+    assert main(["labels", str(HUB), "--textures", "49,0,38", "--out", str(out)]) == 0
+    assert capsys.readouterr().out == "49\thdpe\n0\twood\n38\tstone\n"
+    hdpe, wood, stone = load_labels(out).definitions
+    assert (hdpe.category, hdpe.textures, hdpe.stiffness_newtons_per_metre) == ("polymer", (49,), 900.0)
+    known = {definition.name: definition for definition in load_labels().definitions}
+    assert wood == known["wood"] and stone == known["stone"]
+
+
+def test_without_a_choice_every_known_label_is_there_by_its_id() -> None:
+    labels = labels_of_textures(load_labels(), LISTED, ())
+    assert sorted(labels.names) == sorted(load_labels().names)
+    assert {definition.name: definition.textures for definition in labels.definitions}["cotton"] == (104,)
+
+
+def test_a_label_whose_texture_is_not_listed_is_named() -> None:
+    with pytest.raises(InputError, match=r"texture_list\.xlsx lists no texture of the labels .*corduroy.*--textures"):
+        labels_of_textures(load_labels(), {}, ())
+
+
+def test_an_id_outside_the_data_set_is_refused(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="--textures 118: .*no such texture; expected ids from 0 to 117"):
+        labels_of_textures(load_labels(), LISTED, (0, 118))
+    with pytest.raises(SystemExit):
+        main(["labels", str(HUB), "--textures", "oak", "--out", str(tmp_path / "l.toml")])
+    assert "'oak'; expected ids with commas between them" in capsys.readouterr().err
+
+
+def test_a_texture_that_is_called_like_another_label_is_told_apart_by_its_id() -> None:
+    known = LabelMap((LabelDefinition("steel", "wood", (66,), 1.0, 0.5),))
+    assert labels_of_textures(known, LISTED, (1, 66)).names == ["steel 1", "steel"]

@@ -1,31 +1,28 @@
 from __future__ import annotations
 
+import dataclasses
 import json
-import os
 import pickle
-import shutil
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 import pandas
 import pytest
-from dataset_samples import small_recording
 
+from dataset_samples import small_recording
+from haptoflow_training.cli import main
 from haptoflow_training.errors import InputError
-from haptoflow_training.recordings import cluster_dataset_files
-from haptoflow_training.recordings.cluster_dataset import open_dataset
-from haptoflow_training.recordings.cluster_dataset_files import DatasetFileError, read_table
-from haptoflow_training.recordings.cluster_dataset_textures import read_texture_list
+from haptoflow_training.recordings.apparatus import plane_powers, x_over_y_db
+from haptoflow_training.recordings.cluster_dataset import open_dataset, read_texture_list
+from haptoflow_training.recordings.cluster_dataset_files import DatasetFileError
 from haptoflow_training.recordings.dataset import Dataset
-from haptoflow_training.recordings.dataset_layout import FORCE, published_name
-from haptoflow_training.recordings.dataset_writer import (
-    TextureEntry,
-    write_provenance,
-    write_recording,
-    write_texture_list,
-)
+from haptoflow_training.recordings.dataset_inspection import inspect_dataset
+from haptoflow_training.recordings.dataset_layout import published_name
+from haptoflow_training.recordings.dataset_writer import TextureEntry, write_recording, write_texture_list
 from haptoflow_training.recordings.labels import load_labels
-from haptoflow_training.recordings.recording import Recording
+from haptoflow_training.recordings.recording import Recording, RecordingIdentity
+from haptoflow_training.recordings.synthetic import load_materials, record_machine_condition
 
 NAMES = ["0_0_20_500_0", "0_135_40_500_0", "66_90_60_1000_1", "0_hand_400_1500_3"]
 KINDS = ("accel", "force", "position")
@@ -63,14 +60,6 @@ def only_problem(dataset: Dataset) -> DatasetFileError:
     return found[0]
 
 
-def test_the_writer_uses_the_file_release_s_layout_and_headers(file_release: Path) -> None:
-    headers = {"accel": "time,X,Y,Z", "force": "time,force", "position": "time,X,Y"}
-    for kind, header in headers.items():
-        for name in NAMES:
-            assert sensor_file(file_release, kind, name).read_text().splitlines()[0] == header
-    assert len(list(file_release.rglob("*.*"))) == 3 * len(NAMES)
-
-
 def test_what_is_written_comes_back_without_loss_from_the_file_release(file_release: Path) -> None:
     dataset = open_dataset(file_release)
     assert not dataset.problems
@@ -79,34 +68,12 @@ def test_what_is_written_comes_back_without_loss_from_the_file_release(file_rele
         assert_same(entry.load(), small_recording(entry.identity.name, seconds=0.8))
 
 
-def test_unquantised_values_lose_less_than_a_sensor_resolves(tmp_path: Path) -> None:
-    recording = small_recording(seconds=0.5)
-    exact = recording.acceleration_g * np.pi
-    write_recording(tmp_path, Recording(**{**recording.__dict__, "acceleration_g": exact}))
-    np.testing.assert_allclose(open_dataset(tmp_path).recordings[0].load().acceleration_g, exact, rtol=1e-8)
-
-
 def test_a_recording_that_is_not_finite_is_not_written(tmp_path: Path) -> None:
     recording = small_recording(seconds=0.5)
     recording.position_mm[3, 0] = np.inf
     with pytest.raises(ValueError, match="position holds values that are not finite"):
         write_recording(tmp_path, recording)
     assert not list(tmp_path.rglob("*position*/*"))
-
-
-def test_a_file_is_written_atomically(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    renamed: list[str] = []
-    replace = os.replace
-
-    def noting(source: Path, target: Path) -> None:
-        assert source.name.startswith(".") and not target.exists()
-        assert source.read_text().endswith("\n")
-        renamed.append(target.name)
-        replace(source, target)
-
-    monkeypatch.setattr(os, "replace", noting)
-    write_recording(tmp_path, small_recording(seconds=0.5))
-    assert renamed == ["0_90_40_500_0.csv"] * 3
 
 
 def test_a_file_half_written_is_never_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -141,9 +108,7 @@ def test_a_file_half_written_is_never_seen(tmp_path: Path, monkeypatch: pytest.M
         ("accel", "\x00\x01\x02" * 40, ""),
     ],
 )
-def test_a_broken_file_is_named_with_what_was_expected(
-    file_release: Path, kind: str, text: str, found: str
-) -> None:
+def test_a_broken_file_is_named_with_what_was_expected(file_release: Path, kind: str, text: str, found: str) -> None:
     path = sensor_file(file_release, kind)
     path.write_text(text)
     problem = only_problem(open_dataset(file_release))
@@ -169,12 +134,6 @@ def test_a_missing_sibling_is_a_problem_and_the_rest_stays_readable(file_release
     assert len(dataset) == len(NAMES) - 1
 
 
-def test_a_missing_sensor_folder_is_a_problem_for_each_recording(file_release: Path) -> None:
-    shutil.rmtree(file_release / "sensor_data" / "position")
-    dataset = open_dataset(file_release)
-    assert len(dataset) == 0 and len(dataset.problems) == len(NAMES)
-
-
 def test_a_file_of_another_name_is_a_problem_and_hidden_files_are_not(file_release: Path) -> None:
     folder = file_release / "sensor_data" / "accel"
     (folder / "readme.csv").write_text("hello")
@@ -188,35 +147,12 @@ def test_a_folder_without_sensor_data_is_refused(tmp_path: Path) -> None:
         open_dataset(tmp_path)
 
 
-def test_recordings_come_sorted_and_are_read_one_at_a_time(
-    file_release: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    loaded = []
-
-    def noting(path: Path) -> pandas.DataFrame:
-        loaded.append(path.name)
-        return read_table(path)
-
-    monkeypatch.setattr(cluster_dataset_files, "read_table", noting)
-    dataset = open_dataset(file_release)
-    assert not loaded
-    assert [entry.identity.texture_id for entry in dataset] == [0, 0, 0, 66]
-    dataset.recordings[3].load()
-    assert loaded == ["66_90_60_1000_1.csv"] * 3
-
-
 def test_recording_files_and_their_errors_can_be_passed_to_another_process(file_release: Path) -> None:
     entry = open_dataset(file_release).recordings[0]
     assert pickle.loads(pickle.dumps(entry)) == entry
     error = DatasetFileError(Path("a.csv"), "empty file", "columns")
     again = pickle.loads(pickle.dumps(error))
     assert (again.path, again.found, str(again)) == (error.path, error.found, str(error))
-
-
-def test_the_texture_list_is_written_and_read_back(tmp_path: Path) -> None:
-    entries = [TextureEntry(0, "wood", {"Friction coefficient": 0.22}), TextureEntry(7, "metal mesh", {})]
-    write_texture_list(tmp_path, entries)
-    assert read_texture_list(tmp_path) == {0: "wood", 7: "metal mesh"}
 
 
 @pytest.mark.parametrize(
@@ -227,12 +163,8 @@ def test_the_texture_list_is_written_and_read_back(tmp_path: Path) -> None:
         (["No.", "Material", "μ static friction", "μ kinetic friction"], 2),
     ],
 )
-def test_a_texture_list_is_understood_with_other_headings(
-    tmp_path: Path, headings: list[str], title_rows: int
-) -> None:
-    rows = [[None] * 4] * title_rows + [
-        headings, [38, " Granite ", 0.4, 0.3], [48, "Concrete", None, 0.5], [None] * 4
-    ]
+def test_a_texture_list_is_understood_with_other_headings(tmp_path: Path, headings: list[str], title_rows: int) -> None:
+    rows = [[None] * 4] * title_rows + [headings, [38, " Granite ", 0.4, 0.3], [48, "Concrete", None, 0.5], [None] * 4]
     pandas.DataFrame(rows).to_excel(tmp_path / "texture_list.xlsx", header=False, index=False)
     found = read_texture_list(tmp_path)
     assert found == {38: "Granite", 48: "Concrete"}
@@ -244,15 +176,6 @@ def test_the_published_names_are_used_if_the_texture_list_is_the_published_one(f
     known = {38: "Granite", 48: "Concrete", 49: "HDPE", 64: "Carbon fiber", 73: "Titanium", 81: "Sandpaper"}
     known |= {82: "Alumina", 86: "Earth style porcelain", 87: "Jute", 101: "Seal skin", 104: "cloth 104"}
     assert {texture_id: published_name(texture_id) for texture_id in known} == known
-
-
-def test_ids_of_other_recordings_are_not_the_published_ones(file_release: Path) -> None:
-    assert open_dataset(file_release).textures == {0: "texture 0", 66: "texture 66"}
-    write_texture_list(file_release, [TextureEntry(0, "denim", {}), TextureEntry(66, "felt", {})])
-    dataset = open_dataset(file_release)
-    assert dataset.textures == {0: "denim", 66: "felt"}
-    assert not dataset.published
-    assert (dataset.provenance["source"], dataset.provenance["licence"]) == ("unknown", "unknown")
 
 
 def test_a_damaged_texture_list_is_a_problem_but_not_fatal(file_release: Path) -> None:
@@ -268,45 +191,11 @@ def test_labels_are_found_by_id_and_by_the_name_in_the_texture_list(tmp_path: Pa
         write_recording(tmp_path, small_recording(name, seconds=0.5))
     write_texture_list(
         tmp_path,
-        [
-            TextureEntry(0, "Nyatoh", {}),
-            TextureEntry(1, "Oak", {}),
-            TextureEntry(105, "cotton-broadcloth", {}),
-        ],
+        [TextureEntry(0, "Nyatoh", {}), TextureEntry(1, "Oak", {}), TextureEntry(105, "cotton-broadcloth", {})],
     )
     dataset = open_dataset(tmp_path, load_labels())
     assert [(entry.identity.texture_id, entry.label) for entry in dataset] == [(0, "wood"), (105, "cotton")]
     assert [entry.identity.texture_id for entry in dataset.unlabelled] == [1]
-
-
-def test_labels_of_a_synthetic_folder_are_found_by_name(tmp_path: Path) -> None:
-    for name in ("0_0_20_500_0", "38_0_20_500_0"):
-        write_recording(tmp_path, small_recording(name, seconds=0.5))
-    write_texture_list(tmp_path, [TextureEntry(0, "stone", {}), TextureEntry(38, "carpet", {})])
-    write_provenance(
-        tmp_path, source="synthetic recorder", licence="MIT", synthetic=True, details={"seed": 3}
-    )
-    dataset = open_dataset(tmp_path, load_labels())
-    assert dataset.labels == ["stone"] and len(dataset.unlabelled) == 1
-    assert open_dataset(tmp_path).labels == ["stone", "carpet"]
-    assert json.loads((tmp_path / "provenance.json").read_text())["seed"] == 3
-
-
-def test_a_folder_with_the_published_texture_list_has_the_published_licence(file_release: Path) -> None:
-    write_texture_list(file_release, [TextureEntry(0, "Nyatoh", {}), TextureEntry(66, "Steel", {})])
-    dataset = open_dataset(file_release)
-    assert dataset.published
-    assert not dataset.synthetic
-    assert dataset.provenance["licence"] == "CC BY 4.0"
-
-
-def test_the_labels_file_of_the_data_set_covers_the_ten_groups() -> None:
-    labels = load_labels()
-    categories = {definition.category for definition in labels.definitions}
-    assert categories == {
-        "wood", "stone", "polymer", "metal", "glass", "composite", "ceramic", "biodegradable", "cloth"
-    }  # fmt: skip
-    assert len(set(labels.names)) == len(labels.names)
 
 
 GOOD_LABEL = (
@@ -326,10 +215,7 @@ GOOD_LABEL = (
         (GOOD_LABEL + "colour = 3\n", "label 1: unknown key 'colour'"),
         (GOOD_LABEL.replace('"wood"', '"Wood"', 1), "'Wood'; expected lower case, as the engine reads labels: 'wood'"),
         (GOOD_LABEL + GOOD_LABEL, "label 'wood' occurs twice"),
-        (
-            GOOD_LABEL + GOOD_LABEL.replace('name = "wood"', 'name = "oak"'),
-            "texture 0 belongs to 'wood' and to 'oak'",
-        ),
+        (GOOD_LABEL + GOOD_LABEL.replace('name = "wood"', 'name = "oak"'), "texture 0 belongs to 'wood' and to 'oak'"),
     ],
 )
 def test_a_wrong_labels_file_is_refused_by_entry_and_key(tmp_path: Path, text: str, words: str) -> None:
@@ -339,10 +225,98 @@ def test_a_wrong_labels_file_is_refused_by_entry_and_key(tmp_path: Path, text: s
         load_labels(path)
 
 
-def test_an_unreadable_file_is_a_named_problem(file_release: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def refuse(path: Path) -> None:
-        raise PermissionError(13, "Permission denied")
+INSPECT_NAMES = ["0_0_20_500_0", "0_0_20_500_1", "0_90_40_1000_0", "66_0_20_500_0", "66_hand_400_1500_3"]
 
-    monkeypatch.setattr(cluster_dataset_files, "read_table", refuse)
-    with pytest.raises(DatasetFileError, match="cannot be read \\(Permission denied\\)"):
-        cluster_dataset_files.read_sensor(sensor_file(file_release, "force"), FORCE)
+
+@pytest.fixture
+def root(tmp_path: Path) -> Path:
+    for name in INSPECT_NAMES:
+        write_recording(tmp_path, small_recording(name, seconds=0.8))
+    write_texture_list(tmp_path, [TextureEntry(0, "Nyatoh", {}), TextureEntry(66, "Steel", {})])
+    audio = tmp_path / "sensor_data" / "audio"
+    audio.mkdir()
+    (audio / "0_0_20_500_0.wav").write_bytes(b"RIFF")
+    return tmp_path
+
+
+def test_inspect_counts_by_every_part_of_a_name(root: Path) -> None:
+    assert inspect_dataset(open_dataset(root))["counts"] == {
+        "protocol": {"hand": 1, "machine": 4},
+        "material": {"Nyatoh": 3, "Steel": 2},
+        "speed_mmps": {"20": 3, "40": 1},
+        "direction_degrees": {"0": 3, "90": 1},
+        "force_millinewtons": {"500": 3, "1000": 1},
+        "repeat": {"0": 3, "1": 1},
+    }
+
+
+def test_inspect_prints_ranges_that_reveal_a_wrong_unit(root: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    ranges = inspect_dataset(open_dataset(root))["ranges"]
+    assert (ranges["force"]["low"], ranges["force"]["high"]) == pytest.approx((0.49, 1.51), abs=0.02)
+    # At rest before and after, otherwise at the speeds in the names, including the hand's 400 mm/s.
+    assert ranges["speed"]["low"] == pytest.approx(0.0, abs=1.0)
+    assert ranges["speed"]["high"] == pytest.approx(400.0, rel=0.02)
+    assert 0.005 < ranges["vibration"]["middle"] < 0.2
+    assert main(["inspect", str(root)]) == 0
+    printed = capsys.readouterr().out
+    assert "force         0.49 to 1.51 N, median 0.5 N" in printed
+    assert "speed         0 to 400 mm/s" in printed
+
+
+def test_inspect_names_missing_and_broken_files_and_still_succeeds(
+    root: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (root / "sensor_data" / "force" / "66_0_20_500_0.csv").unlink()
+    (root / "sensor_data" / "accel" / "0_0_20_500_1.csv").write_text("time,X\n0,1\n1,2\n")
+    assert main(["inspect", str(root)]) == 0
+    printed = capsys.readouterr().out
+    assert "3 recordings" in printed and "2 problems:" in printed
+    assert "66_0_20_500_0.csv: missing file; expected the sibling of accel/66_0_20_500_0.csv" in printed
+    assert "0_0_20_500_1.csv: columns time,X; expected columns time,X,Y,Z" in printed
+
+
+def test_inspect_prints_json_that_holds_the_whole_report(root: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["inspect", str(root), "--json"]) == 0
+    report = json.loads(capsys.readouterr().out)
+    assert report["recordings"] == 5 and report["audio_files"] == 1 and report["problems"] == []
+    assert report["duration_seconds"]["total"] == pytest.approx(4.0, abs=0.01)
+    assert report["provenance"]["licence"] == "CC BY 4.0"
+
+
+def test_inspect_counts_by_label_where_a_labels_file_is_given(root: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    labels = root / "labels.toml"
+    labels.write_text(
+        '[[label]]\nname = "timber"\ncategory = "wood"\ntextures = ["nyatoh"]\n'
+        "stiffness_newtons_per_metre = 1200\nfriction_coefficient = 0.2\n"
+    )
+    assert main(["inspect", str(root), "--labels", str(labels), "--json"]) == 0
+    report = json.loads(capsys.readouterr().out)
+    assert report["counts"]["material"] == {"timber": 3} and report["unlabelled"] == 2
+
+
+def test_inspect_exits_3_where_nothing_is_readable(root: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    for path in (root / "sensor_data" / "accel").iterdir():
+        path.write_text("")
+    assert main(["inspect", str(root)]) == 3
+    assert "no recording could be read; the first problem" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(("stronger", "directions", "said"), [
+    (2.2, range(0, 360, 90), True), (1.0, range(0, 360, 90), False), (2.2, (0,), False),
+])  # fmt: skip
+def test_what_the_apparatus_adds_to_one_axis_shows_in_the_sum_of_all_directions(
+    stronger: float, directions: Sequence[int], said: bool
+) -> None:
+    """Passes in one direction cannot tell the apparatus from the material."""
+    wood = load_materials()[0]
+    passes = [
+        record_machine_condition(wood, RecordingIdentity(wood.texture_id, direction, 60, 1000, 0), seed=1)
+        for direction in directions
+    ]
+    scaled = [dataclasses.replace(each, acceleration_g=each.acceleration_g * [stronger, 1.0, 1.0]) for each in passes]
+    powers = [plane_powers(each) for each in scaled]
+    found = x_over_y_db(each for each in powers if each is not None)
+    if len(directions) == 1:
+        assert found is None
+    else:
+        assert found is not None and (4.0 < found < 10.0) == said

@@ -12,25 +12,17 @@ import numpy as np
 import pytest
 from published_samples import PUBLISHED
 
-from haptoflow_benchmark.engine.engine_library import default_engine
+from haptoflow_benchmark.engine_library import default_engine
 from haptoflow_paper.cli import main
-from haptoflow_paper.distil.labels_file import write_labels
-from haptoflow_paper.distil.motions import STROKE_SECONDS, MotionRange, strokes_of
-from haptoflow_paper.distil.rendering import SETTLING_SAMPLES, Rendering, render_all, rendered, seconds_of_a_stroke
-from haptoflow_paper.distil.teacher import Teacher
+from haptoflow_paper.distil.rendering import (
+    SETTLING_SAMPLES, Rendering, generated_path, render_all, rendered, start_generated, write_generated, write_labels
+)
+from haptoflow_paper.distil.teacher import MotionRange, Teacher, strokes_of
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.preprocessing.pipeline import preprocess_parts
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
-from haptoflow_training.recordings.generated_dataset import (
-    GENERATED_FILE,
-    GeneratedOrigin,
-    generated_path,
-    open_generated,
-    read_generated,
-    start_generated,
-    write_generated,
-)
+from haptoflow_training.recordings.generated_dataset import GENERATED_FILE, GeneratedOrigin, open_generated
 from haptoflow_training.recordings.labels import load_labels
 from haptoflow_training.recordings.open_recordings import open_recordings
 from haptoflow_training.recordings.recording import RecordingIdentity
@@ -64,30 +56,6 @@ def test_strokes_stay_inside_the_range_and_reach_its_ends(within: MotionRange) -
     assert np.isfinite(motions).all()
     low = max(within.speed_mps[0], 0.01)
     assert speed[speed > 0.0].min() <= 1.2 * low and speed.max() >= 0.8 * within.speed_mps[1]
-
-
-def test_a_narrow_range_is_covered_evenly_in_speed_force_and_direction() -> None:
-    motions = np.concatenate([stroke.motion for stroke in strokes_of(3, 40, NARROW, 1)])
-    shares, _ = np.histogram(np.hypot(motions[:, 0], motions[:, 1]), [0.02, 0.03, 0.04, 0.05, 0.0601])
-    assert shares.min() > 0.08 * len(motions)
-    headings, _ = np.histogram(np.arctan2(motions[:, 1], motions[:, 0]), 8, (-np.pi, np.pi))
-    assert headings.min() > 0.06 * len(motions)
-
-
-def test_a_tip_that_would_rest_goes_on_in_its_direction_where_the_range_has_no_rest() -> None:
-    stroke = next(stroke for stroke in strokes_of(0, 10, NARROW, 1) if stroke.kind == "guided")
-    first = stroke.motion[0]
-    assert np.hypot(*first[:2]) == pytest.approx(0.02, rel=1e-3)
-    rests = [stroke for stroke in strokes_of(0, 10, WIDE, 1) if stroke.kind == "guided"]
-    assert min(np.hypot(*stroke.motion[:, :2].T).min() for stroke in rests) == 0.0
-
-
-def test_more_strokes_begin_with_those_of_fewer_and_their_names_differ() -> None:
-    few, many = (list(strokes_of(2, count, NARROW, 1)) for count in (10, 25))
-    assert all((one.motion == other.motion).all() for one, other in zip(few, many, strict=False))
-    assert len({stroke.identity.name for stroke in many}) == 25
-    other_seed = next(strokes_of(2, 1, NARROW, 2))
-    assert not np.array_equal(few[0].motion, other_seed.motion)
 
 
 def test_a_generated_recording_keeps_every_sample_through_preparation(tmp_path: Path) -> None:
@@ -130,21 +98,6 @@ def test_a_folder_of_another_origin_is_not_gone_on_with(tmp_path: Path) -> None:
     (tmp_path / GENERATED_FILE).write_text("{}")
     with pytest.raises(InputError, match=GENERATED_FILE):
         open_recordings(tmp_path)
-
-
-def test_foreign_names_and_labels_that_nobody_wants_are_left_out(tmp_path: Path) -> None:
-    start_generated(tmp_path / "all", ORIGIN)
-    for texture in (0, 1, 2):
-        path = generated_path(tmp_path / "all", dataclasses.replace(IDENTITY, texture_id=texture))
-        write_generated(path, np.ones(500, np.float32), np.ones((500, 3), np.float32))
-    labels = tmp_path / "labels.toml"
-    labels.write_text(
-        '[[label]]\nname = "felt"\ncategory = "cloth"\ntextures = [1]\nstiffness_newtons_per_metre = 100.0\n'
-        "friction_coefficient = 0.4\n"
-    )
-    dataset = open_recordings(tmp_path / "all", load_labels(labels))
-    assert dataset.labels == ["felt"] and len(dataset.unlabelled) == 1 and len(dataset.problems) == 1
-    assert "wood" in dataset.left_out
 
 
 def test_the_teacher_is_a_tier_and_labels_by_any_of_their_names(model: Path, teacher: Teacher) -> None:
@@ -202,16 +155,6 @@ def test_renderings_are_found_again_and_a_killed_one_goes_on(teacher: Teacher, t
     assert len(open_generated(tmp_path / "out").recordings) == 4
 
 
-def test_two_draws_have_the_same_motion_and_other_vibration(teacher: Teacher, tmp_path: Path) -> None:
-    for seed in (1, 2):
-        render_all(ROOT, Rendering(teacher, 1, 10.0, seed, 9), tmp_path / str(seed), 1)
-    for path in sorted((tmp_path / "1").glob("*.npz")):
-        (wave, motion), (other_wave, other_motion) = (read_generated(tmp_path / seed / path.name) for seed in "12")
-        np.testing.assert_array_equal(motion, other_motion)
-        assert np.sqrt(np.mean((wave - other_wave) ** 2)) > 0.5 * wave.std()
-        assert len(wave) == round(STROKE_SECONDS * 2000) - SETTLING_SAMPLES
-
-
 def test_ribs_of_the_output_are_stated_in_the_teachers_own_axes(teacher: Teacher, tmp_path: Path) -> None:
     """A label whose ribs training has to find would be turned, and the surfaces of a scene with it."""
     rendering = Rendering(teacher, 10, 10.0, 1)
@@ -232,11 +175,6 @@ def test_ribs_of_the_output_are_stated_in_the_teachers_own_axes(teacher: Teacher
     found = np.array(ruled.wave_vectors_per_mm[0])
     np.testing.assert_allclose(found * np.sign(found[0]), vector, atol=0.01)
     assert ruled.wavelength_metres == pytest.approx(2e-3, rel=0.03)
-
-
-def test_the_time_of_a_stroke_is_measured_for_one_process(teacher: Teacher) -> None:
-    few, many = (seconds_of_a_stroke(ROOT, teacher, rate) for rate in (10.0, 80.0))
-    assert 0.0 < few < many
 
 
 @pytest.mark.parametrize(

@@ -5,13 +5,15 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+import make_tiny_model
 import numpy as np
 import pytest
+import tiny_graphs
 
-from haptoflow_benchmark.engine.engine_library import EngineLibrary, default_engine
+from haptoflow_benchmark.engine_library import EngineLibrary, default_engine
 from haptoflow_paper.rows.engine_generator import EngineGenerator
-from haptoflow_paper.rows.timing import TimedSource, time_sources
 from haptoflow_training.errors import InputError
+from haptoflow_writer import write_model
 
 ROOT = Path(__file__).parents[2]
 GOLDEN = ROOT / "Tests" / "Golden" / "model"
@@ -55,18 +57,30 @@ def test_a_library_that_is_not_built_names_the_command_that_builds_it(tmp_path: 
         default_engine(tmp_path)
 
 
-def test_every_source_is_timed_as_often_as_requested() -> None:
-    class Counting:
-        runs = 0
+WEIGHTS = np.array([[0.5], [-0.25], [0.125], [0.01], [0.02], [-0.005]], dtype=np.float32)
 
-        def generate(
-            self, embeddings: np.ndarray, motions: np.ndarray, past: np.ndarray, noise: np.ndarray, phase: np.ndarray
-        ) -> np.ndarray:
-            self.runs += 1
-            return past
 
-    counting = [Counting(), Counting()]
-    sources = [TimedSource(str(number), source) for number, source in enumerate(counting)]
-    times = time_sources(sources, blocks=3, runs_per_block=5, period_seconds=0.001, seed=1)
-    assert [source.runs for source in counting] == [3 * (3 + 5)] * 2
-    assert all(0.0 < entry.p50 <= entry.p99 for entry in times.values())
+def _phase_graph() -> bytes:
+    """segment = phases @ WEIGHTS, the same at every sample."""
+    graph = tiny_graphs._Graph()
+    weighted = graph.apply("MatMul", "phases", graph.constant(np.repeat(WEIGHTS, tiny_graphs.SAMPLES, axis=1)))
+    graph.apply("Reshape", weighted, graph.constant([-1, 1, tiny_graphs.SAMPLES]), output="segment")
+    return graph.finish({"phases": ["B", 6]}, {"segment": ["B", 1, tiny_graphs.SAMPLES]})
+
+
+def test_each_row_of_a_batch_has_its_own_phases_and_none_means_those_of_its_motion(tmp_path: Path) -> None:
+    model = tmp_path / "ribs.haptoflow"
+    write_model(model, make_tiny_model.header(), {**make_tiny_model.blobs(), "direct_field": _phase_graph()})
+    random = np.random.default_rng(1)
+    embedding = random.normal(size=(3, 64)).astype(np.float32)
+    motion = np.array([[0.1, 0.0, 1.0], [0.0, 0.2, 2.0], [-0.1, 0.1, 0.5]], dtype=np.float32)
+    waves = np.zeros((3, 200), dtype=np.float32)
+    phases = np.random.default_rng(2).normal(size=(3, 6)).astype(np.float32)
+    level = np.exp(tiny_graphs.log_level(embedding, motion))
+    with EngineGenerator(default_engine(ROOT), model, "direct") as generator:
+        with_phase = generator.generate(embedding, motion, waves, waves, phases)
+        without = generator.generate(embedding, motion, waves, waves)
+    np.testing.assert_allclose(with_phase / level, np.repeat(phases @ WEIGHTS, 200, axis=1), atol=1e-5)
+    vectors = embedding[:, -4:].reshape(3, 2, 2)
+    crossed = np.einsum("rkc,rc->rk", vectors, 1000.0 * motion[:, :2]) @ WEIGHTS[3:5]
+    np.testing.assert_allclose(without / level, np.repeat(crossed, 200, axis=1), rtol=1e-4, atol=1e-4)

@@ -3,29 +3,49 @@
 from __future__ import annotations
 
 import json
+import re
+import struct
+import tomllib
+import zlib
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
+import make_skeleton_model
 import numpy as np
 import onnx
 import pytest
-from paper_samples import evaluated
-from test_trainer import ALONE, _config
-from training_fixtures import FakeRecording, FakeStore, make_store, travelled_mm
+import torch
+from numpy.typing import NDArray
+from torch import nn
 
 from haptoflow_paper.codec.small_codec import SmallCodec, SmallCodecShape
-from haptoflow_paper.report.annotation import annotate_model
+from haptoflow_paper.report.accuracy_time import annotate_model
+from haptoflow_paper.rows.row_plan import PlannedRow
+from haptoflow_paper.rows.row_runner import _sizes
+from haptoflow_paper.runs.tier import build_seed_bank
 from haptoflow_paper.runs.trainer import EvaluatedTrainer
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.exponents import fit_exponents
 from haptoflow_training.export.exporter import export_run
 from haptoflow_training.export.label_info import LabelInfo
-from haptoflow_training.export.model_file import ModelFile, read_model_file
-from haptoflow_training.export.seed_bank import build_seed_bank
-from haptoflow_training.recordings.landing import Landing, LandingMode
-from haptoflow_training.recordings.wander import RibWander, StickSlip
-from haptoflow_training.training.held_out import HeldOut
+from haptoflow_training.export.model_file import (
+    VERSION, ModelFile, encode_model_file, model_space, read_model_file, write_model_file
+)
+from haptoflow_training.export.onnx_graphs import export_graph
+from haptoflow_training.export.skeleton_tensors import condition_tensors, skeleton_tensors, skeleton_weights
+from haptoflow_training.fewshot.add_label import with_label
+from haptoflow_training.models.conditioning import MotionFeatures
+from haptoflow_training.models.level_model import LevelModel
+from haptoflow_training.models.skeleton import Skeleton
+from haptoflow_training.models.surface_waves import rate_features
+from haptoflow_training.recordings.landing import Landing, LandingMode, RibWander, StickSlip
+from haptoflow_training.training.batches import HeldOut
 from haptoflow_training.training.recordings_source import Provenance, Source
 from haptoflow_training.training.trainer import Trainer
+from paper_samples import field_config
+from test_trainer import ALONE, _config
+from training_fixtures import FakeRecording, FakeStore, make_store, travelled_mm
 
 LANDING = Landing((LandingMode(180.0, 75.5, 170.0), LandingMode(640.0, 700.0, 40.0)), 0.25)
 INFOS = [
@@ -54,44 +74,9 @@ def test_the_header_says_origin_labels_range_and_tier(exported: tuple[Path, Mode
     assert [label["name"] for label in header["labels"]] == ["tone", "noise"]
     assert header["labels"][0]["periodic"] and not header["labels"][1]["periodic"]
     assert 0.55 < header["range"]["speed_mps"][1] <= 0.61
-    assert header["tiers"][0]["kind"] == "flow"
-    assert len(header["seed_bank"]["entries"]) == len(exported[1].tensors["seeds"]) and "skeleton" not in header
+    assert header["tiers"][0]["kind"] == "skeleton"
+    assert "skeleton" in header and "seed_bank" not in header
     assert header["measurements"]["steps"] == 60
-
-
-def test_the_header_holds_a_label_s_touch_down_vibration_if_it_is_known(
-    exported: tuple[Path, ModelFile, FakeStore]
-) -> None:
-    known, unknown = exported[1].header["labels"]
-    assert known["impact"] == {
-        "modes": [
-            {"frequency_hz": 180.0, "decay_per_second": 75.5, "gain_per_second": 170.0},
-            {"frequency_hz": 640.0, "decay_per_second": 700.0, "gain_per_second": 40.0},
-        ],
-        "restitution": 0.25,
-    }
-    assert "impact" not in unknown
-
-
-def test_the_header_says_how_a_label_slips_and_how_its_ribs_wander_if_it_is_known(
-    exported: tuple[Path, ModelFile, FakeStore]
-) -> None:
-    known, unknown = exported[1].header["labels"]
-    assert known["stick_slip"] == {"length_metres": 0.0011, "wander": 0.25, "wander_metres": 0.004}
-    assert known["rib_wander"] == [{"turns": 0.12, "wavelength_metres": 0.0119}]
-    assert "stick_slip" not in unknown and "rib_wander" not in unknown
-
-
-def test_graphs_are_opset_16_with_named_inputs_and_a_dynamic_batch(
-    exported: tuple[Path, ModelFile, FakeStore]
-) -> None:
-    field = onnx.load_from_string(exported[1].graphs["standard.field"])
-    assert [value.name for value in field.graph.input] == ["noisy", "time", "previous", "embedding", "motion"]
-    assert [value.name for value in field.graph.output] == ["velocity"]
-    assert field.opset_import[0].version == 16
-    assert field.graph.input[0].type.tensor_type.shape.dim[0].dim_param == "batch"
-    level = onnx.load_from_string(exported[1].graphs["level"])
-    assert [value.name for value in level.graph.output] == ["log_level"]
 
 
 def test_no_path_of_the_training_machine_is_in_the_file(exported: tuple[Path, ModelFile, FakeStore]) -> None:
@@ -108,22 +93,6 @@ def test_seeds_are_recordings_of_unit_level_with_their_conditions(exported: tupl
     tones = [wave for wave, entry in zip(bank.waves, bank.entries, strict=True) if entry["label"] == "tone"]
     spectra = np.abs(np.fft.rfft(tones, axis=1))
     assert (spectra.argmax(axis=1) == 30).all(), "150 Hz is bin 30 of 400 samples at 2 kHz"
-
-
-def test_only_seeds_of_ruled_labels_state_their_rib_phase() -> None:
-    store = make_store()
-    wave_numbers = np.array([[0.0, 0.0, 0.0, 0.0], [0.4, 0.1, 0.0, 0.8]], np.float32)
-    bank = build_seed_bank(store, wave_numbers, seed=1, held_out=HeldOut(), candidates=200)
-    windows = np.lib.stride_tricks.sliding_window_view(store.waveform, 400)
-    normalised = windows / (np.sqrt(np.square(windows).mean(axis=1, keepdims=True)) + 1e-12)
-    for wave, entry in zip(bank.waves, bank.entries, strict=True):
-        if entry["label"] == "tone":
-            assert "rib_phase" not in entry
-            continue
-        start = int(np.square(normalised - wave).sum(axis=1).argmin())
-        turns = wave_numbers[1].reshape(2, 2) @ store.position_mm[start + 200] - entry["rib_phase"]
-        np.testing.assert_allclose(turns, np.round(turns), atol=1e-3)
-        assert all(0.0 <= turn < 1.0 for turn in entry["rib_phase"])
 
 
 def test_exponents_are_those_of_the_recordings() -> None:
@@ -162,11 +131,6 @@ def test_golden_vectors_name_the_file_they_belong_to(exported: tuple[Path, Model
         assert np.abs(case["segment"]).max() > 0.0
 
 
-def test_labels_that_were_not_trained_are_refused(exported: tuple[Path, ModelFile, FakeStore], tmp_path: Path) -> None:
-    with pytest.raises(InputError, match="trained on labels"):
-        export_run(exported[0] / "run", Source(exported[2], INFOS[::-1], PROVENANCE), tmp_path / "x.haptoflow")
-
-
 def test_measured_figures_go_into_the_header_and_the_golden_vectors_follow(
     exported: tuple[Path, ModelFile, FakeStore], tmp_path: Path
 ) -> None:
@@ -187,12 +151,13 @@ def test_a_run_in_latents_is_exported_with_its_encoder_and_decoder(tmp_path: Pat
     SmallCodec(SmallCodecShape()).save(tmp_path / "codec.pt")
     store = make_store(seconds=6.0, recordings_per_split=4)
     codec = {"kind": "small-codec", "checkpoint": str(tmp_path / "codec.pt")}
-    config = evaluated(_config(steps=4), model={"patch": 5, "representation": codec})
+    config = field_config(steps=4, model={"patch": 5, "representation": codec})
     EvaluatedTrainer(config, store, tmp_path / "run", ALONE).run()
     export_run(tmp_path / "run", Source(store, INFOS, PROVENANCE), tmp_path / "m.haptoflow")
     file = read_model_file(tmp_path / "m.haptoflow")
     tier = file.header["tiers"][0]
-    assert tier["representation"] == "latent"
+    assert tier["representation"] == "latent" and tier["kind"] == "flow" and "skeleton" not in file.header
+    assert len(file.header["seed_bank"]["entries"]) == len(file.tensors["seeds"]) and set(file.graphs) >= {"level"}
     encoder, decoder = (onnx.load_from_string(file.graphs[tier[name]]) for name in ("encoder", "decoder"))
     latent = [size.dim_value for size in encoder.graph.output[0].type.tensor_type.shape.dim[1:]]
     assert latent == tier["latent_shape"]
@@ -203,7 +168,7 @@ def test_a_run_in_latents_is_exported_with_its_encoder_and_decoder(tmp_path: Pat
 
 def test_a_rival_becomes_a_direct_tier_with_the_inputs_that_it_reads(tmp_path: Path) -> None:
     store = make_store(seconds=6.0, recordings_per_split=4)
-    config = evaluated(_config(steps=4), model={"architecture": "spsi"})
+    config = field_config(steps=4, model={"architecture": "spsi"})
     EvaluatedTrainer(config, store, tmp_path / "run", ALONE).run()
     export_run(tmp_path / "run", Source(store, INFOS, PROVENANCE), tmp_path / "m.haptoflow", tmp_path / "parity.json")
     file = read_model_file(tmp_path / "m.haptoflow")
@@ -212,3 +177,251 @@ def test_a_rival_becomes_a_direct_tier_with_the_inputs_that_it_reads(tmp_path: P
     assert [value.name for value in field.graph.input] == ["noisy", "embedding", "motion"]
     cases = json.loads((tmp_path / "parity.json").read_text(encoding="utf-8"))["cases"]
     assert {case["solver"] for case in cases} == {"euler"}
+
+
+ROOT = Path(__file__).parents[2]
+
+
+def test_the_default_exporter_of_pytorch_2_9_is_not_used(monkeypatch: pytest.MonkeyPatch) -> None:
+    traced: Callable[..., Any] = torch.onnx.export
+    told: list[bool] = []
+
+    def as_of_2_9(model: nn.Module, args: Any, f: Any, *, dynamo: bool = True, **options: Any) -> None:
+        told.append(dynamo)
+        if dynamo:
+            raise ModuleNotFoundError("No module named 'onnxscript'")
+        traced(model, args, f, **options)
+
+    monkeypatch.setattr(torch.onnx, "export", as_of_2_9)
+    graph = export_graph(nn.Linear(4, 2), {"given": torch.zeros(2, 4)}, "made")
+    assert told == [False]
+    assert len(graph) > 100
+
+
+def test_an_older_pytorch_is_given_no_argument_that_it_does_not_know(monkeypatch: pytest.MonkeyPatch) -> None:
+    traced: Callable[..., Any] = torch.onnx.export
+    names = ("opset_version", "input_names", "output_names", "dynamic_axes", "do_constant_folding")
+
+    def as_of_1_13(
+        model: nn.Module, args: Any, f: Any, opset_version: int, input_names: Any, output_names: Any,
+        dynamic_axes: Any, do_constant_folding: bool,
+    ) -> None:  # fmt: skip
+        values = (opset_version, input_names, output_names, dynamic_axes, do_constant_folding)
+        traced(model, args, f, **dict(zip(names, values, strict=True)))
+
+    monkeypatch.setattr(torch.onnx, "export", as_of_1_13)
+    assert export_graph(nn.Linear(4, 2), {"given": torch.zeros(2, 4)}, "made")
+
+
+def test_every_dependency_has_a_lower_and_an_upper_bound() -> None:
+    project = tomllib.loads((ROOT / "Training" / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    wanted = [*project["dependencies"], *(one for extra in project["optional-dependencies"].values() for one in extra)]
+    assert len(wanted) >= 10
+    assert [one for one in wanted if not re.fullmatch(r"[a-z0-9-]+>=[\d.]+,<\d+", one)] == []
+
+
+GOLDEN = ROOT / "Tests" / "Golden"
+DEFAULT = ROOT / "Packages" / "com.haptoflow.runtime" / "Runtime" / "Models" / "default.haptoflow"
+MODEL = ModelFile(
+    header={"name": "tést", "labels": [{"name": "wood"}]},
+    tensors={"embedding": np.arange(128, dtype=np.float32).reshape(2, 64), "seeds": np.ones((1, 400), np.float32)},
+    graphs={"field": b"graph bytes", "level": b"x" * 1000},
+)
+
+
+def _of_version(version: int, content: bytes) -> bytes:
+    return content[:8] + struct.pack("<I", version) + content[12:]
+
+
+def test_what_is_written_is_read_back(tmp_path: Path) -> None:
+    path = tmp_path / "model.haptoflow"
+    checksum = write_model_file(path, MODEL)
+    assert checksum == zlib.crc32(path.read_bytes())
+    read = read_model_file(path)
+    assert read.header == MODEL.header
+    assert read.graphs == MODEL.graphs
+    np.testing.assert_array_equal(read.tensors["embedding"], MODEL.tensors["embedding"])
+
+
+def test_the_preamble_holds_magic_version_lengths_and_checksums() -> None:
+    content = encode_model_file(MODEL)
+    magic, version, header_length, total, header_crc, own_crc = struct.unpack_from("<8sIIQII", content)
+    assert (magic, version, total) == (b"HAPTFLOW", VERSION, len(content))
+    assert zlib.crc32(content[32 : 32 + header_length]) == header_crc
+    assert zlib.crc32(content[:28]) == own_crc
+
+
+def test_header_and_blobs_end_and_start_on_multiples_of_64(tmp_path: Path) -> None:
+    for name_length in range(1, 140):
+        model = ModelFile({"name": "n" * name_length}, MODEL.tensors, MODEL.graphs)
+        content = encode_model_file(model)
+        (header_length,) = struct.unpack_from("<I", content, 12)
+        assert (32 + header_length) % 64 == 0
+        path = tmp_path / "m.haptoflow"
+        path.write_bytes(content)
+        assert read_model_file(path).header["name"] == "n" * name_length
+
+
+@pytest.mark.parametrize(
+    ("damage", "complaint"),
+    [
+        (lambda content: content[:-1], "truncated"),
+        (lambda content: b"NOTAMODL" + content[8:], "not a .haptoflow file"),
+        (lambda content: _of_version(VERSION + 1, content), f"version {VERSION + 1}, expected {VERSION}: update"),
+        (lambda content: _of_version(VERSION - 1, content), f"{VERSION - 1}, expected {VERSION}: .*training export"),
+        (lambda content: content[:40] + b"#" + content[41:], "header"),
+        (lambda content: content[:-3] + b"#" + content[-2:], "'level'"),
+    ],
+    ids=["truncated", "other magic", "newer", "older", "header", "blob"],
+)
+def test_damage_is_named(tmp_path: Path, damage: object, complaint: str) -> None:
+    path = tmp_path / "broken.haptoflow"
+    path.write_bytes(damage(encode_model_file(MODEL)))  # type: ignore[operator]
+    with pytest.raises(InputError, match=complaint):
+        read_model_file(path)
+
+
+def test_a_tensor_that_is_not_finite_is_refused() -> None:
+    with pytest.raises(ValueError, match="'embedding'"):
+        encode_model_file(ModelFile({}, {"embedding": np.array([np.nan], np.float32)}, {}))
+
+
+def test_the_space_follows_the_networks_and_neither_labels_nor_embedding() -> None:
+    spaces = json.loads((GOLDEN / "material" / "expected.json").read_text(encoding="utf-8"))["spaces"]
+    model = read_model_file(GOLDEN / "model" / "tiny.haptoflow")
+    assert model_space(model) == spaces["tiny"]
+    assert model_space(read_model_file(DEFAULT)) == spaces["default"]
+    model.header["labels"].pop()
+    model.tensors["embedding"] = model.tensors["embedding"] * 2.0
+    assert model_space(model) == spaces["tiny"]
+    name = model.header["tiers"][1]["field"]
+    model.graphs[name] = model.graphs[name] + b"\0"
+    assert model_space(model) != spaces["tiny"]
+
+
+SHIPPED = Path(__file__).parents[2] / "Packages" / "com.haptoflow.runtime" / "Runtime" / "Models" / "default.haptoflow"
+
+
+@pytest.fixture(scope="module")
+def file() -> ModelFile:
+    return read_model_file(SHIPPED)
+
+
+def _part(weights: dict[str, torch.Tensor], name: str, module: nn.Module) -> nn.Module:
+    module.load_state_dict(
+        {key.removeprefix(name): value for key, value in weights.items() if key.startswith(name)}, strict=True
+    )
+    return module
+
+
+def test_level_and_skeleton_are_written_again_as_they_were_read(file: ModelFile) -> None:
+    weights = skeleton_weights(file)
+    level, skeleton = _part(weights, "level.", LevelModel()), _part(weights, "skeleton.", Skeleton())
+    assert isinstance(level, LevelModel) and isinstance(skeleton, Skeleton)
+    for name, tensor in skeleton_tensors(level, skeleton).items():
+        np.testing.assert_array_equal(tensor, file.tensors[name])
+
+
+SKELETON_FILE_GOLDEN = GOLDEN / "model"
+
+
+_Floats = NDArray[np.float32]
+
+
+@pytest.fixture(scope="module")
+def skeleton_file() -> ModelFile:
+    return read_model_file(SKELETON_FILE_GOLDEN / "skeleton.haptoflow")
+
+
+@pytest.fixture(scope="module")
+def cases() -> list[dict[str, Any]]:
+    golden = json.loads((SKELETON_FILE_GOLDEN / "skeleton.parity.json").read_text(encoding="utf-8"))
+    assert golden["model_crc32"] == f"{zlib.crc32((SKELETON_FILE_GOLDEN / 'skeleton.haptoflow').read_bytes()):08x}"
+    made: list[dict[str, Any]] = golden["cases"]
+    return made
+
+
+def _perceptron(skeleton_file: ModelFile, name: str, given: _Floats) -> _Floats:
+    """As native code computes it."""
+    for layer in (0, 2, 4):
+        given = given @ skeleton_file.tensors[f"{name}.{layer}.weight"].T + skeleton_file.tensors[f"{name}.{layer}.bias"]
+        if layer < 4:
+            given = given / (1.0 + np.exp(-given))
+    return given
+
+
+def _condition(case: dict[str, Any], harmonics: tuple[float, ...]) -> _Floats:
+    features = MotionFeatures(harmonics)(torch.tensor([case["motion"]]))[0].numpy()
+    return np.concatenate([np.array(case["embedding"], np.float32), features])
+
+
+def _moving_condition(case: dict[str, Any]) -> _Floats:
+    """With the rates of the surface's waves."""
+    rates = rate_features(torch.tensor([case["phases"]]))[0].numpy()
+    return np.concatenate([_condition(case, FINE), rates])
+
+
+FINE, SMOOTH = (0.5, 1.0, 2.0, 4.0, 8.0), (0.5, 1.0)
+
+
+def test_the_file_is_that_of_the_model_which_made_the_golden_vectors(skeleton_file: ModelFile) -> None:
+    sketch, refined = make_skeleton_model.build()
+    assert refined.refiner is not None
+    written = {
+        "embedding": sketch.embedding.weight.numpy(), "pieces": sketch.embedding.offsets.numpy(),
+        **skeleton_tensors(sketch.level, sketch.skeleton), **condition_tensors("standard", refined.refiner),
+    }  # fmt: skip
+    assert written.keys() == skeleton_file.tensors.keys()
+    for name, values in written.items():
+        np.testing.assert_allclose(values, skeleton_file.tensors[name], rtol=1e-6, atol=1e-7, err_msg=name)
+
+
+def test_the_tensors_alone_give_level_filter_and_the_film_with_its_factors(
+    skeleton_file: ModelFile, cases: list[dict[str, Any]]
+) -> None:
+    for case in cases:
+        embedding = np.array(case["embedding"], np.float32)
+        velocity, force = np.array(case["motion"][:2]), case["motion"][2]
+        logarithms = np.log([(np.hypot(*velocity) + 0.0005) / 0.06, max(force, 0.0) + 0.02])
+        law = skeleton_file.tensors["level.law.weight"] @ embedding + skeleton_file.tensors["level.law.bias"]
+        crossing = 0.25 * np.log1p(1000.0 * np.abs(embedding[-4:].reshape(2, 2) @ velocity))
+        correction = _perceptron(skeleton_file, "level.correction", np.concatenate([_condition(case, SMOOTH), crossing]))[0]
+        level = law[0] + law[1:] @ logarithms + 0.9 * np.tanh(correction)
+        assert level == pytest.approx(case["log_level"][0], abs=1e-4)
+
+        outputs = _perceptron(skeleton_file, "skeleton", _moving_condition(case))
+        log_cosh = [np.log(np.cosh(argument)) for argument in np.clip(outputs[:24], -3.8, 3.8)]
+        assert sum(log_cosh) < np.log(10.0**2.5), "below the limit of resonance, so that no argument is scaled"
+        log_gain = 2.0 * np.tanh(outputs[24] / 2.0) - sum(log_cosh)
+        assert log_gain == pytest.approx(case["log_gain"][0], abs=1e-4)
+
+        film = _perceptron(skeleton_file, "standard.condition", _moving_condition(case))
+        np.testing.assert_allclose(film, case["film"], atol=1e-4)
+
+
+def test_a_further_label_of_a_model_with_specimens_has_the_offsets_of_the_label_itself(skeleton_file: ModelFile) -> None:
+    material = {"name": "learnt", "space": model_space(skeleton_file), "category": "own", "embedding": [0.1] * 64}
+    larger = with_label(skeleton_file, material)
+    assert larger.tensors["embedding"].shape == (3, 64)
+    assert larger.tensors["pieces"].shape == (3, make_skeleton_model.SPECIMENS, 60)
+    assert not larger.tensors["pieces"][2].any() and larger.tensors["pieces"].dtype == np.float32
+    np.testing.assert_array_equal(larger.tensors["pieces"][:2], skeleton_file.tensors["pieces"])
+    assert "seeds" not in larger.tensors and "seed_bank" not in larger.header
+
+
+def test_the_bytes_of_a_tier_are_its_graph_and_all_tensors_that_native_code_computes_with(skeleton_file: ModelFile) -> None:
+    blobs = [{"name": name, "bytes": values.nbytes} for name, values in skeleton_file.tensors.items()]
+    blobs += [{"name": name, "bytes": len(graph)} for name, graph in skeleton_file.graphs.items()]
+
+    class Generator:
+        header = {**skeleton_file.header, "blobs": blobs}
+
+    def size(tier: str) -> int:
+        row = PlannedRow(name=tier, family="HaptoFlow", block="ours", model="m.haptoflow", tier=tier)
+        return _sizes(Generator(), row)["bytes"]  # type: ignore[arg-type]
+
+    def weights(*beginnings: str) -> int:
+        return sum(values.nbytes for name, values in skeleton_file.tensors.items() if name.startswith(beginnings))
+
+    assert size("sketch") == weights("skeleton.", "level.")
+    assert size("standard") - size("sketch") == weights("standard.condition.") + len(skeleton_file.graphs["standard.field"])

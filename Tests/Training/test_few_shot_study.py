@@ -4,47 +4,46 @@ from __future__ import annotations
 
 import json
 import os
+import re
 from pathlib import Path
 
 import numpy as np
 import pytest
-from scipy.signal import freqz, welch
+from scipy.signal import freqz, lfilter, welch
 
-from haptoflow_benchmark.few_shot.few_shot_cases import (
-    SECONDS,
-    FewShotCase,
-    make_case,
-    make_filtered_case,
-    study_materials,
-)
-from haptoflow_benchmark.few_shot.filtered_surfaces import conditions, filtered_surfaces
+from haptoflow_benchmark import cli as benchmark
+from haptoflow_benchmark.waveform_metrics import power_spectrum
+from haptoflow_paper import cli as paper
 from haptoflow_paper.cli import main
-from haptoflow_paper.few_shot.few_shot_figures import condition_figures
+from haptoflow_paper.few_shot.few_shot_cases import (
+    SECONDS, FewShotCase, conditions, filtered_surfaces, make_case, study_materials
+)
 from haptoflow_paper.few_shot.few_shot_report import (
     OTHER_DRAW,
     ROWS,
-    ahead_table,
     assembled,
+    condition_figures,
     curve_table,
     page_words,
     table,
     write_chart,
     write_results,
 )
-from haptoflow_paper.few_shot.few_shot_study import StudyPlan, cells_of, rib_counts
-from haptoflow_paper.few_shot.few_shot_summary import summarised
-from haptoflow_paper.few_shot.few_shot_training import with_trained
+from haptoflow_paper.few_shot.few_shot_rivals import fit_autoregressive
+from haptoflow_paper.few_shot.few_shot_study import StudyPlan, cells_of, with_trained
+from haptoflow_training import cli as training
+from haptoflow_training.export.level_table import LevelTable
 from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.model_stamp import with_measured_words
+from haptoflow_training.recordings.material_recording import MaterialRecording
 from haptoflow_training.recordings.synthetic import load_materials
-from haptoflow_training.training.found_wave_vectors import turned_vectors
+from own_samples import csv_one_axis, stroke
 
 ROOT = Path(__file__).parents[2]
 DEFAULT = ROOT / "Packages" / "com.haptoflow.runtime" / "Runtime" / "Models" / "default.haptoflow"
 RESULTS = ROOT / "Training" / "haptoflow_paper" / "results" / "few-shot.json"
-PAGE = ROOT / "Training" / "haptoflow_paper" / "results" / "few-shot.md"
+PAGE = ROOT / "Documentation~" / "own-materials.md"
 ENGINE = Path(os.environ.get("HAPTOFLOW_ENGINE", ROOT / "build" / "native" / "haptoflow"))
-FITTED_SPEEDS_MPS = (0.02, 0.2)
 
 
 @pytest.fixture(scope="module")
@@ -67,25 +66,6 @@ def test_unseen_materials_lie_between_labels_and_equal_none() -> None:
     assert unseen[0] != study_materials(12, 2027)[0]
 
 
-def test_shorter_recordings_are_the_beginnings_of_longer_ones_and_as_long_as_they_say(case: FewShotCase) -> None:
-    lengths = {seconds: case.recordings(seconds) for seconds in (3.0, 10.0)}
-    for seconds, recordings in lengths.items():
-        assert sum(recording.seconds for recording in recordings) == pytest.approx(seconds, abs=0.05)
-    for short, long in zip(lengths[3.0], lengths[10.0], strict=True):
-        assert np.array_equal(short.vibration_mps2, long.vibration_mps2[: len(short.vibration_mps2)])
-    assert SECONDS == (5.0, 10.0, 20.0, 60.0)
-
-
-def test_the_measured_specimen_is_not_one_that_was_fitted(case: FewShotCase) -> None:
-    for condition in case.conditions:
-        speed = np.hypot(*condition.motion[:, :2].T)
-        assert speed.mean() == pytest.approx(condition.speed_mps, rel=0.1)
-        assert FITTED_SPEEDS_MPS[0] <= condition.speed_mps <= FITTED_SPEEDS_MPS[1]
-        correlation = np.corrcoef(condition.recorded[:8000], condition.other_draw[:8000])[0, 1]
-        assert abs(correlation) < 0.9
-    assert any(condition.rib_rates_hz for condition in case.conditions)
-
-
 def test_the_recording_itself_has_no_error_and_twice_its_amplitude_has_six_decibels(case: FewShotCase) -> None:
     condition = case.conditions[3]
     same = condition_figures(condition, condition.recorded)
@@ -98,29 +78,11 @@ def test_the_recording_itself_has_no_error_and_twice_its_amplitude_has_six_decib
     assert twice["lsd_db"] == pytest.approx(6.02, abs=0.1)
 
 
-def test_the_spectral_distance_ignores_frequencies_above_450_hz(case: FewShotCase) -> None:
-    condition = case.conditions[3]
-    loud = 3.0 * float(np.std(condition.recorded))
-    beyond = condition.recorded + loud * np.sin(2.0 * np.pi * 800.0 * np.arange(len(condition.recorded)) / 2000.0)
-    assert condition_figures(condition, beyond)["lsd_db"] < 0.5
-
-
 def cell(level: float, gfc: float = 0.99, lsd: float = 1.0) -> dict[str, float]:
     return {
         "level_error_db": level, "gfc": gfc, "lsd_db": lsd, "kurtosis_log_ratio": -0.2, "crest_log_ratio": 0.1,
         "modulation_error_db": 1.0,
     }  # fmt: skip
-
-
-def test_level_errors_count_by_magnitude_and_intervals_come_from_materials() -> None:
-    summary = summarised([[cell(-2.0), cell(2.0)], [cell(1.0), cell(-1.0)], [cell(3.0), cell(-3.0)]])
-    assert summary["level_error_median_db"]["value"] == 2.0
-    low, high = summary["level_error_median_db"]["interval"]
-    assert 1.0 <= low < 2.0 < high <= 3.0
-    assert summary["kurtosis_log_ratio"]["value"] == 0.2
-    assert "rib_fundamental_error_percent" not in summary
-    alike = summarised([[cell(1.0)], [cell(1.0)]])
-    assert alike["level_error_p90_db"]["interval"] == [1.0, 1.0]
 
 
 def stored(material: str, ruled: bool) -> dict[str, object]:
@@ -190,49 +152,6 @@ def test_a_surface_in_the_published_form_has_the_level_and_the_spectrum_of_its_l
     assert filtered_surfaces(2, 2026)[0].label == "filtered-01"
 
 
-def test_a_case_in_the_published_form_has_the_strokes_of_a_plain_material() -> None:
-    case = make_filtered_case(filtered_surfaces(1, 2026)[0], 2026, 10.0)
-    assert [ride.label for ride in case.rides] == ["filtered-01", "filtered-01"]
-    assert len(case.conditions) == 6
-    for condition in case.conditions:
-        assert abs(np.corrcoef(condition.recorded, condition.other_draw)[0, 1]) < 0.1
-        assert np.std(condition.recorded) == pytest.approx(np.std(condition.other_draw), rel=0.15)
-
-
-def test_the_page_counts_in_how_many_materials_learning_is_ahead() -> None:
-    better, worse = stored("a", False), stored("b", False)
-    better["rows"]["learn 10"] = [cell(0.5, lsd=0.5)]  # type: ignore[index]
-    worse["rows"]["learn 10"] = [cell(3.0, lsd=3.0)]  # type: ignore[index]
-    results = assembled([better, worse, {**worse, "filtered": True}], {"model_sha256": "0" * 64, "seconds": [10.0]})
-    assert "| of the recorder, 2 | 1 / 1 |" in ahead_table(results)
-    assert "| in the published form, 1 | 0 / 0 |" in ahead_table(results)
-
-
-def test_the_page_counts_found_and_false_ribs_for_each_length_of_recording() -> None:
-    ruled, plain = stored("a", True), stored("b", False)
-    ruled["notes"]["ribs"] = {f"{seconds:g}": [1, 0] for seconds in SECONDS}  # type: ignore[index]
-    plain["notes"] |= {"families": 0, "ribs": {"5": [0, 0], "10": [0, 1], "20": [0, 0], "60": [0, 2]}}  # type: ignore[operator]
-    words = page_words(assembled([ruled, plain], {"model_sha256": "0" * 64, "seconds": list(SECONDS)}), "chart.png")
-    assert "| with ribs, 1 | 1 / 1 / 0 | 1 / 1 / 0 | 1 / 1 / 0 | 1 / 1 / 0 |" in words
-    assert "| without ribs, 1 | 0 / 0 / 0 | 0 / 0 / 1 | 0 / 0 / 0 | 0 / 0 / 2 |" in words
-
-
-def test_ribs_count_as_found_in_the_material_s_own_frame() -> None:
-    # Jute's families lie along x, 2 mm apart, and along y, 1.7 mm apart; the material is turned by 90 degrees.
-    jute = next(material for material in load_materials() if material.label == "jute")
-    found = [{"x_cycles_per_mm": 1 / 1.7, "y_cycles_per_mm": 0.0}, {"x_cycles_per_mm": 0.0, "y_cycles_per_mm": 0.5}]
-    assert rib_counts(jute, found, 90.0) == (2, 0)
-    assert rib_counts(jute, found, 0.0) == (0, 2)
-    assert rib_counts(jute, found[:1], 90.0) == (1, 0)
-    assert rib_counts(jute, [], 0.0) == (0, 0)
-
-
-def test_a_motion_in_the_material_s_frame_crosses_the_ribs_as_before() -> None:
-    vector, velocity, angle = np.array([[-0.3, 0.4]]), np.array([[0.3, -0.1]]), np.degrees(np.arctan2(0.4, -0.3))
-    assert turned_vectors(vector, angle)[0] == pytest.approx([0.5, 0.0])
-    assert turned_vectors(vector, angle)[0] @ turned_vectors(velocity, angle)[0] == pytest.approx((vector @ velocity.T).item())
-
-
 @pytest.mark.parametrize(
     ("option", "name", "said"),
     [
@@ -262,4 +181,81 @@ def test_the_published_table_is_that_of_the_published_results() -> None:
     results = json.loads(RESULTS.read_text(encoding="utf-8"))
     page = PAGE.read_text(encoding="utf-8")
     assert len(results["materials"]) >= 10
-    assert with_measured_words(page, page_words(results, "../../../Documentation~/images/few-shot.png")) == page
+    assert with_measured_words(page, page_words(results, "images/few-shot.png")) == page
+
+
+FLAT = LevelTable((0.1,), (0.0,), 1.0, 0.0, 0.0)
+
+
+def motion_of(speed_mps: np.ndarray, force_newtons: float | np.ndarray = 1.0) -> np.ndarray:
+    force = np.broadcast_to(force_newtons, speed_mps.shape)
+    return np.stack([speed_mps, np.zeros_like(speed_mps), force], axis=1).astype(np.float32)
+
+
+def recorded(wave: np.ndarray, motion: np.ndarray) -> MaterialRecording:
+    return MaterialRecording("", "", wave.astype(np.float32), motion[:, :2], motion[:, 2], "", "")
+
+
+def swept(seconds: float, low: float = 0.02, high: float = 0.2, period: float = 2.5) -> np.ndarray:
+    time = np.arange(int(2000 * seconds)) / 2000.0
+    return np.exp(np.interp(np.sin(2.0 * np.pi * time / period), [-1.0, 1.0], np.log([low, high])))
+
+
+def test_the_autoregressive_rival_recovers_an_autoregressive_spectrum() -> None:
+    rng = np.random.default_rng(12)
+    speed = swept(10.0)
+    wave = lfilter([1.0], [1.0, -1.6, 0.9], rng.standard_normal(len(speed)))
+    wave /= np.sqrt(np.mean(wave**2))
+    rival = fit_autoregressive([recorded(wave, motion_of(speed))], FLAT, 3)
+    assert len(rival.filters) == 3
+    made = rival.render(motion_of(np.full(20000, 0.06)), 1)
+    assert np.sqrt(np.mean(made**2)) == pytest.approx(1.0, abs=0.15)
+    ratio = 10.0 * np.log10(power_spectrum(made, 256)[3:100] / power_spectrum(wave, 256)[3:100])
+    assert np.sqrt(np.mean(ratio**2)) < 1.0
+
+
+HEADING = "## A new material from ten seconds, in Python"
+
+PROGRAMS = {"haptoflow-benchmark": benchmark.main, "haptoflow-paper": paper.main, "haptoflow-training": training.main}
+
+
+def commands() -> list[list[str]]:
+    """The words of each command on the page, its program first."""
+    section = PAGE.read_text(encoding="utf-8").split(HEADING, 1)[1].split("\n## ", 1)[0]
+    blocks = re.findall(r"^```\n(.*?)^```", section, re.DOTALL | re.MULTILINE)
+    lines = [line.split() for block in blocks for line in block.splitlines()]
+    return [words for words in lines if words[:1] and words[0] in PROGRAMS]
+
+
+def test_every_command_of_the_page_runs_and_writes_what_it_names(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    csv_one_axis(tmp_path, "doormat", "doormat", stroke(4.0))
+    (tmp_path / "default.haptoflow").symlink_to(DEFAULT)
+    work = tmp_path / "work"
+    work.mkdir()
+    made = {name: {**stored(name, False), "filtered": name == "filtered-01"} for name in ("unseen-01", "filtered-01")}
+    for name, cells in made.items():
+        (work / f"{name}.json").write_text(json.dumps(cells), encoding="utf-8")
+    trained = {name: cells["rows"]["learn 10"] for name, cells in made.items()}
+    for seconds in SECONDS:
+        (work / f"trained-{seconds:g}.json").write_text(json.dumps(trained), encoding="utf-8")
+    ran = set()
+    for program, *words in commands():
+        quick = {
+            "add-material": ["--seconds-limit", "1"],
+            "sliders": [],
+            "measure-wave-vectors": ["--every", "60"],
+            # The slow cells are stored already.
+            "few-shot": ["--materials", "1", "--work", str(work)],
+        }[words[0]]
+        assert PROGRAMS[program]([*words, *quick]) == 0, words
+        ran.add(words[0])
+        for before, named in zip(words[:-1], words[1:], strict=True):
+            if before in ("-o", "--results", "--chart"):
+                assert (tmp_path / named).stat().st_size > 0
+    assert ran == {"add-material", "sliders", "few-shot", "measure-wave-vectors"}
+    assert (tmp_path / "doormat.haptomaterial").exists()
+    assert "trained 10" in (tmp_path / "few-shot.json").read_text(encoding="utf-8")
+    assert "learn 10" in (tmp_path / "few-shot.json").read_text(encoding="utf-8")

@@ -6,7 +6,10 @@ from typing import Any
 
 import pytest
 
+from haptoflow_paper.metrics.judged_figures import BY_KEY, spread
+from haptoflow_paper.report.accuracy_time import rivals, verdict
 from haptoflow_paper.report.goals import Goal, judge
+from haptoflow_paper.rows.row_summary import summary, with_interval
 
 _FAST = {"level_error_db": -0.5, "gfc_recording": 0.986, "lsd_db": 2.0}
 
@@ -103,54 +106,6 @@ def test_a_figure_beyond_its_limit_misses_its_goal(part: str, figure: str, value
     assert [goal.what for goal in goals if goal.holds is False] == [_named(goals, beginning).what]
 
 
-@pytest.mark.parametrize("part", ["cells", "special"])
-def test_a_figure_without_cells_is_neither_met_nor_missed(part: str) -> None:
-    table = _table()
-    standard = table["rows"][0]
-    standard[part] = dict.fromkeys(standard[part])
-    unjudged = [goal for goal in judge(table) if goal.measured == "not measured"]
-    assert len(unjudged) >= 4 and all(goal.holds is None for goal in unjudged)
-
-
-def test_a_rival_that_wins_in_one_figure_is_named_with_that_figure() -> None:
-    table = _table()
-    table["rows"][4]["verdict"] = {"level_error_db": "behind", "lsd_db": "ahead"}
-    goal = _named(judge(table), "behind a rival, given the same")
-    assert goal.holds is False and goal.measured == "ahead 1, even 0, behind 1: ar-ribs in level"
-    assert _named(judge(table), "behind a rival, as published").holds is True
-
-
-def test_a_network_that_is_not_ahead_of_a_faster_tier_everywhere_misses_its_goal_with_the_figures_named() -> None:
-    table = _table()
-    table["rows"][2]["verdict"] = {**_EARNED, "lsd_db": "even", "kurtosis_log_ratio": "behind"}
-    goal = _named(judge(table), "standard ahead of sketch")
-    assert goal.holds is False and goal.measured == "in GFC, told apart, modulation by ribs"
-    assert _named(judge(table), "standard ahead of draft").holds is True
-    table["rows"][2]["verdict"] = dict.fromkeys(_EARNED, "even")
-    assert _named(judge(table), "standard ahead of sketch").measured == "in none"
-
-
-@pytest.mark.parametrize(("row", "lsd_db", "told"), [("draft", 1.06, 63.0), ("sketch", 1.21, 69.0)])
-def test_a_faster_tier_has_goals_of_its_own(row: str, lsd_db: float, told: float) -> None:
-    table = _table()
-    figures = next(entry for entry in table["rows"] if entry["name"] == row)
-    figures["lsd_db"], figures["told_apart_percent"]["median"] = lsd_db, told
-    missed = [goal.what for goal in judge(table) if goal.holds is False]
-    assert missed == [f"LSD of {row}, dB", f"told apart, {row}, median label, %"]
-
-
-def test_goals_of_time_are_ratios_in_one_run_hot_and_at_live_pace() -> None:
-    table = _table()
-    table["rows"][0]["ms_paced"] = {"p50": 2.0, "p99": 2.0}
-    slow = _named(judge(table), "times faster than the paper's sizes, at live pace: standard")
-    assert slow.holds is False and slow.measured == "16"
-    assert _named(judge(table), "times faster than the paper's sizes, hot: standard").holds is True
-
-
-def test_a_file_above_twelve_mebibytes_misses_its_goal() -> None:
-    assert _named(judge({**_table(), "model_bytes": 13 * 2**20}), "size of the model file").holds is False
-
-
 def test_missing_rows_leave_their_goals_unjudged() -> None:
     alone = judge({"rows": [row for row in _table()["rows"] if row["name"] == "standard"]})
     for beginning in (
@@ -161,3 +116,48 @@ def test_missing_rows_leave_their_goals_unjudged() -> None:
         goal = _named(alone, beginning)
         assert goal.measured == "not measured" and goal.holds is None
     assert judge({"rows": []}) == []
+
+
+def _test_verdicts_row(name: str, rival: str, level: float, lsd: float, level_verdict: str, lsd_verdict: str) -> dict[str, Any]:
+    values = {"level_error_db": level, "lsd_db": lsd}
+    spreads = {key: {"median": value, "p90": value, "worst": value} for key, value in values.items()}
+    return {
+        "name": name, "rival": rival, "block": "as-published", "cells": spreads,
+        "verdict": {"level_error_db": level_verdict, "lsd_db": lsd_verdict},
+    }  # fmt: skip
+
+
+def test_solver_variants_of_one_network_are_one_rival_by_its_best_row_in_each_figure() -> None:
+    rows = [
+        _test_verdicts_row("plain-1", "plain", 8.0, 3.0, "ahead", "even"), _test_verdicts_row("plain-16", "plain", 1.0, 5.0, "behind", "ahead"),
+        _test_verdicts_row("ar", "AR", 1.0, 1.0, "even", "behind"),
+    ]  # fmt: skip
+    plain, ar = rivals(rows, ("as-published",))
+    assert plain.by_figure == {"level_error_db": "behind", "lsd_db": "even"}
+    assert plain.variants == {"level_error_db": "plain-16", "lsd_db": "plain-1"}
+    assert ar.figures("behind") == ["lsd_db"] and rivals(rows, ("given-the-same",)) == []
+
+
+def test_a_spread_is_over_magnitudes_and_uses_the_low_side_of_a_share() -> None:
+    values = {-4.0: 1.0, 1.0: 0.9, 2.0: 0.8, -3.0: 0.7, 0.0: 0.6}
+    cells = [{"label": "a", "crest_error_db": crest, "rib_coherence": share} for crest, share in values.items()]
+    assert spread(cells, BY_KEY["crest_error_db"]) == pytest.approx({"median": 2.0, "p90": 3.6, "worst": 4.0})
+    assert spread(cells, BY_KEY["rib_coherence"]) == pytest.approx({"median": 0.8, "p90": 0.64, "worst": 0.6})
+    assert spread(cells, BY_KEY["modulation_error_db"]) is None
+
+
+def test_a_summary_takes_the_median_over_labels_and_its_interval_covers_it() -> None:
+    cells = [
+        {"label": label, "kind": "constant", "speed_mps": 0.1, "force_newtons": 1.0, "direction_degrees": 0.0,
+         "crossing_degrees": 0.0, "seed": 1, "level_error_db": error, "gfc_recording": 0.9 + 0.01 * error}
+        for label, errors in {"a": (0.0, 2.0), "b": (3.0, 5.0), "c": (-9.0, -7.0)}.items()
+        for error in errors
+    ]  # fmt: skip
+    figures = summary(cells)
+    assert figures["level_error_db"] == pytest.approx(1.0) == with_interval(cells, "level_error_db")[0]
+    assert figures["level_error_worst_db"] == 9.0 and figures["level_error_p90_db"] == pytest.approx(8.0)
+    assert figures["gfc_label_worst"] == pytest.approx(0.82)
+    low, high = figures["level_error_db_interval"]
+    assert low <= 1.0 <= high and high > low
+    assert figures["continuity"] is None and figures["f0_error_percent"] is None
+    assert summary([]) == {}

@@ -12,12 +12,11 @@ import torch
 from numpy.typing import NDArray
 from own_samples import csv_one_axis, stroke, write_table
 
-from haptoflow_benchmark.own_model.beside_learning import verdict
-from haptoflow_benchmark.own_model.own_accuracy import LabelAccuracy
+from haptoflow_benchmark.own_accuracy import LabelAccuracy, verdict
 from haptoflow_training import cli
 from haptoflow_training.export.grown_model import without_labels
 from haptoflow_training.export.model_file import ModelFile, model_space, read_model_file
-from haptoflow_training.export.model_weights import skeleton_weights
+from haptoflow_training.export.skeleton_tensors import skeleton_weights
 from haptoflow_training.fewshot.learning import MaterialWords, learn_material
 from haptoflow_training.model_stamp import SHIPPED_MODEL
 from haptoflow_training.recordings.own_files import read_own
@@ -101,14 +100,6 @@ def test_ribs_are_turned_as_learning_turns_them(grown: Path) -> None:
     assert math.remainder(turned["rack"] - learnt.report["turn_degrees"], 180.0) == pytest.approx(0.0, abs=1.0)
     row = next(label["embedding_row"] for label in file.header["labels"] if label["name"] == "rack")
     assert file.tensors["embedding"][row, -4:] == pytest.approx([1.0 / 1.6, 0.0, 0.0, 0.0], abs=0.01)
-
-
-def test_a_run_goes_on_from_a_file_only_with_a_skeleton(grown: Path, tmp_path: Path) -> None:
-    field = tmp_path / "field.toml"
-    text = 'name = "f"\n[data]\nsource = "folders"\n[model]\nnetwork = "field"\n[optimiser]\nsteps = 2\n'
-    field.write_text(text, encoding="utf-8")
-    words = ["--recordings", str(grown / "recordings"), "--labels", str(grown / "labels.toml"), "--config", str(field)]
-    assert cli.main(["train", *words, "--out", str(tmp_path / "run"), "--from", str(SHIPPED)]) == 3
 
 
 def test_a_label_with_too_little_to_fit_level_and_tone_is_named(

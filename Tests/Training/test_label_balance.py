@@ -2,17 +2,30 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
+from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 import torch
 
+from haptoflow_paper.runs.flow_matching import flow_matching_loss, solve
+from haptoflow_paper.runs.trainer import EvaluatedTrainer
+from haptoflow_training.errors import InputError
+from haptoflow_training.export.trained_tier import load_tiers, tier_of
 from haptoflow_training.models.rib_comb import PARTIALS
-from haptoflow_training.training.energy_distance import spectra
+from haptoflow_training.training.batches import SegmentBatch, SegmentBatches
+from haptoflow_training.training.config import BatchConfig, ModelConfig, RecipeConfig
+from haptoflow_training.training.energy_distance import energy_distance_loss, envelopes, spectra
 from haptoflow_training.training.label_balance import LabelBalance, LabelFeatures, label_features
+from haptoflow_training.training.losses import Losses
+from haptoflow_training.training.trainer import Trainer, build_model, load_trained, planned_steps
+from paper_samples import field_config
+from test_trainer import ALONE, _config
+from training_fixtures import make_store
 
 ROWS = 32
-_BANDS = slice(101 + PARTIALS, 101 + PARTIALS + 8)
 _MOMENTS = slice(101 + PARTIALS + 8, None)
 
 
@@ -88,24 +101,6 @@ def test_labels_and_speeds_are_averaged_separately_and_too_few_segments_give_no_
     assert loss(label[:4], 0.9, 2.0) == 0.0
 
 
-def test_noise_between_the_lines_of_a_ruled_surface_is_measured_separately() -> None:
-    generator = torch.Generator().manual_seed(4)
-    time = torch.arange(400) / 2000.0
-    lines = sum(torch.sin(2.0 * math.pi * 100.0 * order * time) for order in range(1, 9)).expand(64, 400)
-    noise = 0.05 * torch.randn(64, 400, generator=generator)
-
-    def between(wave: torch.Tensor) -> torch.Tensor:
-        features = _features(wave, (100.0, 0.0))
-        assert features.counted[:, _BANDS].min() == 1.0
-        return features.values[:, _BANDS].mean(dim=0)
-
-    ratio = between(lines + 2.0 * noise) / between(lines + noise)
-    assert ratio.min().item() > 1.6
-    louder = between(2.0 * lines + noise) / between(lines + noise)
-    assert louder.max().item() < 1.3
-    assert _features(noise, (30.0, 0.0)).counted[:, _BANDS].max() == 0.0, "lines too close for the window"
-
-
 def test_rare_impacts_differ_from_noise_of_equal_power_in_their_moments_and_their_rate_can_be_learnt() -> None:
     generator = torch.Generator().manual_seed(5)
 
@@ -129,11 +124,212 @@ def test_rare_impacts_differ_from_noise_of_equal_power_in_their_moments_and_thei
     assert share.item() == pytest.approx(0.6, abs=0.12)
 
 
-def test_a_restored_balance_continues_from_the_saved_state() -> None:
-    label, flat = torch.zeros(ROWS, dtype=torch.long), torch.ones(ROWS, 201)
-    balances = LabelBalance(1), LabelBalance(1)
-    waves = [_noise(torch.Generator().manual_seed(seed), flat) for seed in range(3)]
-    _heard(balances[0], label, 0.2, *waves)
-    balances[1].restore({name: sums.clone() for name, sums in balances[0].state().items()})
-    losses = [_heard(balance, label, 0.2, *waves).item() for balance in balances]
-    assert losses[0] == losses[1] != 0.0
+def test_the_loss_is_zero_for_the_true_velocity() -> None:
+    target = torch.full((8, 1, 200), 2.0)
+
+    def field(state: torch.Tensor, time: torch.Tensor) -> torch.Tensor:
+        return (target - state) / (1.0 - time.unsqueeze(-1))
+
+    assert flow_matching_loss(field, target, torch.Generator().manual_seed(0)).item() < 1e-6
+
+
+def test_the_loss_of_a_zero_field_is_the_power_of_target_and_noise() -> None:
+    target = torch.full((512, 1, 200), 3.0)
+    loss = flow_matching_loss(lambda state, time: torch.zeros_like(state), target, torch.Generator().manual_seed(0))
+    assert loss.item() == pytest.approx(10.0, rel=0.02)
+
+
+@pytest.mark.parametrize(("kind", "order"), [("euler", 1), ("midpoint", 2), ("heun", 2)])
+def test_a_solver_converges_with_its_order(kind: str, order: int) -> None:
+    def field(state: torch.Tensor, time: torch.Tensor) -> torch.Tensor:
+        return -1.5 * state + time.unsqueeze(-1)
+
+    start = torch.full((1, 1, 1), 0.7, dtype=torch.float64)
+    # x' = -1.5 x + t, so x(1) = (x0 + 1/2.25) exp(-1.5) + 1/1.5 - 1/2.25.
+    exact = (0.7 + 1 / 2.25) * math.exp(-1.5) + 1 / 1.5 - 1 / 2.25
+    coarse = abs(solve(field, start, kind, 8).item() - exact)
+    fine = abs(solve(field, start, kind, 16).item() - exact)
+    assert math.log2(coarse / fine) == pytest.approx(order, abs=0.2)
+
+
+def _test_recipes_noise(count: int, samples: int, seed: int) -> torch.Tensor:
+    return torch.randn(count, samples, generator=torch.Generator().manual_seed(seed))
+
+
+def _loss(recorded: torch.Tensor, past: torch.Tensor, drawn: tuple[torch.Tensor, torch.Tensor], *, own: bool) -> float:
+    heard = [spectra(past, segment) for segment in (recorded, *drawn)]
+    nothing = torch.zeros(len(past), 2, PARTIALS)
+    return energy_distance_loss(
+        heard[0],
+        (heard[1], heard[2]),
+        torch.ones(len(past)),
+        waves=None if own else (recorded, *drawn),
+        lines=(nothing, nothing, nothing),
+        envelopes=tuple(envelopes(past, segment) for segment in (recorded, *drawn)),
+    ).item()
+
+
+def _energy(draw: Callable[[int], torch.Tensor]) -> float:
+    return _loss(_test_recipes_noise(256, 200, 1), _test_recipes_noise(256, 200, 2), (draw(3), draw(4)), own=False)
+
+
+def test_the_energy_distance_prefers_the_true_process_to_its_mean_to_a_copy_of_one_draw_and_to_a_wrong_level() -> None:
+    true = _energy(lambda seed: _test_recipes_noise(256, 200, seed))
+    assert true < _energy(lambda seed: torch.zeros(256, 200)) - 0.1, "the conditional mean"
+    assert true < _energy(lambda seed: _test_recipes_noise(256, 200, 3)) - 0.1, "no variety"
+    for gain in (0.8, 1.25):
+        assert true < _energy(lambda seed: gain * _test_recipes_noise(256, 200, seed)) - 0.005, f"level times {gain}"
+
+
+def test_the_energy_distance_prefers_a_continued_tone_to_a_restarted_one() -> None:
+    phase = 2.0 * math.pi * torch.rand(64, 1, generator=torch.Generator().manual_seed(1))
+    time = torch.arange(400)
+    tone = math.sqrt(2.0) * torch.sin(2.0 * math.pi * 0.07 * time + phase)
+    past, going_on = tone[:, :200], tone[:, 200:]
+    anew = going_on.roll(7, dims=0)
+    losses = [_loss(going_on, past, (made, made), own=own) for own in (False, True) for made in (going_on, anew)]
+    assert losses[0] < losses[1] - 0.3
+    assert losses[2] < losses[3] - 0.1, "own past: by spectra alone"
+
+
+def _blows(seed: int, rate: float) -> torch.Tensor:
+    """[256, 200] of noise power 1: even for rate 1, in a share `rate` of the samples for less."""
+    generator = torch.Generator().manual_seed(seed)
+    noise = torch.randn(256, 200, generator=generator)
+    return noise * (torch.rand(256, 200, generator=generator) < rate) / rate**0.5
+
+
+@pytest.mark.parametrize("rate", [0.01, 0.1, 0.4])
+def test_the_energy_distance_prefers_impacts_at_the_recorded_rate(rate: float) -> None:
+    recorded, past = _blows(1, rate), torch.zeros(256, 200)
+
+    def loss(drawn_rate: float) -> float:
+        return _loss(recorded, past, (_blows(2, drawn_rate), _blows(3, drawn_rate)), own=True)
+
+    assert loss(rate) < loss(1.0) - 0.05
+    assert loss(rate) < loss(0.3 * rate) - 0.02
+
+
+def test_rendering_a_chain_appends_each_generated_hop() -> None:
+    store = make_store()
+    model = build_model(_config(), [(), ()]).eval()
+    losses = Losses(model)
+    chain = SegmentBatches(store, "train", BatchConfig(chain_hops=(2, 2)), 4).draw_chains(3).chain
+    assert chain is not None
+    embedding = model.embedding(torch.tensor([0, 1, 0])).detach()
+    lived = losses.render_chain(chain, embedding, "energy", torch.Generator().manual_seed(1))
+    generator = torch.Generator().manual_seed(1)
+
+    def hop(number: int, previous: torch.Tensor) -> torch.Tensor:
+        where = chain.motion[:, number], chain.position_mm[:, number], chain.wander[:, number]
+        return losses.generate(previous, embedding, *where, "energy", generator)[:, :, : chain.hop_samples]
+
+    first = hop(0, chain.start)
+    kept = torch.cat([chain.start[:, :, chain.hop_samples :], first], dim=2)
+    second = hop(1, kept)
+    torch.testing.assert_close(lived, torch.cat([kept[:, :, chain.hop_samples :], second], dim=2))
+
+
+RECIPES = {
+    "flow and self-forcing": ({"self_forcing_steps": 4}, "flow"),
+    "average velocity": ({"objective": "average-velocity", "self_forcing_steps": 4}, "average-velocity"),
+    "reflow": ({"reflow_steps": 6, "reflow_pairs": 600}, "flow"),
+    "energy and self-forcing": ({"energy_steps": 6, "energy_batch_size": 6, "self_forcing_steps": 4}, "direct"),
+}
+
+
+@pytest.mark.parametrize("name", RECIPES)
+def test_a_recipe_runs_through_its_phases_and_states_its_tier_kind(name: str, tmp_path: Path) -> None:
+    recipe, kind = RECIPES[name]
+    config = field_config(steps=10, recipe=recipe)
+    EvaluatedTrainer(config, make_store(), tmp_path, ALONE).run()
+    rows = (tmp_path / "metrics.csv").read_text(encoding="utf-8").splitlines()
+    assert len({row.split(",")[1] for row in rows[1:]}) == len(planned_steps(config))
+    tier = tier_of(*load_trained(tmp_path))
+    assert tier.kind == kind
+    condition = torch.zeros(3, 1, 200), torch.randn(3, 64), torch.rand(3, 3), torch.rand(3, 6)
+    made = tier.generate(torch.randn(3, 1, 200), condition, tier.solver, tier.steps)
+    assert made.shape == (3, 1, 200) and torch.isfinite(made).all()
+
+
+def test_a_further_tier_keeps_the_level_and_embedding_of_its_base(tmp_path: Path) -> None:
+    store = make_store()
+    Trainer(_config(steps=5), store, tmp_path / "base", ALONE).run()
+    refinement = ModelConfig(network="refinement", hidden=8, width=8, previous_width=4, levels=1)
+    recipe = RecipeConfig(shares_base=True)
+    config = dataclasses.replace(_config(steps=5), tier="draft", model=refinement, recipe=recipe)
+    Trainer(config, store, tmp_path / "draft", ALONE, tmp_path / "base").run()
+    tiers = load_tiers([tmp_path / "base", tmp_path / "draft"])
+    assert [tier.name for tier in tiers] == ["draft", "standard"]
+    assert torch.equal(tiers[0].model.embedding.weight, tiers[1].model.embedding.weight)
+
+
+def test_tiers_that_share_no_level_are_refused(tmp_path: Path) -> None:
+    store = make_store()
+    for tier, seed in (("standard", 1), ("draft", 2)):
+        Trainer(dataclasses.replace(_config(steps=5), tier=tier, seed=seed), store, tmp_path / tier, ALONE).run()
+    with pytest.raises(InputError, match="--base"):
+        load_tiers([tmp_path / "standard", tmp_path / "draft"])
+
+
+def test_a_further_round_begins_with_the_averaged_weights_of_the_run_it_goes_on_from(tmp_path: Path) -> None:
+    store = make_store()
+    Trainer(_config(steps=5), store, tmp_path / "first", ALONE).run()
+    begun = Trainer(_config(steps=5), store, tmp_path / "second", ALONE, start=tmp_path / "first")
+    first = load_trained(tmp_path / "first")[2].state_dict()
+    for weights in (begun.model.state_dict(), begun.averaged_model.state_dict()):
+        assert all(torch.equal(value, first[name]) for name, value in weights.items())
+
+
+def test_a_layer_with_more_outputs_keeps_the_old_ones_and_initialises_the_new_ones(tmp_path: Path) -> None:
+    store = make_store()
+    Trainer(_config(steps=5), store, tmp_path / "first", ALONE).run()
+    content = torch.load(tmp_path / "first" / "checkpoint.pt")
+    weights = content["average"]["module"]
+    kept = weights["skeleton.perceptron.layers.4.bias"][:260].clone()
+    weights["skeleton.perceptron.layers.4.bias"], weights["skeleton.perceptron.layers.4.weight"] = kept, weights["skeleton.perceptron.layers.4.weight"][:260]
+    torch.save(content, tmp_path / "first" / "checkpoint.pt")
+    torch.manual_seed(1)
+    built = build_model(_config(), [()] * 2).state_dict()["skeleton.perceptron.layers.4.bias"]
+    begun = Trainer(_config(), store, tmp_path / "second", ALONE, start=tmp_path / "first").model.state_dict()
+    assert torch.equal(begun["skeleton.perceptron.layers.4.bias"][:260], kept)
+    assert torch.equal(begun["skeleton.perceptron.layers.4.bias"][260:], built[260:])
+
+
+def test_a_further_round_refuses_runs_with_other_shapes_or_labels(tmp_path: Path) -> None:
+    store = make_store()
+    Trainer(_config(steps=5), store, tmp_path / "first", ALONE).run()
+    wide = dataclasses.replace(_config(), model=ModelConfig(hidden=16))
+    with pytest.raises(InputError, match=r"--from .*'skeleton\..*does not fit"):
+        Trainer(wide, store, tmp_path / "second", ALONE, start=tmp_path / "first")
+    content = torch.load(tmp_path / "first" / "checkpoint.pt")
+    torch.save({**content, "labels": ["tone", "hiss"]}, tmp_path / "first" / "checkpoint.pt")
+    with pytest.raises(InputError, match="--from .*hiss"):
+        Trainer(_config(), store, tmp_path / "second", ALONE, start=tmp_path / "first")
+    with pytest.raises(InputError, match="train first"):
+        Trainer(_config(), store, tmp_path / "second", ALONE, start=tmp_path / "nowhere")
+
+
+@pytest.mark.parametrize(("energy_steps", "chains"), [(4, 3), (0, 6)])
+def test_self_forcing_uses_every_second_batch_after_the_energy_distance_and_every_batch_without(
+    energy_steps: int, chains: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    drawn: list[int] = []
+    draw_chains = SegmentBatches.draw_chains
+
+    def counted(batches: SegmentBatches, count: int) -> SegmentBatch:
+        drawn.append(count)
+        return draw_chains(batches, count)
+
+    monkeypatch.setattr(SegmentBatches, "draw_chains", counted)
+    recipe = RecipeConfig(energy_steps=energy_steps, energy_batch_size=8, self_forcing_steps=6)
+    Trainer(dataclasses.replace(_config(steps=2), recipe=recipe), make_store(), tmp_path, ALONE).run()
+    assert drawn == [8] * chains
+
+
+def test_pairs_of_held_out_bands_are_not_drawn() -> None:
+    config = BatchConfig(held_out_speed_mps=(0.05, 0.1))
+    batch = SegmentBatches(make_store(recordings_per_split=6), "train", config, 6).draw(2000)
+    speed = batch.motion_path[:, 0, :2].square().sum(dim=1).sqrt()
+    share = ((speed >= 0.05) & (speed < 0.1)).float().mean().item()
+    assert share < 0.002, "a fifth of all pairs lies there otherwise"

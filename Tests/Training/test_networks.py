@@ -2,18 +2,28 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
+import re
+from pathlib import Path
 
+import onnx
 import pytest
 import torch
-from torch import Tensor
 
-from haptoflow_training.models.band_limit import BandLimit
+from haptoflow_paper.codec.representation import CodecRepresentation, build_representation
+from haptoflow_paper.codec.small_codec import SmallCodec, SmallCodecShape
+from haptoflow_paper.rivals import ARCHITECTURES
+from haptoflow_paper.runs.tier import export_level_model, network_graph
+from haptoflow_paper.runs.velocity_field import IMPULSE_GAINS as GAINS
+from haptoflow_paper.runs.velocity_field import BandLimit, RungImpulses, VelocityField
+from haptoflow_training.export.trained_tier import tier_of
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE, MotionFeatures
-from haptoflow_training.models.level_model import LevelModel, level_loss, unit_scale
-from haptoflow_training.models.patch_unet import FilmBlock
-from haptoflow_training.models.velocity_field import VelocityField, parameter_count
-
+from haptoflow_training.models.level_model import LevelModel, level_loss
+from haptoflow_training.models.rung_impulses import ATOMS, RUNGS, TAIL_RUNGS, TAPS, TailImpulses
+from haptoflow_training.training.config import TrainingConfig, load_config
+from haptoflow_training.training.trainer import build_model
+from paper_samples import evaluated
 
 def _inputs(batch: int, channels: int = 1, positions: int = 200) -> dict[str, torch.Tensor]:
     generator = torch.Generator().manual_seed(5)
@@ -71,27 +81,6 @@ def test_rows_of_a_batch_are_independent() -> None:
     torch.testing.assert_close(field(**inputs)[2:3], alone, rtol=1e-4, atol=1e-5)
 
 
-def test_positions_that_do_not_divide_into_patches_are_refused() -> None:
-    with pytest.raises(ValueError, match="200 positions .* 7"):
-        VelocityField(patch=7)
-
-
-def test_one_level_is_a_third_of_the_blocks() -> None:
-    blocks = [
-        sum(isinstance(module, FilmBlock) for module in VelocityField(width=32, levels=levels).modules()) for levels in (1, 2)
-    ]
-    assert blocks == [1, 3]
-
-
-def test_another_number_of_levels_is_refused() -> None:
-    with pytest.raises(ValueError, match="levels: 1 or 2, not 3"):
-        VelocityField(levels=3)
-
-
-def test_the_default_field_has_about_half_a_million_parameters() -> None:
-    assert 0.4e6 < parameter_count(VelocityField()) < 0.7e6
-
-
 def test_motion_features_are_finite_from_rest_to_twenty_metres_a_second() -> None:
     motion = torch.tensor([[0.0, 0.0, 0.0], [20.0, 0.0, 1000.0], [-1e-9, 1e-9, -3.0]])
     module = MotionFeatures()
@@ -126,46 +115,6 @@ def test_the_level_model_learns_a_power_law_of_speed_and_force() -> None:
     assert error_decibels.max() < 0.7, error_decibels
 
 
-def test_the_level_of_a_mesh_is_known_in_a_direction_that_was_left_out() -> None:
-    torch.manual_seed(0)
-    model = LevelModel()
-    embedding = torch.randn(1, EMBEDDING_SIZE)
-    embedding[0, -4:] = torch.tensor([0.7, 0.0, 0.0, 0.7])
-
-    def log_level(motion: Tensor) -> Tensor:
-        """Threads that sound louder the faster the second family is crossed."""
-        return 0.8 * torch.log(0.01 + motion[:, 0:1].abs() + 3.0 * motion[:, 1:2].abs())
-
-    optimiser = torch.optim.Adam(model.parameters(), lr=3e-3)
-    for _ in range(600):
-        angle = math.radians(45.0) * torch.randint(6, 13, (96,))
-        speed = 0.02 * 30.0 ** torch.rand(96)
-        motion = torch.stack([speed * angle.cos(), speed * angle.sin(), torch.ones(96)], dim=1)
-        loss = level_loss(model(embedding.expand(96, -1), motion), (2.0 * log_level(motion)).exp())
-        optimiser.zero_grad()
-        loss.backward()
-        optimiser.step()
-    left_out = torch.tensor([[-0.05, -0.05, 1.0], [-0.2, -0.2, 1.0]])
-    error_decibels = 8.686 * (model(embedding.expand(2, -1), left_out) - log_level(left_out)).abs()
-    assert error_decibels.max() < 0.7, error_decibels
-
-
-def test_unit_scale_divides_by_the_level() -> None:
-    wave = torch.full((1, 1, 200), 6.0)
-    torch.testing.assert_close(unit_scale(wave, torch.tensor([[math.log(3.0)]])), torch.full((1, 1, 200), 2.0))
-
-
-def test_the_band_limit_keeps_the_recordings_band_and_removes_noise_above_it() -> None:
-    band_limit = BandLimit()
-    noise = torch.randn(400, 1, 400, generator=torch.Generator().manual_seed(1))
-    limited = band_limit(noise[:, :, :200], noise[:, :, 200:])
-    power = [torch.fft.rfft(wave * torch.hann_window(200), dim=2).abs().square().mean(dim=(0, 1)) for wave in
-             (limited, noise[:, :, 200:])]  # fmt: skip
-    gain_db = 10.0 * torch.log10(power[0] / power[1])
-    assert gain_db[2:90].abs().max().item() < 0.5, "20 to 900 Hz"
-    assert -8.0 < gain_db[100].item() < -3.0, "1 kHz: what the step down to 2 kHz leaves of it"
-
-
 def test_the_band_limit_is_the_convolution_of_past_segment_and_mirrored_segment_with_its_taps() -> None:
     band_limit = BandLimit()
     with torch.no_grad():
@@ -177,7 +126,124 @@ def test_the_band_limit_is_the_convolution_of_past_segment_and_mirrored_segment_
     )
 
 
-def test_the_band_limit_reads_the_past_so_that_a_tone_crosses_the_seam_unchanged() -> None:
-    tone = torch.sin(0.3 * torch.arange(400.0)).reshape(1, 1, 400)
-    limited = BandLimit()(tone[:, :, :200], tone[:, :, 200:])
-    torch.testing.assert_close(limited[:, :, :130], tone[:, :, 200:330], atol=0.01, rtol=0.0)
+ROOT = Path(__file__).parents[2]
+CONFIGS = ROOT / "Training" / "configs"
+NO_RIBS: list[list[tuple[float, float]]] = [[], []]
+
+
+def _allowed_operators() -> set[str]:
+    text = (ROOT / "Documentation~" / "model-format.md").read_text(encoding="utf-8")
+    block = re.search(r"### Operators\n+```\n(.*?)```", text, re.DOTALL)
+    assert block is not None
+    return set(block[1].split())
+
+
+def _check(graph: bytes) -> None:
+    model = onnx.load_from_string(graph)
+    assert [(entry.domain, entry.version) for entry in model.opset_import] == [("", 16)]
+    assert not model.functions
+    used = {node.op_type for node in model.graph.node}
+    assert used
+    assert used <= _allowed_operators()
+
+
+@pytest.mark.parametrize("kind", ["flow", "average-velocity", "direct"])
+def test_every_kind_of_field_uses_only_listed_operators(kind: str) -> None:
+    base = load_config(ROOT / "Training" / "haptoflow_paper" / "configs" / "field.toml")
+    for levels in (1, 2):
+        config = dataclasses.replace(base, model=dataclasses.replace(base.model, levels=levels))
+        if kind == "average-velocity":
+            config = evaluated(config, recipe={"objective": kind, "energy_steps": 0})
+        model = build_model(config, NO_RIBS)
+        _check(network_graph(model, kind))
+    _check(export_level_model(model.level))
+
+
+@pytest.mark.parametrize("size", ["draft", "standard"])
+def test_the_refinements_in_shipped_sizes_use_only_listed_operators(size: str) -> None:
+    config = load_config(CONFIGS / "default" / f"{size}.toml")
+    (graph,) = tier_of(config, ["a", "b"], build_model(config, NO_RIBS)).graphs().values()
+    _check(graph)
+
+
+@pytest.mark.parametrize("architecture", ARCHITECTURES)
+def test_every_rival_uses_only_listed_operators(architecture: str) -> None:
+    base = load_config(ROOT / "Training" / "haptoflow_paper" / "configs" / "plain.toml")
+    config: TrainingConfig = dataclasses.replace(base, model=dataclasses.replace(base.model, architecture=architecture))
+    _check(network_graph(build_model(config, NO_RIBS), "direct"))
+
+
+def test_every_codec_uses_only_listed_operators(tmp_path: Path) -> None:
+    codec = SmallCodec(SmallCodecShape(latent_channels=12, width=8))
+    codec.normaliser.fit(codec.encoder(torch.randn(64, 1, 200)).detach())
+    codec.save(tmp_path / "small.pt")
+    for settings in (
+        {"kind": "small-codec", "checkpoint": str(tmp_path / "small.pt")}, {"kind": "encodec", "random_weights": True}
+    ):
+        representation = build_representation(settings)
+        assert isinstance(representation, CodecRepresentation)
+        representation.export_encoder(tmp_path / "encoder.onnx")
+        representation.export_decoder(tmp_path / "decoder.onnx")
+        for name in ("encoder.onnx", "decoder.onnx"):
+            _check((tmp_path / name).read_bytes())
+
+
+def _only(rung: int, atom: int) -> torch.Tensor:
+    gains = torch.zeros(1, len(RUNGS), ATOMS)
+    gains[0, rung, atom] = 1.0
+    return gains.reshape(1, GAINS)
+
+
+@pytest.mark.parametrize("rung", range(len(RUNGS)))
+def test_a_rung_passes_only_the_tails_of_the_noise_with_power_one(rung: int) -> None:
+    noise = torch.randn(16000, 1, 200, generator=torch.Generator().manual_seed(rung))
+    struck = RungImpulses()(noise, _only(rung, 0).expand(len(noise), GAINS))
+    assert ((struck != 0.0) == (noise.abs() > RUNGS[rung])).all()
+    assert struck.square().mean().item() == pytest.approx(1.0, rel=0.15)
+    assert struck.mean().item() == pytest.approx(0.0, abs=0.01)
+
+
+def test_each_event_rings_with_its_kernel_and_only_after_its_start() -> None:
+    impulses = RungImpulses()
+    for place in (0, 24, 25, 130, 199):
+        noise = torch.zeros(1, 1, 200)
+        noise[0, 0, place] = -4.0
+        gains = torch.randn(1, GAINS, generator=torch.Generator().manual_seed(place))
+        kernels = gains.reshape(len(RUNGS), ATOMS) @ impulses.atoms
+        size = -(4.0 - impulses.rungs.flatten()) * impulses.scales.flatten()
+        ring = (size.unsqueeze(1) * kernels).sum(dim=0)
+        expected = torch.zeros(200)
+        expected[place : place + TAPS] = ring[: 200 - place]
+        torch.testing.assert_close(impulses(noise, gains)[0, 0], expected, rtol=1e-4, atol=1e-4)
+
+
+def _tail_gains(seed: int) -> torch.Tensor:
+    return torch.randn(1, 2, len(TAIL_RUNGS), ATOMS, generator=torch.Generator().manual_seed(seed))
+
+
+@pytest.mark.parametrize(("excess", "tail"), [(4.5, 0), (-4.5, 1)])
+def test_each_tail_rings_with_its_own_kernels(excess: float, tail: int) -> None:
+    impulses, gains = TailImpulses(), _tail_gains(3)
+    noise = torch.zeros(1, 1, 200)
+    noise[0, 0, 60] = excess
+    size = (abs(excess) - torch.tensor(TAIL_RUNGS)) * impulses.scales.flatten()[: len(TAIL_RUNGS)]
+    ring = (size.unsqueeze(1) * (gains[0, tail] @ impulses.atoms)).sum(dim=0) * (1.0 if excess > 0.0 else -1.0)
+    expected = torch.zeros(200)
+    expected[60 : 60 + TAPS] = ring
+    torch.testing.assert_close(impulses(noise, gains.reshape(1, -1))[0, 0], expected, rtol=1e-4, atol=1e-4)
+    other = gains.clone()
+    other[0, 1 - tail] = 0.0
+    assert torch.equal(impulses(noise, gains.reshape(1, -1)), impulses(noise, other.reshape(1, -1)))
+
+
+class _SameRungs(TailImpulses):
+    thresholds = RUNGS
+
+
+def test_tails_with_equal_kernels_are_the_impulses_of_a_network() -> None:
+    noise = 1.6 * torch.randn(4, 1, 200, generator=torch.Generator().manual_seed(5))
+    same = torch.randn(1, GAINS, generator=torch.Generator().manual_seed(6))
+    network = RungImpulses()(noise, same.expand(4, -1))
+    both = _SameRungs()(noise, same.repeat(4, 2))
+    torch.testing.assert_close(both, network, rtol=1e-4, atol=1e-4)
+    assert network.square().mean() > 0.1

@@ -141,10 +141,3 @@ def test_missing_input_is_reported_in_one_line(
     assert program.main(words) == 3
     error = capsys.readouterr().err.strip().splitlines()[-1]
     assert re.search(said, error), error
-
-
-def test_invalid_minutes_are_refused(capsys: pytest.CaptureFixture[str]) -> None:
-    for wrong in ("0", "ten", "nan"):
-        with pytest.raises(SystemExit):
-            training.main(["train", "--recordings", "r", "--out", "o", "--minutes", wrong])
-        assert "expected minutes, 0.1 at least" in capsys.readouterr().err

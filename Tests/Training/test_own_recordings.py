@@ -16,12 +16,7 @@ from haptoflow_training.commands.train import configuration, report_left_out
 from haptoflow_training.errors import InputError
 from haptoflow_training.preprocessing.preparation import prepare_store
 from haptoflow_training.recordings.cluster_dataset import open_dataset
-from haptoflow_training.recordings.dataset_writer import (
-    TextureEntry,
-    write_provenance,
-    write_recording,
-    write_texture_list,
-)
+from haptoflow_training.recordings.dataset_writer import TextureEntry, write_recording, write_texture_list
 from haptoflow_training.training.config import DataConfig
 from haptoflow_training.training.recordings_source import Source, open_source
 
@@ -129,13 +124,6 @@ def test_a_row_without_a_number_is_dropped_and_a_gap_drops_only_samples_near_it(
     assert len({one.split for one in store.recordings}) == 1
 
 
-def test_the_model_states_the_origin_given_in_provenance_json(folder: Path, tmp_path: Path) -> None:
-    write_provenance(folder, source="the tailor's shop", licence="CC0 1.0", synthetic=False)
-    source = opened(folder, labels_file(tmp_path / "labels.toml", "denim", "felt"), tmp_path / "store")
-    assert source.provenance.statement == "trained on the tailor's shop"
-    assert source.provenance.licence == "CC0 1.0"
-
-
 def test_the_published_data_set_keeps_its_name_licence_and_labels(folder: Path, tmp_path: Path) -> None:
     write_texture_list(folder, [TextureEntry(0, "Nyatoh", {}), TextureEntry(66, "Steel", {})])
     source = opened(folder, None, tmp_path / "store")
@@ -144,9 +132,7 @@ def test_the_published_data_set_keeps_its_name_licence_and_labels(folder: Path, 
     assert source.provenance.licence == "CC BY 4.0"
 
 
-def test_a_store_is_prepared_again_only_if_recordings_or_labels_have_changed(
-    folder: Path, tmp_path: Path
-) -> None:
+def test_a_store_is_prepared_again_only_if_recordings_or_labels_have_changed(folder: Path, tmp_path: Path) -> None:
     labels = labels_file(tmp_path / "labels.toml", "denim", "felt")
     store = tmp_path / "store"
     header = store / "store.json"
@@ -206,21 +192,3 @@ def test_a_label_whose_files_are_damaged_names_them_before_it_asks_for_more(tmp_
     assert re.search(r"\n  skipped: .*position/0_45_30_500_1\.csv: missing file", said)
     assert "\nmend or replace these files, record more of these labels, leave the labels out" in said
     assert "denim (" not in said
-
-
-def test_a_long_list_of_damaged_files_is_shortened(tmp_path: Path) -> None:
-    names = tuple(f"66_{direction}_{speed}_500_0" for direction in range(0, 360, 45) for speed in (20, 30))
-    folder = recorded(tmp_path / "recordings", (*NAMES[:1], *GRID[:8], *names))
-    for path in (folder / "sensor_data" / "force").glob("66_*"):
-        path.write_text("", encoding="utf-8")
-    with pytest.raises(InputError, match=r"\n  and 6 more\n"):
-        opened(folder, labels_file(tmp_path / "labels.toml", "denim", "felt"), tmp_path / "store")
-
-
-def test_the_published_layout_is_read_with_endings_in_upper_case(tmp_path: Path) -> None:
-    folder = recorded(tmp_path / "recordings", FEW)
-    for path in list((folder / "sensor_data").rglob("*.csv")):
-        path.rename(path.with_suffix(".CSV"))
-    dataset = open_dataset(folder)
-    assert len(dataset.recordings) == 3 and not dataset.problems
-    assert dataset.recordings[0].load().acceleration_g.size > 0

@@ -55,18 +55,6 @@ def test_numbers_beside_groups_and_lists_are_read_and_the_others_say_what_they_a
     assert {column: set(table[column]) for column in others} == {column: {kind} for column, kind in others.items()}
 
 
-def test_nanoseconds_beyond_two_to_the_53_keep_their_last_digit() -> None:
-    nanoseconds = read_parquet(COLUMNS / "row-groups.parquet")["time_ns"]
-    assert nanoseconds.dtype == np.int64
-    assert int(nanoseconds[1]) == 1_764_000_000_123_572_396 != int(float(nanoseconds[1]))
-
-
-def test_whole_numbers_with_a_missing_one_become_floats_as_of_pandas() -> None:
-    nanoseconds = read_parquet(COLUMNS / "missing-time.parquet")["time_ns"]
-    assert nanoseconds.dtype == np.float64
-    assert np.flatnonzero(np.isnan(nanoseconds)).tolist() == [3]
-
-
 def test_one_process_reads_many_files_and_ends_with_the_program() -> None:
     program = (
         "import sys; from pathlib import Path; from haptoflow_training.recordings import parquet_files as files\n"
@@ -160,14 +148,6 @@ def test_a_missing_column_and_one_that_is_no_number_are_named() -> None:
     path = COLUMNS / "nested-v1.parquet"
     with pytest.raises(DatasetFileError, match=r"nested-v1\.parquet: text among the numbers .*'a group'.*numbers only"):
         read_sensor(path, type(FORCE)("force", ("time", "tip")))
-
-
-def test_a_value_missing_in_one_of_a_hundred_rows_is_left_out() -> None:
-    time, values = read_sensor(COLUMNS / "row-groups.parquet", ACCELERATION)
-    kept = column_table(3000).dropna()
-    assert values.shape == (2984, 3)
-    np.testing.assert_array_equal(time, kept["time_ns"] / 1e9)
-    np.testing.assert_array_equal(values, kept[["X", "Y", "Z"]].to_numpy(np.float64))
 
 
 def test_the_remedy_is_named_where_node_or_its_packages_are_missing(

@@ -2,15 +2,22 @@
 
 from __future__ import annotations
 
+import json
+import os
+from pathlib import Path
+
 import numpy as np
 import pytest
 
-from haptoflow_paper.place.creeping import holds
-from haptoflow_paper.place.hand_overs import HOP_SAMPLES, hand_overs
-from haptoflow_paper.place.likeness import Profile, bumps, found_again, likeness, over_place
-from haptoflow_paper.place.passes import Pass, Rounds, Table
-from haptoflow_paper.place.place_report import page_words
-from haptoflow_paper.place.place_study import RULED, second_passes, summary
+from haptoflow_benchmark.engine_render import read_recorded_strokes
+from haptoflow_paper.place.creeping import hand_overs
+from haptoflow_paper.place import place_report
+from haptoflow_paper.place.place_study import RULED, Pass, Profile, bumps, likeness, over_place, second_passes, summary
+from haptoflow_paper.velocity.velocity_cases import made_motions, real_motions, sampled
+from haptoflow_paper.velocity.velocity_estimators import growing_parabola
+from haptoflow_paper.velocity.velocity_report import page_words
+from haptoflow_paper.velocity.velocity_study import PRODUCT, PRODUCT_SETTINGS, product_velocity
+from haptoflow_training.model_stamp import with_measured_words
 
 
 def _surface(places_metres: np.ndarray, seed: int = 3) -> np.ndarray:
@@ -37,77 +44,11 @@ def test_any_pass_over_one_place_is_alike_and_in_its_place(stroke: Pass) -> None
     assert abs(found.shift_metres) <= 2.5e-5
 
 
-@pytest.mark.parametrize("earlier_metres", [0.00051, 0.00173, 0.002475])
-def test_a_pass_begun_a_part_of_a_sample_earlier_is_alike_up_to_800_hz(earlier_metres: float) -> None:
-    rng = np.random.default_rng(5)
-    frequencies_hz, turns = rng.uniform(100.0, 800.0, 40), rng.uniform(0.0, 2.0 * np.pi, 40)
-
-    def felt(stroke: Pass) -> Profile:
-        seconds = stroke.start_metres / stroke.speed_mps + np.arange(1600) / 2000.0
-        return over_place(np.sin(2.0 * np.pi * seconds[:, None] * frequencies_hz + turns).sum(axis=1), stroke)
-
-    assert likeness(felt(Pass()), felt(Pass().begun_earlier(earlier_metres)), 0.002, 0.052).correlation > 0.99
-
-
 def test_a_late_vibration_is_shifted_and_not_unlike() -> None:
     found = likeness(_felt(Pass()), _felt(Pass(), delay_seconds=0.005), 0.002, 0.052)
     assert found.correlation > 0.97
     assert found.shift_metres == pytest.approx(5e-4, abs=5e-5)
     assert found.unshifted < 0.5
-
-
-def test_another_surface_is_unlike() -> None:
-    assert likeness(_felt(Pass()), _felt(Pass(), seed=4), 0.002, 0.052).correlation < 0.5
-
-
-def test_outsized_asperities_are_found_where_they_are() -> None:
-    rng = np.random.default_rng(1)
-    first = over_place(rng.standard_normal(4000), Pass(0.0, 0.2))
-    first.values[[8000, 24000]] = 12.0
-    second = over_place(rng.standard_normal(4000), Pass(0.0, 0.2))
-    second.values[8080] = 10.0
-    places = bumps(first, 0.0, 0.19)
-    assert places == pytest.approx([0.05, 0.15])
-    assert found_again(places, second, 0.0, 0.19) == 1
-
-
-def test_points_on_a_turned_table_are_the_same_points_of_the_table() -> None:
-    table = Table("wood", position_metres=(0.3, 0.2, -0.4), turn_degrees=35.0)
-    _, along, beside = Rounds().points()
-    world = table.to_world(along, beside)
-    angle = np.radians(35.0)
-    local = world - np.array([0.3, 0.2, -0.4])
-    assert local[:, 0] * np.cos(angle) - local[:, 2] * np.sin(angle) == pytest.approx(along)
-    assert local[:, 0] * np.sin(angle) + local[:, 2] * np.cos(angle) == pytest.approx(beside)
-
-
-class _Bursts:
-    """A renderer of noise that is 3 dB louder for 5 ms of every hop."""
-
-    def wave(self, table: Table, stroke: Pass, seed: int = 1) -> np.ndarray:
-        wave = np.random.default_rng(1).standard_normal(40_000)
-        wave[np.arange(len(wave)) % HOP_SAMPLES < 10] *= np.sqrt(2.0)
-        return wave
-
-
-def test_a_burst_at_every_hand_over_is_seen() -> None:
-    found = hand_overs(_Bursts(), "wood")
-    # 2 over the mean of ten samples at 2 and eighteen at 1.
-    assert found["burst"] == pytest.approx(10.0 * np.log10(2.0 / (38.0 / 28.0)), abs=0.3)
-    assert found["swing"] > 2.5
-    assert found["burst_chance"] < 0.4
-
-
-def test_a_held_pen_is_found_and_a_moving_one_is_not() -> None:
-    times = np.arange(0.0, 1.0, 0.01)
-    tremor = 2e-4 * np.stack([np.sin(60.0 * times), np.cos(50.0 * times)], axis=1)
-    held = np.column_stack([times, tremor + 0.1, np.zeros_like(times)])
-    moving = np.column_stack([times, 0.1 * times, np.zeros_like(times), np.zeros_like(times)])
-    found = holds({"held": held, "moving": moving})
-    assert len(found) == 1
-    assert found[0].diameter_metres == pytest.approx(5.5e-4, rel=0.2)
-    assert found[0].times[-1] >= 5.0
-    assert np.all(np.diff(found[0].times) > 0.0)
 
 
 def test_the_page_says_met_and_missed() -> None:
@@ -121,7 +62,7 @@ def test_the_page_says_met_and_missed() -> None:
     }
     assert summary(by_label, "backwards")["median"] == pytest.approx(0.62)
     creeping = {"wood": {"now": {"2": {"peak_mps2": 0.1, "kurtosis": 3.0}}, "recorder": {"2": {"peak_mps2": 0.0, "kurtosis": 0.0}}}}
-    words = page_words(
+    words = place_report.page_words(
         {"model_sha256": "ab", "likeness": {"now": by_label}, "creeping": creeping,
          "hand_overs": {"wood": [{"swing": 2.0, "chance": 0.6, "burst": 0.4, "burst_chance": 0.2}]},
          "held": [{"diameter_mm": 0.7, "peak_mps2": 0.0}, {"diameter_mm": 1.4, "peak_mps2": 0.2}]}
@@ -131,3 +72,33 @@ def test_the_page_says_met_and_missed() -> None:
     assert "| 1 mm beside | 0.10 (0.10 to 0.10) | chance: met |" in words
     assert "next pass has 4 within a millimetre" in words
     assert "1 are exactly silent" in words and "heard are 1.40 mm (goal missed)" in words
+
+
+ROOT = Path(__file__).parents[2]
+STROKES = ROOT.parent / "shared" / "strokes" / "vr-pen-on-surface" / "strokes.csv"
+ENGINE = Path(os.environ.get("HAPTOFLOW_ENGINE", ROOT / "build" / "native" / "haptoflow"))
+RESULTS = ROOT / "Training" / "haptoflow_paper" / "results" / "velocity.json"
+PAGE = ROOT / "Documentation~" / "velocity.md"
+
+
+@pytest.mark.parametrize("rate_hz", [72.0, 500.0])
+def test_the_product_is_the_growing_parabola_with_the_settings_that_the_study_names(rate_hz: float) -> None:
+    assert ENGINE.is_file(), f"{ENGINE} is missing: build it with `npm run build`"
+    motions = list(made_motions())
+    if STROKES.is_file():
+        motions += list(real_motions(read_recorded_strokes(STROKES), ("2",)))
+    estimate = growing_parabola(**PRODUCT_SETTINGS)
+    for motion in motions:
+        case = sampled(motion, rate_hz, 0.00002, 9)
+        wanted = estimate(case.times_s, case.measured_m, case.noise_known_m)
+        found, is_known = product_velocity(ENGINE, case)
+        assert is_known.all()
+        # Before the third measurement the study's windows are one place longer than the product's history.
+        assert np.abs(found - wanted[:, [0, 2]])[3:].max() < 1e-6, motion.kind
+
+
+def test_the_page_shows_the_committed_results() -> None:
+    page = PAGE.read_text(encoding="utf-8")
+    results = json.loads(RESULTS.read_text(encoding="utf-8"))
+    assert results["rows"][PRODUCT]["cells"] and not set(results["choosing"]) & set(results["reporting"])
+    assert page == with_measured_words(page, page_words(results)), "write it anew: haptoflow-paper velocity --page"

@@ -2,13 +2,26 @@
 
 from __future__ import annotations
 
+import json
+import subprocess
+from pathlib import Path
+
+import numpy as np
 import pytest
 import torch
+from numpy.typing import NDArray
+from scipy.io import wavfile
 
+from haptoflow_benchmark.engine_library import EngineLibrary, default_engine
+from haptoflow_benchmark.engine_render import render_motion
+from haptoflow_paper.cli import main
 from haptoflow_paper.published.checkpoint import read_checkpoint
+from haptoflow_paper.published.level_measurement import band_rms
+from haptoflow_paper.published.published_file import STANDARD_GRAVITY_MPS2
 from haptoflow_paper.published.published_model import PublishedModel
+from haptoflow_paper.rows.engine_generator import EngineGenerator
+from haptoflow_training.export.model_file import ModelFile, read_model_file
 from published_samples import PUBLISHED, SOLVERS, GoldenChain, assert_within_1e_4_of_its_rms
-
 
 @pytest.fixture(scope="module", params=SOLVERS)
 def solver(request: pytest.FixtureRequest) -> str:
@@ -29,60 +42,6 @@ def _row(model: PublishedModel, golden: GoldenChain, segment: int) -> torch.Tens
     return model.network.label_embed(torch.tensor([golden.label(segment)]))
 
 
-@pytest.mark.parametrize("segment", range(GoldenChain.segments))
-class TestEachStage:
-    """Every stage from the golden input of that stage, so that an error is named where it arises."""
-
-    def test_the_past_is_resampled_to_24_khz(self, model: PublishedModel, golden: GoldenChain, segment: int) -> None:
-        found = model.upwards(golden.tensor(segment, "previous"))
-        assert_within_1e_4_of_its_rms(found, golden.tensor(segment, "previous_24k"))
-
-    def test_the_past_is_encoded(self, model: PublishedModel, golden: GoldenChain, segment: int) -> None:
-        found = model.encode(golden.tensor(segment, "previous"))
-        assert_within_1e_4_of_its_rms(found, golden.tensor(segment, "latent"))
-
-    def test_the_past_has_a_feature_for_each_level(
-        self, model: PublishedModel, golden: GoldenChain, segment: int
-    ) -> None:
-        for level, found in enumerate(model.past_features(golden.tensor(segment, "latent"))):
-            assert_within_1e_4_of_its_rms(found, golden.tensor(segment, f"feature{level}"))
-
-    def test_label_and_motion_are_the_condition(
-        self, model: PublishedModel, golden: GoldenChain, segment: int
-    ) -> None:
-        found = model.condition(_row(model, golden, segment), golden.motion(segment))
-        assert_within_1e_4_of_its_rms(found, golden.tensor(segment, "cond"))
-
-    @pytest.mark.parametrize("time", [1.0, 0.5, 0.125])
-    def test_the_velocity_is_that_of_its_time_with_guidance(
-        self, model: PublishedModel, golden: GoldenChain, segment: int, time: float
-    ) -> None:
-        past = [golden.tensor(segment, f"feature{level}") for level in range(2)]
-        noise, condition = golden.tensor(segment, "noise"), golden.tensor(segment, "cond")
-        found = model.velocity(noise, torch.tensor([[time]]), condition, past, model.meta.guidance)
-        assert_within_1e_4_of_its_rms(found, golden.tensor(segment, f"velocity_t{time}"))
-
-    def test_noise_becomes_a_latent(self, model: PublishedModel, golden: GoldenChain, segment: int) -> None:
-        past = [golden.tensor(segment, f"feature{level}") for level in range(2)]
-        found = model.generate(golden.tensor(segment, "noise"), golden.tensor(segment, "cond"), past)
-        assert_within_1e_4_of_its_rms(found, golden.tensor(segment, "generated"))
-
-    def test_the_latent_is_quantised_to_the_same_codes(
-        self, model: PublishedModel, golden: GoldenChain, segment: int
-    ) -> None:
-        generated = golden.tensor(segment, "generated")
-        assert torch.equal(model.quantiser.codes(generated), golden.tensor(segment, "codes"))
-        assert_within_1e_4_of_its_rms(model.quantiser(generated), golden.tensor(segment, "quantized"))
-
-    def test_code_vectors_are_decoded(self, model: PublishedModel, golden: GoldenChain, segment: int) -> None:
-        found = model.codec.decoder(golden.tensor(segment, "quantized"))
-        assert_within_1e_4_of_its_rms(found, golden.tensor(segment, "waveform_24k"))
-
-    def test_the_latent_becomes_a_segment(self, model: PublishedModel, golden: GoldenChain, segment: int) -> None:
-        found = model.decode(golden.tensor(segment, "generated"))
-        assert_within_1e_4_of_its_rms(found, golden.tensor(segment, "waveform"))
-
-
 def test_three_segments_that_follow_each_other_are_the_golden_ones(model: PublishedModel, golden: GoldenChain) -> None:
     previous = golden.tensor(0, "previous")
     for segment in range(golden.segments):
@@ -91,14 +50,151 @@ def test_three_segments_that_follow_each_other_are_the_golden_ones(model: Publis
         assert_within_1e_4_of_its_rms(previous, golden.tensor(segment, "waveform"))
 
 
-def test_a_batch_is_its_rows_one_by_one(model: PublishedModel, golden: GoldenChain) -> None:
-    def batched(of: str) -> torch.Tensor:
-        return torch.cat([golden.tensor(segment, of) for segment in range(golden.segments)])
+ROOT = Path(__file__).parents[2]
+ENGINE = ROOT / "build" / "native" / "haptoflow"
+RUN_GRAPHS = ROOT / "Training" / "haptoflow_paper" / "published" / "run_graphs.mjs"
+Results = dict[str, NDArray[np.float64]]
+PEAK_G = 1.5
+UNIT_MPS2 = PEAK_G * STANDARD_GRAVITY_MPS2
 
-    rows = torch.cat([_row(model, golden, segment) for segment in range(golden.segments)])
-    motions = torch.cat([golden.motion(segment) for segment in range(golden.segments)])
-    assert_within_1e_4_of_its_rms(model.segment(batched("noise"), rows, motions, batched("previous")), batched("waveform"))
+
+@pytest.fixture(scope="module")
+def engine() -> EngineLibrary:
+    return default_engine(ROOT)
 
 
-def test_silence_is_encoded_without_a_number_that_is_not_finite(model: PublishedModel) -> None:
-    assert torch.isfinite(model.encode(torch.zeros(1, 1, 200))).all()
+@pytest.fixture(scope="module")
+def path(solver: str, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    out = tmp_path_factory.mktemp("imported") / f"{solver}.haptoflow"
+    arguments = ["import-published", str(PUBLISHED / solver), "--peak-g", str(PEAK_G), "-o", str(out)]
+    assert main(arguments) == 0
+    return out
+
+
+@pytest.fixture(scope="module")
+def file(path: Path) -> ModelFile:
+    return read_model_file(path)
+
+
+def _batch(golden: GoldenChain, name: str) -> torch.Tensor:
+    return torch.cat([golden.tensor(segment, name) for segment in range(golden.segments)])
+
+
+TIMES = (1.0, 0.5, 0.125)
+
+
+class TestOnnxRuntime:
+    """Each exported graph in ONNX Runtime, all three segments in one batch, from the golden input of its stage."""
+
+    @pytest.fixture(scope="class")
+    def results(
+        self, solver: str, golden: GoldenChain, file: ModelFile, tmp_path_factory: pytest.TempPathFactory
+    ) -> dict[str, NDArray[np.float64]]:
+        folder = tmp_path_factory.mktemp("graphs")
+        labels = [golden.label(segment) for segment in range(golden.segments)]
+        field = {
+            "noisy": _batch(golden, "noise"),
+            "previous": _batch(golden, "latent"),
+            "embedding": torch.from_numpy(file.tensors["embedding"][labels]),
+            "motion": torch.cat([golden.motion(segment) for segment in range(golden.segments)]),
+        }
+        jobs = {
+            "encoder": ("encoder", {"waveform": _batch(golden, "previous")}),
+            "decoder": ("decoder", {"latent": _batch(golden, "generated")}),
+            "level": ("level", {"motion": field["motion"]}),
+            **{f"field at {time}": ("published.field", field | self._moments(solver, time)) for time in TIMES},
+        }
+        if solver == "heun":
+            jobs["unguided"] = ("published.unguided", field | self._moments(solver, 0.5))
+        written = []
+        for graph, inputs in jobs.values():
+            (folder / graph).write_bytes(file.graphs[graph])
+            feeds = {name: {"dims": list(value.shape), "data": value.flatten().tolist()} for name, value in inputs.items()}
+            written.append({"graph": str(folder / graph), "inputs": feeds})
+        (folder / "jobs.json").write_text(json.dumps(written), encoding="utf-8")
+        command = ["node", str(RUN_GRAPHS), str(folder / "jobs.json")]
+        done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=ROOT)
+        assert done.returncode == 0, done.stderr
+        return {
+            name: np.array(result["data"]).reshape(result["dims"])
+            for name, result in zip(jobs, json.loads(done.stdout), strict=True)
+        }
+
+    @staticmethod
+    def _moments(solver: str, time: float) -> dict[str, torch.Tensor]:
+        """The graph's inputs at the checkpoint's time: the format's runs the other way, and the tier of "euler" looks
+        half an interval ahead."""
+        turned = torch.full((GoldenChain.segments, 1), 1.0 - time)
+        if solver == "heun":
+            return {"time": turned}
+        return {"time": turned - 0.0625, "interval": torch.full((GoldenChain.segments, 1), 0.125)}
+
+    def test_the_encoder_graph_makes_the_latent(self, results: Results, golden: GoldenChain) -> None:
+        assert_within_1e_4_of_its_rms(results["encoder"], _batch(golden, "latent"))
+
+    @pytest.mark.parametrize("time", TIMES)
+    def test_the_field_graph_is_the_velocity_with_time_turned_round(
+        self, results: Results, golden: GoldenChain, time: float
+    ) -> None:
+        assert_within_1e_4_of_its_rms(-results[f"field at {time}"], _batch(golden, f"velocity_t{time}"))
+
+    def test_the_unguided_graph_is_the_velocity_without_guidance(
+        self, results: Results, golden: GoldenChain, model: PublishedModel, solver: str
+    ) -> None:
+        if solver == "euler":
+            # Without guidance in training there is one graph.
+            assert "unguided" not in results
+            return
+        past, time = model.past_features(_batch(golden, "latent")), torch.full((golden.segments, 1), 0.5)
+        expected = model.velocity(_batch(golden, "noise"), time, _batch(golden, "cond"), past, 1.0)
+        assert_within_1e_4_of_its_rms(-results["unguided"], expected)
+
+    def test_the_decoder_graph_makes_the_segment(self, results: Results, golden: GoldenChain) -> None:
+        assert_within_1e_4_of_its_rms(results["decoder"], _batch(golden, "waveform"))
+
+
+def _generated(
+    generator: EngineGenerator, golden: GoldenChain, segment: int, previous: NDArray[np.float32]
+) -> NDArray[np.float32]:
+    row = generator.embeddings[[golden.label(segment)]]
+    noise = golden.tensor(segment, "noise").reshape(1, -1).numpy()
+    unused = np.zeros((1, 200), dtype=np.float32)
+    return generator.generate(row, golden.motion(segment).numpy(), previous, unused, latent_noise=noise)
+
+
+def test_three_segments_through_the_c_interface_are_the_golden_ones(
+    engine: EngineLibrary, path: Path, golden: GoldenChain
+) -> None:
+    with EngineGenerator(engine, path) as generator:
+        previous = golden.tensor(0, "previous").reshape(1, -1).numpy() * np.float32(UNIT_MPS2)
+        for segment in range(golden.segments):
+            previous = _generated(generator, golden, segment, previous)
+            assert_within_1e_4_of_its_rms(previous / UNIT_MPS2, golden.tensor(segment, "waveform")[0])
+
+
+def test_the_offline_engine_plays_a_stroke_from_touch_down_at_the_measured_level(
+    path: Path, file: ModelFile, tmp_path: Path
+) -> None:
+    entries = file.header["seed_bank"]["entries"]
+    seeds = [
+        seed["gain"] * wave for seed, wave in zip(entries, file.tensors["seeds"], strict=True) if seed["label"] == "granite"
+    ]
+    expected = UNIT_MPS2 * np.sqrt(np.square(band_rms(np.array(seeds))).mean())
+    motion = np.tile([0.04, 0.0, 0.75], (2000, 1))
+    wave = render_motion(ENGINE, "granite", motion, tmp_path, model=path).waveform_mps2
+    assert np.isfinite(wave).all()
+    assert abs(20 * np.log10(band_rms(wave[None, 400:])[0] / expected)) < 3.0
+    # The seed sounds before the first segment is there.
+    assert abs(20 * np.log10(band_rms(wave[None, 20:120])[0] / expected)) < 9.0
+
+
+def test_learning_a_material_on_an_import_is_refused_because_its_network_has_its_own_unit(path: Path, tmp_path: Path) -> None:
+    numbers = np.random.default_rng(1)
+    recording = tmp_path / "board.wav"
+    wavfile.write(recording, 8000, (0.1 * numbers.standard_normal(80000)).astype(np.float32))
+    recording.with_suffix(".json").write_text('{"full_scale_mps2": 20}', encoding="utf-8")
+    command = [str(ENGINE), "learn", str(recording), "--model", str(path), "-o", str(tmp_path / "board.haptomaterial")]
+    done = subprocess.run([*command, "--speed-mps", "0.04", "--force-newtons", "0.75"], capture_output=True, text=True, check=False)
+    assert done.returncode == 3, done.stderr
+    assert f"{path}: the model gives all its labels one level, {UNIT_MPS2:.3g}" in done.stderr
+    assert not (tmp_path / "board.haptomaterial").exists()

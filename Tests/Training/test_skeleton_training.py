@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-import argparse
 import dataclasses
 import json
-import zlib
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import onnx
@@ -16,28 +13,26 @@ import scipy.signal
 import torch
 from dataset_samples import small_recording
 from test_export import PROVENANCE
+from paper_samples import field_config
 from test_trainer import ALONE, _config, ask_to_stop_after
 from training_fixtures import FakeStore, make_store, travelled_mm
 
+from haptoflow_paper.runs.trainer import EvaluatedTrainer
 from haptoflow_training.cli import main
 from haptoflow_training.closed_loop.level_calibration import TierSource
-from haptoflow_training.closed_loop.phase_track import SurfaceStatistics
-from haptoflow_training.closed_loop.render import run_closed_loop
-from haptoflow_training.commands import train_tiers
+from haptoflow_training.closed_loop.render import SurfaceStatistics, run_closed_loop
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.exporter import export_run
 from haptoflow_training.export.label_info import LabelInfo
-from haptoflow_training.export.level_table import MeasuredLevels
-from haptoflow_training.export.model_file import ModelFile, model_space, read_model_file
+from haptoflow_training.export.model_file import ModelFile, read_model_file
 from haptoflow_training.export.trained_tier import load_tiers
-from haptoflow_training.models.skeleton_model import SkeletonModel
+from haptoflow_training.models.haptoflow_model import SkeletonModel
 from haptoflow_training.models.surface_waves import path_of
 from haptoflow_training.recordings.dataset_writer import TextureEntry, write_recording, write_texture_list
-from haptoflow_training.recordings.wander import RibWander, StickSlip
+from haptoflow_training.recordings.landing import RibWander, StickSlip
 from haptoflow_training.training import skeleton_losses
 from haptoflow_training.training.batches import SegmentBatch, SegmentBatches
 from haptoflow_training.training.config import BatchConfig, ModelConfig, RecipeConfig, TrainingConfig
-from haptoflow_training.training.filter_fitting import audible, with_floor
 from haptoflow_training.training.recordings_source import Source
 from haptoflow_training.training.skeleton_losses import SkeletonLosses
 from haptoflow_training.training.trainer import Trainer, TrainingStopped, build_model, load_trained
@@ -115,17 +110,6 @@ def test_training_moves_the_skeleton_and_its_specimens_and_a_refinement_leaves_b
     assert standard.refiner is not None and standard.refiner.leave.weight.abs().max() > 0.0
 
 
-def test_the_likelihood_falls_while_a_skeleton_is_trained(tmp_path: Path, store: FakeStore) -> None:
-    config = dataclasses.replace(_sketch(steps=60), recipe=RecipeConfig())
-    trainer = Trainer(config, store, tmp_path, ALONE, wave_vectors=WAVE_VECTORS)
-    untrained = {name: value.clone() for name, value in trainer.averaged_model.network.state_dict().items()}
-    trainer.run()
-    phase = next(each for each in trainer.phases(config) if each.objective == "likelihood")
-    fitted = trainer.validate(phase)[1]
-    trainer.averaged_model.network.load_state_dict(untrained)
-    assert fitted < trainer.validate(phase)[1] - 0.05
-
-
 @pytest.mark.parametrize("tier", ["sketch", "standard"])
 def test_a_resumed_run_ends_with_the_weights_of_an_uninterrupted_one(
     tier: str, runs: Path, store: FakeStore, tmp_path: Path
@@ -148,23 +132,16 @@ def test_a_resumed_run_ends_with_the_weights_of_an_uninterrupted_one(
 def test_a_base_without_a_skeleton_is_refused_for_a_refinement_with_the_remedy(
     tmp_path: Path, store: FakeStore
 ) -> None:
-    Trainer(_config(steps=2), store, tmp_path / "field", ALONE).run()
+    EvaluatedTrainer(field_config(steps=2), store, tmp_path / "field", ALONE).run()
     with pytest.raises(InputError, match="field: has no skeleton; name a run whose model.network is 'skeleton'"):
         Trainer(_refinement(), store, tmp_path / "run", ALONE, tmp_path / "field")
 
 
 def test_tiers_with_and_without_a_skeleton_do_not_share_a_file(runs: Path, tmp_path: Path, store: FakeStore) -> None:
-    config = dataclasses.replace(_config(steps=2), tier="draft")
-    Trainer(config, store, tmp_path / "field", ALONE, wave_vectors=WAVE_VECTORS).run()
+    config = dataclasses.replace(field_config(steps=2), tier="draft")
+    EvaluatedTrainer(config, store, tmp_path / "field", ALONE, wave_vectors=WAVE_VECTORS).run()
     with pytest.raises(InputError, match="with a skeleton and tiers without do not share a file"):
         load_tiers([runs / "sketch", tmp_path / "field"])
-
-
-def test_refinements_of_another_skeleton_do_not_share_a_file(runs: Path, tmp_path: Path, store: FakeStore) -> None:
-    other = dataclasses.replace(_sketch(steps=2), seed=2, recipe=RecipeConfig())
-    Trainer(other, store, tmp_path / "other", ALONE, wave_vectors=WAVE_VECTORS).run()
-    with pytest.raises(InputError, match="does not share labels, embedding and level.*--base"):
-        load_tiers([tmp_path / "other", runs / "standard"])
 
 
 def test_the_sketch_comes_first_and_tiers_state_their_kinds(exported: ModelFile) -> None:
@@ -193,14 +170,6 @@ def test_the_file_of_a_skeleton_has_its_tensors_and_no_level_graph(exported: Mod
     assert [value.name for value in graph.graph.output] == ["correction"]
 
 
-def test_the_space_of_a_model_with_a_skeleton_follows_its_perceptron(exported: ModelFile) -> None:
-    before = model_space(exported)
-    tensors = {**exported.tensors, "skeleton.4.weight": exported.tensors["skeleton.4.weight"] * 2.0}
-    assert model_space(ModelFile(exported.header, tensors, exported.graphs)) != before
-    tensors = {**exported.tensors, "embedding": exported.tensors["embedding"] * 2.0}
-    assert model_space(ModelFile(exported.header, tensors, exported.graphs)) == before
-
-
 def test_labels_state_how_their_ribs_wander_and_how_they_slip(exported: ModelFile) -> None:
     ruled, slipping = exported.header["labels"]
     assert ruled["rib_wander"] == [{"turns": 0.1, "wavelength_metres": 0.014}] and "stick_slip" not in ruled
@@ -210,13 +179,6 @@ def test_labels_state_how_their_ribs_wander_and_how_they_slip(exported: ModelFil
     of_labels = SurfaceStatistics.of_labels(WANDERING)
     for one, other in zip(dataclasses.astuple(of_file), dataclasses.astuple(of_labels), strict=True):
         np.testing.assert_allclose(one, other)
-
-
-def test_golden_vectors_have_a_case_of_every_tier_with_phases(runs: Path, exported: ModelFile) -> None:
-    golden = json.loads((runs / "parity.json").read_text(encoding="utf-8"))
-    assert golden["model_crc32"] == f"{zlib.crc32((runs / 'm.haptoflow').read_bytes()):08x}"
-    assert {case["tier"] for case in golden["cases"]} == {tier["name"] for tier in exported.header["tiers"]}
-    assert all(len(case["phases"]) == 6 and np.abs(case["segment"]).max() > 0.0 for case in golden["cases"])
 
 
 @pytest.mark.parametrize("name", ["sketch", "standard"])
@@ -236,7 +198,7 @@ def _shift_loss(monkeypatch: pytest.MonkeyPatch, store: FakeStore, *, trained: b
     torch.nn.init.normal_(model.skeleton.perceptron.layers[-1].bias[25:139], std=0.3)
     if trained:
         torch.nn.init.normal_(model.refiner.leave.weight, std=0.2)
-    losses = SkeletonLosses(model, _refinement().solver, train_level=False)
+    losses = SkeletonLosses(model, train_level=False)
     batch = SegmentBatches(store, "train", BatchConfig(), 5).draw(8)  # type: ignore[arg-type]
     found = []
     for weight in (0.0, 1.0):
@@ -306,7 +268,7 @@ def _losses_and_batch(store: FakeStore) -> tuple[SkeletonModel, SkeletonLosses, 
     model = build_model(_sketch(), WAVE_VECTORS, specimens=3)
     assert isinstance(model, SkeletonModel)
     batch = SegmentBatches(store, "train", BatchConfig(), 5).draw(16)  # type: ignore[arg-type]
-    return model, SkeletonLosses(model, _sketch().solver), batch
+    return model, SkeletonLosses(model), batch
 
 
 def _loss(losses: SkeletonLosses, batch: SegmentBatch, objective: str) -> float:
@@ -352,21 +314,6 @@ def test_silence_has_no_weight_in_the_fit_of_a_filter(objective: str, store: Fak
     assert _loss(losses, _with_noise(still, moving), objective) != pytest.approx(known, rel=1e-2)
 
 
-@pytest.mark.parametrize(("rms_mps2", "weight"), [(1e-4, 0.0), (0.03, 0.5), (1.0, 1.0), (30.0, 1.0)])
-def test_what_can_be_felt_weighs_alike_however_loud_and_what_cannot_nothing(rms_mps2: float, weight: float) -> None:
-    found = audible(torch.tensor([[rms_mps2]]).log().requires_grad_())
-    assert found.item() == pytest.approx(weight, abs=1e-3) and not found.requires_grad
-
-
-@pytest.mark.parametrize(("rms_mps2", "floor_db"), [(0.1, -45.0), (5.0, -60.0)])
-def test_a_filter_is_fitted_over_a_floor_of_five_millimetres_per_second_squared_and_at_most_45_db(
-    rms_mps2: float, floor_db: float
-) -> None:
-    level = torch.full((64, 1), rms_mps2).log()
-    floor = with_floor(torch.zeros(64, 1, 200), level, torch.Generator().manual_seed(1))
-    assert 20.0 * np.log10(floor.std().item()) == pytest.approx(floor_db, abs=0.3)
-
-
 def test_a_filter_is_fitted_for_the_motion_and_the_rates_amid_its_part_of_the_segment(store: FakeStore) -> None:
     model, losses, batch = _losses_and_batch(store)
     given = losses._scaled(batch, "energy", torch.Generator().manual_seed(2))
@@ -401,7 +348,7 @@ def test_a_skeleton_keeps_its_likelihood_in_the_energy_phase(monkeypatch: pytest
     torch.manual_seed(4)
     model = build_model(_sketch(), WAVE_VECTORS, specimens=3)
     assert isinstance(model, SkeletonModel)
-    losses = SkeletonLosses(model, _sketch().solver)
+    losses = SkeletonLosses(model)
     batch = SegmentBatches(store, "train", BatchConfig(), 5).draw(8)  # type: ignore[arg-type]
     filtering = slice(0, 25)
     for objective in ("likelihood", "energy"):
@@ -411,28 +358,6 @@ def test_a_skeleton_keeps_its_likelihood_in_the_energy_phase(monkeypatch: pytest
         assert weight.grad is not None and weight.grad[filtering].abs().max() > 0.0
         # The untrained rungs do nothing to a likelihood.
         assert (weight.grad[139:].abs().max() > 0.0) == (objective == "energy")
-
-
-def test_the_default_model_s_base_is_its_sketch_and_becomes_a_tier_of_the_file(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
-    trained: list[str] = []
-    written: list[Path] = []
-
-    def write(*given: Any) -> None:
-        folder, _, _, _, _, further, _ = given
-        written.extend([folder, *further])
-
-    monkeypatch.setattr(train_tiers, "open_source", lambda *_: None)
-    monkeypatch.setattr(train_tiers, "_train_all", lambda files, *_: trained.extend(path.stem for path in files))
-    monkeypatch.setattr(train_tiers, "measured_levels", lambda *_: MeasuredLevels())
-    monkeypatch.setattr(train_tiers, "write_model", write)
-    parser = argparse.ArgumentParser()
-    train_tiers.add_options(parser)
-    words = ["--out", str(tmp_path), "--export", str(tmp_path / "m.haptoflow")]
-    assert train_tiers.run(parser.parse_args(words)) == 0
-    assert trained == ["base", "standard", "draft"]
-    assert written[0].name == "standard" and sorted(folder.name for folder in written) == ["base", "draft", "standard"]
 
 
 SMALL_BASE = """

@@ -7,18 +7,16 @@ import json
 import re
 from pathlib import Path
 
-import numpy as np
 import pytest
-from study_samples import SMALL, change_field, change_lines, change_sidecar, latency_study, log_of, similarity_study
+from study_samples import change_field, change_lines, change_sidecar, latency_study, log_of, similarity_study
 
 from haptoflow_training.cli import main
 from haptoflow_training.errors import InputError
-from haptoflow_training.studies.figures import brackets_of, mean_interval
-from haptoflow_training.studies.latency_analysis import analyse_latency, answers_of
-from haptoflow_training.studies.log_columns import LATENCY, SIMILARITY
+from haptoflow_training.studies.figures import brackets_of
+from haptoflow_training.studies.analysis import analyse_latency, analyse_similarity
+from haptoflow_training.studies.log_table import LATENCY, SIMILARITY
 from haptoflow_training.studies.rating_tests import Pair
-from haptoflow_training.studies.similarity_analysis import analyse_similarity
-from haptoflow_training.studies.simulated_participants import METHODS, RatingModel, planted
+from haptoflow_training.studies.simulation import METHODS, RatingModel, planted
 from haptoflow_training.studies.study_folder import read_faultless
 
 
@@ -61,12 +59,6 @@ def test_a_report_of_real_participants_is_not_marked_as_simulated(tmp_path: Path
     assert all("SIMULATED" not in picture and "simulated" not in picture for picture in pictures_of(page))
 
 
-def test_the_same_logs_give_the_same_report(tmp_path: Path) -> None:
-    logs = similarity_study(latency_study(tmp_path / "logs", 6), 6)
-    (tmp_path / "a").mkdir()
-    assert analysed(logs, tmp_path / "a") == analysed(logs, tmp_path)
-
-
 def test_a_report_holds_thresholds_intervals_and_errors_of_both_conditions(tmp_path: Path) -> None:
     page, results = analysed(latency_study(tmp_path / "logs", 24, 3), tmp_path)
     for condition in ("turn-on", "turn-off"):
@@ -102,23 +94,6 @@ def test_practice_is_left_out_and_delivered_delays_are_fitted_not_planned_ones(t
     assert shifted.points["turn-on"][0].level_ms == 50.0 and shifted.points["turn-on"][0].delivered_ms == 57.0
 
 
-def test_answers_stay_with_their_participant(tmp_path: Path) -> None:
-    answers, levels = answers_of(read_faultless(latency_study(tmp_path / "logs", 3)).of(LATENCY), "turn-off")
-    assert list(np.bincount(answers.participant)) == [11, 11, 11]
-    assert sorted(levels[answers.participant == 1]) == list(range(50, 251, 20))
-
-
-def test_a_study_with_only_yes_answers_is_reported_without_a_threshold(tmp_path: Path) -> None:
-    logs = latency_study(tmp_path / "logs", 6)
-    for path in logs.glob("*.csv"):
-        change_lines(path, lambda lines: [lines[0], *(line.replace(",no,", ",yes,") for line in lines[1:])])
-    page, results = analysed(logs, tmp_path)
-    assert page.count("every answer is yes: the threshold lies below 50 ms, the shortest delay.") == 2
-    conditions = results["latency"]["conditions"]  # type: ignore[index]
-    assert all(one["threshold_ms"] is None for one in conditions.values())
-    assert len(pictures_of(page)) == 1
-
-
 def test_a_planted_difference_is_found_on_its_materials_and_drawn_with_a_star(tmp_path: Path) -> None:
     model = planted(("jute", "wood"), METHODS, 1.5)
     page, results = analysed(similarity_study(tmp_path / "logs", 24, 3, model), tmp_path)
@@ -131,14 +106,6 @@ def test_a_planted_difference_is_found_on_its_materials_and_drawn_with_a_star(tm
     assert picture.count(">*</text>") == 3
     equal = [pair for one in (jute, wood) for pair in one["pairs"] if pair["p_holm"] < 0.05]
     assert picture.count(">≈</text>") == len(equal)
-
-
-def test_ratings_stay_with_their_material_method_and_participant(tmp_path: Path) -> None:
-    logs = similarity_study(tmp_path / "logs", 4)
-    result = analyse_similarity(read_faultless(logs).of(SIMILARITY))
-    drawn = SMALL.ratings(np.random.default_rng((1, 1)), 4)
-    assert result.materials == ["jute", "wood"] and result.methods == ["ours", "other", "third"]
-    assert np.array_equal(result.ratings, drawn)
 
 
 def test_materials_and_methods_stand_in_the_order_of_the_settings_else_by_name(tmp_path: Path) -> None:
@@ -166,15 +133,6 @@ def test_names_with_markup_are_escaped_in_the_report(tmp_path: Path) -> None:
     assert "<script>" not in page and "&lt;script&gt;alert(1)&lt;/script&gt;" in page and "<b>" not in page
     (picture,) = pictures_of(page)
     assert "<script>" not in picture and ">ジュート (n = 6)</text>" in picture and ">$\\frac$ 1$</text>" in picture
-
-
-@pytest.mark.parametrize(("methods", "brackets"), [(2, 1), (6, 15)])
-def test_two_to_six_methods_are_compared_pair_by_pair(tmp_path: Path, methods: int, brackets: int) -> None:
-    names = tuple(f"method {place}" for place in range(methods))
-    model = RatingModel(("jute",), names, {("jute", names[-1]): 2.0})
-    page, results = analysed(similarity_study(tmp_path / "logs", 12, 1, model), tmp_path)
-    assert len(results["similarity"]["materials"]["jute"]["pairs"]) == brackets  # type: ignore[index]
-    assert len(pictures_of(page)) == 1
 
 
 def test_a_missing_rating_is_named(tmp_path: Path) -> None:
@@ -288,36 +246,6 @@ def test_figures_name_their_counts_and_show_every_answer_and_rating(tmp_path: Pa
     # A mark for each of 132 answers, and for each of 36 ratings.
     assert latency.count("<use ") > 132 and similarity.count("<use ") > 36
     assert results["similarity"]["equivalence_points"] == 0.5  # type: ignore[index]
-
-
-def test_points_at_0_and_100_percent_have_intervals(tmp_path: Path) -> None:
-    logs = latency_study(tmp_path / "logs", 6)
-    for path in logs.glob("*.csv"):
-        change_lines(path, lambda lines: [lines[0], *(line.replace(",no,", ",yes,") for line in lines[1:])])
-    result = analyse_latency(read_faultless(logs).of(LATENCY))
-    for point in result.points["turn-on"]:
-        assert point.percent == 100.0 and point.low_percent == pytest.approx(60.97, abs=0.01)
-        assert point.high_percent == pytest.approx(100.0)
-
-
-def test_intervals_of_means_stay_on_the_scale() -> None:
-    low, high = mean_interval(np.array([[7.0, 4.0], [1.0, 4.0], [7.0, 4.0]]))
-    assert (low[0], high[0]) == (1.0, 7.0) and (low[1], high[1]) == (4.0, 4.0)
-
-
-def test_the_bound_of_equivalence_is_that_of_the_settings_and_the_smallest_where_they_differ(tmp_path: Path) -> None:
-    logs = similarity_study(tmp_path / "logs", 4)
-    for path in logs.glob("*.csv"):
-        change_sidecar(path, lambda sidecar: sidecar | {"settings": sidecar["settings"] | {"equivalence_points": 1.25}})
-    read = read_faultless(logs)
-    assert analyse_similarity(read.of(SIMILARITY)).bound == 1.25
-    assert not any("equivalence" in note for note in read.notes)
-    change_sidecar(
-        log_of(logs, 2, "similarity"), lambda side: side | {"settings": side["settings"] | {"equivalence_points": 0.75}}
-    )
-    page, _ = analysed(logs, tmp_path)
-    assert "lies within 0.75 points of rating" in page
-    assert "2 different values of &#x27;settings&#x27;" in page
 
 
 @pytest.mark.parametrize("value", [None, 0, -1, 7, "0.5", True])

@@ -3,13 +3,22 @@
 from __future__ import annotations
 
 import json
+import re
+import shlex
 from collections import Counter
 from pathlib import Path
 
 import pytest
 
 from haptoflow_training.cli import main
-from haptoflow_training.studies.plans import SplitMix64, latency_plan, shuffled, similarity_plan, williams_design
+from haptoflow_training.errors import InputError
+from haptoflow_training.model_stamp import with_measured_words
+from haptoflow_training.studies.delay_budget import (
+    BenchFigures, Block, Budget, Spread, budgets, page_words, page_words as budget_words, read_bench, read_lags
+)
+from haptoflow_training.studies.log_table import COLUMNS
+from haptoflow_training.studies.plans import SplitMix64, latency_plan, similarity_plan, williams_design
+from haptoflow_training.studies.session_file import KEYS
 
 GOLDEN = Path(__file__).parents[1] / "Golden" / "studies" / "plans.json"
 LEVELS = [float(level) for level in range(50, 251, 20)]
@@ -22,11 +31,6 @@ def test_the_generator_gives_the_published_values_of_splitmix64() -> None:
     assert [random.next() for _ in range(5)] == [
         6457827717110365317, 3203168211198807973, 9817491932198370423, 4593380528125082431, 16408922859458223821,
     ]  # fmt: skip
-
-
-def test_a_seed_beyond_64_bits_wraps_as_an_unsigned_integer_does() -> None:
-    assert SplitMix64(2**64 + 7).next() == SplitMix64(7).next()
-    assert SplitMix64(2**64 - 1).next() != SplitMix64(0).next()
 
 
 @pytest.mark.parametrize("count", range(1, 13))
@@ -71,58 +75,12 @@ def test_every_participant_rates_every_method_once_on_every_material_one_materia
     assert len({(trial.material, trial.method) for trial in main_trials}) == 24
 
 
-def test_materials_are_balanced_over_places_once_every_row_of_their_design_was_used() -> None:
-    places = Counter()
-    for participant in range(1, 25):
-        trials = [trial for trial in similarity_plan(participant, 9, MATERIALS, METHODS) if trial.block == "main"]
-        places.update((trial.material, place) for place, trial in enumerate(trials[::4]))
-    assert set(places.values()) == {4} and len(places) == 36
-
-
 def test_over_24_participants_each_method_stands_six_times_at_each_place_of_each_material() -> None:
     places = Counter()
     for participant in range(1, 25):
         trials = [trial for trial in similarity_plan(participant, 9, MATERIALS, METHODS) if trial.block == "main"]
         places.update((trial.material, trial.method, place % 4) for place, trial in enumerate(trials))
     assert set(places.values()) == {6} and len(places) == 6 * 4 * 4
-
-
-@pytest.mark.parametrize(("materials", "methods", "participants"), [(3, 3, 36), (2, 6, 12), (5, 3, 60), (1, 4, 4)])
-def test_methods_are_balanced_on_each_material_once_every_pair_of_rows_was_used(
-    materials: int, methods: int, participants: int
-) -> None:
-    places = Counter()
-    names = [f"material {index}" for index in range(materials)], [f"method {index}" for index in range(methods)]
-    for participant in range(1, participants + 1):
-        trials = [trial for trial in similarity_plan(participant, 9, *names) if trial.block == "main"]
-        places.update((trial.material, trial.method, place % methods) for place, trial in enumerate(trials))
-    assert set(places.values()) == {participants // methods} and len(places) == materials * methods * methods
-
-
-def level_places(levels: list[float], participants: int) -> Counter[tuple[str, float, int]]:
-    places: Counter[tuple[str, float, int]] = Counter()
-    for participant in range(1, participants + 1):
-        trials = [trial for trial in latency_plan(participant, 9, levels) if trial.block == "main"]
-        places.update((trial.condition, trial.delay_ms, place % len(levels)) for place, trial in enumerate(trials))
-    return places
-
-
-def test_over_24_participants_each_of_11_levels_stands_two_to_four_times_at_each_place_of_a_condition() -> None:
-    places = level_places(LEVELS, 24)
-    assert len(places) == 2 * 11 * 11 and set(places.values()) == {2, 3, 4}
-
-
-@pytest.mark.parametrize(("levels", "participants"), [(11, 22), (5, 10), (7, 14), (2, 2), (4, 4), (6, 6), (12, 12)])
-def test_levels_are_balanced_under_each_condition_once_every_row_was_used(levels: int, participants: int) -> None:
-    places = level_places([20.0 * level for level in range(1, levels + 1)], participants)
-    assert len(places) == 2 * levels * levels and set(places.values()) == {participants // levels}
-
-
-def test_another_seed_gives_another_order_and_the_same_seed_the_same() -> None:
-    assert latency_plan(3, 1, LEVELS) == latency_plan(3, 1, LEVELS)
-    assert latency_plan(3, 1, LEVELS) != latency_plan(3, 2, LEVELS)
-    assert similarity_plan(3, 1, MATERIALS, METHODS) != similarity_plan(3, 2, MATERIALS, METHODS)
-    assert sorted(shuffled(11, 5)) == list(range(11))
 
 
 def test_the_committed_golden_plans_are_what_the_command_writes(tmp_path: Path) -> None:
@@ -133,3 +91,148 @@ def test_the_committed_golden_plans_are_what_the_command_writes(tmp_path: Path) 
     assert {len(case["levels_ms"]) for case in golden["latency"]} == {11, 4}
     assert {(len(case["materials"]), len(case["methods"])) for case in golden["similarity"]} == {(6, 4), (3, 3), (2, 6)}
     assert {case["seed"] for case in golden["similarity"]} == {1, 2**63 + 5}
+
+
+PUBLISHED = Path(__file__).parents[2] / "Documentation~" / "benchmarks.md"
+ROWS = [
+    {"block_frames": 256, "burst_blocks": 1, "p50": 2.0, "p99": 5.0},
+    {"block_frames": 256, "burst_blocks": 2, "p50": 4.0, "p99": 10.0},
+]
+REPORT = {
+    "date": "2026-11-23",
+    "machine": {"processor": "Some CPU", "cores": 2},
+    "model": {"sha256": "a" * 64},
+    "sample_rate_hz": 48000,
+    "inference_ms": {"standard": {"p50": 0.3, "p99": 0.4, "paced": {"p50": 1.0, "p99": 1.5}}},
+    "onset_ms": {"rows": ROWS},
+    "stop_ms": {"rows": ROWS},
+}
+
+
+def test_the_report_gives_inference_at_the_pace_of_use_and_latencies_by_block(tmp_path: Path) -> None:
+    path = tmp_path / "bench.json"
+    path.write_text(json.dumps(REPORT), encoding="utf-8")
+    bench = read_bench(path)
+    assert bench.inference_ms == {"standard": Spread(1.0, 1.5)} and bench.model_sha256 == "a" * 64
+    assert bench.onset_ms[Block(256, 2)] == Spread(4.0, 10.0) and bench.words == "2026-11-23, Some CPU, 2 cores"
+
+
+def test_a_budget_is_the_sum_of_its_parts_and_leaves_the_rest_of_the_threshold() -> None:
+    bench = BenchFigures("", "", 48000.0, {"standard": Spread(1.0, 2.0)}, {}, {})
+    (budget,) = budgets(bench, 100.0, Block(480), 20.0).values()
+    assert budget == Budget(10.0, 2.0, 10.0, 20.0) and budget.known_ms == 42.0
+    assert budget.left_ms("turn-on") == pytest.approx(88.25) and budget.left_ms("turn-off") == pytest.approx(65.74)
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("bench.json", "{}"),
+        ("bench.json", "["),
+        ("bench.json", "[]"),
+        ("page.md", "# Benchmarks\n"),
+        ("page.md", PUBLISHED.read_text(encoding="utf-8").split("\nstop, ms")[0]),
+    ],
+)
+def test_an_incomplete_benchmark_is_refused_by_name(tmp_path: Path, name: str, text: str) -> None:
+    (tmp_path / name).write_text(text, encoding="utf-8")
+    with pytest.raises(InputError, match=f"{name}: not a whole report of the benchmark"):
+        read_bench(tmp_path / name)
+
+
+def test_a_page_without_a_measured_part_is_refused_before_anything_is_written(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    plain = tmp_path / "plain.md"
+    plain.write_text("# Page\n", encoding="utf-8")
+    gone = tmp_path / "gone.md"
+    for page, said in ((plain, "the page has no `<!-- measured: begin"), (gone, "gone.md: cannot be read")):
+        assert main(["study", "budget", "--bench", str(PUBLISHED), "--page", str(page)]) == 3
+        assert said in capsys.readouterr().err
+    assert not (tmp_path / "images").exists()
+
+
+def test_the_chart_and_the_page_are_written_together(tmp_path: Path) -> None:
+    page = tmp_path / "page.md"
+    page.write_text("<!-- measured: begin (x) -->\n<!-- measured: end -->\n", encoding="utf-8")
+    assert main(["study", "budget", "--bench", str(PUBLISHED), "--page", str(page)]) == 0
+    assert "(images/delay-budget.png)" in page.read_text(encoding="utf-8")
+    chart = (tmp_path / "images" / "delay-budget.png").read_bytes()
+    assert chart.startswith(b"\x89PNG") and read_bench(PUBLISHED).model_sha256.encode() in chart
+
+
+def _row(lag_ms: float) -> dict[str, object]:
+    rates = {rate: {"lag_ms": lag_ms, "correlation": 0.9} for rate in ("72", "90", "120")}
+    return {"lags": {"scribbles": rates, "real strokes": rates}}
+
+
+def test_the_lag_from_stylus_to_vibration_is_a_row_for_each_kind_of_stroke_and_version(tmp_path: Path) -> None:
+    path = tmp_path / "lag.json"
+    path.write_text(json.dumps({"before": _row(30.0), "now": _row(12.04)}), encoding="utf-8")
+    words = page_words(read_bench(PUBLISHED), "c.png", None, read_lags(path))
+    assert "| scribbles, before | 30.0 | 30.0 | 30.0 |" in words
+    assert "| real strokes, now | 12.0 | 12.0 | 12.0 |" in words
+
+
+ROOT = Path(__file__).parents[2]
+PAGES = ROOT / "Documentation~"
+LOGS, ANALYSIS, BUDGET = (PAGES / f"{name}.md" for name in ("study-logs", "study-analysis", "delay-budget"))
+# Options added to a command, so that a test does not take minutes.
+SHORTER = {"power": ["--simulations", "10"]}
+
+
+def commands(page: Path) -> list[list[str]]:
+    """The words of each command in the blocks without a language."""
+    blocks = [part for part in page.read_text(encoding="utf-8").split("\n```")[1::2] if part.startswith("\n")]
+    found = []
+    for line in (line for block in blocks for line in block.strip().splitlines()):
+        command = re.fullmatch(r"PYTHONPATH=Training python3 -m haptoflow_training (.*)", line)
+        assert command, f"not a command of this page: {line}"
+        found.append(shlex.split(command[1]))
+    return found
+
+
+@pytest.mark.parametrize(
+    ("page", "steps"),
+    [
+        (LOGS, ["simulate", "simulate", "check", "merge", "analyse"]),
+        (ANALYSIS, ["power", "power", "simulate", "simulate", "analyse"]),
+        (BUDGET, ["budget", "budget"]),
+    ],
+)
+def test_every_command_of_a_page_runs_in_its_order(
+    page: Path, steps: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "Documentation~").mkdir()
+    for name in (page.name, "benchmarks.md"):
+        (tmp_path / "Documentation~" / name).write_bytes((PAGES / name).read_bytes())
+    lags = tmp_path / "Training" / "results" / "default" / "stylus-lag.json"
+    lags.parent.mkdir(parents=True)
+    lags.write_bytes((ROOT / lags.relative_to(tmp_path)).read_bytes())
+    monkeypatch.chdir(tmp_path)
+    ran = []
+    for words in commands(page):
+        assert main([*words, *SHORTER.get(words[1], [])]) == 0, (words, capsys.readouterr().err)
+        ran.append(words[1])
+    assert ran == steps
+    if "analyse" in ran:
+        assert "SIMULATED" in (tmp_path / "report.html").read_text(encoding="utf-8")
+    if "merge" in ran:
+        assert sorted(path.name for path in (tmp_path / "tables").iterdir()) == ["latency.csv", "similarity.csv"]
+
+
+def test_every_column_and_key_of_the_logs_is_explained() -> None:
+    named = set(re.findall(r"`([a-z0-9_]+)`", LOGS.read_text(encoding="utf-8")))
+    for columns in COLUMNS.values():
+        for column in columns:
+            assert column.name in named, column.name
+            assert set(column.words) <= named | {"turn-on", "turn-off"}
+    for key in ("format", "version", *KEYS):
+        assert key in named, key
+
+
+def test_the_budget_page_shows_the_published_benchmark() -> None:
+    page = BUDGET.read_text(encoding="utf-8")
+    lags = read_lags(ROOT / "Training" / "results" / "default" / "stylus-lag.json")
+    words = budget_words(read_bench(PAGES / "benchmarks.md"), "images/delay-budget.png", None, lags)
+    assert page == with_measured_words(page, words), "write it anew: haptoflow-training study budget --page"

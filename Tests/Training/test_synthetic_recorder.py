@@ -11,16 +11,8 @@ from synthetic_samples import record_hand, record_machine
 from haptoflow_training.preprocessing.pipeline import preprocess_recording
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.recordings.recording import STANDARD_GRAVITY_MPS2, RecordingIdentity
-from haptoflow_training.recordings.synthetic import (
-    hand_conditions,
-    load_materials,
-    machine_conditions,
-    record_condition,
-    record_hand_condition,
-    record_machine_condition,
-)
-from haptoflow_training.recordings.synthetic.contact import SIMULATION_RATE_HZ, tool_vibration
-from haptoflow_training.recordings.synthetic.features import impact_acceleration
+from haptoflow_training.recordings.synthetic import load_materials, record_condition, record_machine_condition
+from haptoflow_training.recordings.synthetic.contact import SIMULATION_RATE_HZ
 from haptoflow_training.recordings.synthetic.surface import TipPath, random_height
 
 MATERIALS = {material.label: material for material in load_materials()}
@@ -69,21 +61,9 @@ def test_the_same_spot_has_the_same_height_at_another_speed_and_on_the_way_back(
     assert np.corrcoef(np.diff(slow[::2]), np.diff(fast))[0, 1] > 0.9
 
 
-def test_two_materials_have_different_surfaces():
-    path = _straight([3.0, 4.0], 0.3, 100.0, 4000)
-    one, other = (random_height(MATERIALS[label], path, specimen=1)[0] for label in ("wood", "plywood"))
-    assert abs(np.corrcoef(np.diff(one), np.diff(other))[0, 1]) < 0.2
-
-
 def test_a_resting_tip_does_not_vibrate_on_any_material():
     for label in MATERIALS:
         vibration, _ = _vibration(label, velocity=(0.0, 0.0), seconds=0.5)
-        assert _rms(vibration) < 1e-9, label
-
-
-def test_without_force_there_is_no_texture_on_any_material():
-    for label in MATERIALS:
-        vibration, _ = _vibration(label, force=0.0, seconds=0.5)
         assert _rms(vibration) < 1e-9, label
 
 
@@ -99,15 +79,6 @@ def test_level_grows_with_speed_and_everything_stays_within_the_sensors_range(la
     assert levels[-1] < 80.0
 
 
-def test_levels_of_rough_materials_saturate_at_high_speed_while_faint_ones_grow():
-    def growth(label):
-        fast, slow = (_rms(_vibration(label, velocity=(speed, 0.0))[0]) for speed in (1.5, 0.75))
-        return fast / slow
-
-    assert growth("sandpaper") < 2 ** (0.75 * MATERIALS["sandpaper"].targets.p)
-    assert growth("glass") > 2 ** (0.4 * MATERIALS["glass"].targets.p)
-
-
 @pytest.mark.parametrize(("label", "wavelength_mm"), [("corduroy", 2.5), ("metal mesh", 1.2)])
 @pytest.mark.parametrize("speed", [0.1, 0.2])
 def test_a_ruled_surface_vibrates_at_speed_over_wavelength(label, wavelength_mm, speed):
@@ -119,22 +90,10 @@ def test_a_ruled_surface_vibrates_at_speed_over_wavelength(label, wavelength_mm,
     assert power[near].max() > 20 * np.median(power[near])
 
 
-def test_corduroy_has_no_line_along_its_ribs():
-    across = _rms(_vibration("corduroy", velocity=(0.1, 0.0))[0])
-    along = _rms(_vibration("corduroy", velocity=(0.0, 0.1))[0])
-    assert along < 0.75 * across
-
-
 def test_wood_is_smoother_along_its_grain():
     along = np.mean([_rms(_vibration("wood", velocity=(0.1, 0.0), seed=seed)[0]) for seed in range(3)])
     across = np.mean([_rms(_vibration("wood", velocity=(0.0, 0.1), seed=seed)[0]) for seed in range(3)])
     assert along < 0.85 * across
-
-
-def test_fur_is_rougher_against_its_nap():
-    with_nap = _rms(_vibration("fur", velocity=(0.1, 0.0))[0])
-    against = _rms(_vibration("fur", velocity=(-0.1, 0.0))[0])
-    assert against > 1.2 * with_nap
 
 
 def test_impacts_give_concrete_heavier_tails_than_the_same_surface_without_them():
@@ -177,16 +136,6 @@ def test_asperities_that_mostly_push_up_skew_the_vibration_of_rough_stone_upward
     assert skewness(replace(rough, impact_upward_share=0.15)) < -0.05
 
 
-def test_asperities_do_not_lift_the_tip_on_average():
-    count = 40 * int(SIMULATION_RATE_HZ)
-    for label in ("concrete", "sandpaper"):
-        path = _straight([0.0, 0.0], 0.3, 300.0, count)
-        impulses = impact_acceleration(MATERIALS[label], path, SIMULATION_RATE_HZ, specimen=1)
-        assert abs(impulses.mean()) < 0.1 * np.abs(impulses).mean()
-    rest = TipPath(np.zeros((100, 2)), np.zeros((100, 2)))
-    assert not np.any(impact_acceleration(MATERIALS["concrete"], rest, SIMULATION_RATE_HZ, specimen=1))
-
-
 def test_without_the_accelerometer_s_noise_rest_is_digital_silence_and_the_other_sensors_stay_as_they_are():
     clean, noisy = (
         record_condition(
@@ -199,25 +148,6 @@ def test_without_the_accelerometer_s_noise_rest_is_digital_silence_and_the_other
     for name in ("acceleration_time_seconds", "force_time_seconds", "force_newtons", "position_mm"):
         assert np.array_equal(getattr(clean, name), getattr(noisy, name))
     assert not np.any(preprocess_recording(clean, PreprocessingSettings()).waveform_mps2)
-
-
-def test_clean_creeping_wood_is_quieter_than_with_noise_by_the_power_of_the_noise():
-    clean, noisy = (
-        _prepared_wave("wood", speed=0.005, seeds=range(3), accelerometer_noise=noise) for noise in (False, True)
-    )
-    hiss = _prepared_wave("wood", speed=0.0, seeds=range(3), accelerometer_noise=True)
-    expected_db = 10.0 * np.log10(1.0 + np.var(hiss) / np.var(clean))
-    assert 20.0 * np.log10(np.std(noisy) / np.std(clean)) == pytest.approx(expected_db, abs=0.2)
-    assert expected_db > 3.0
-
-
-def test_a_hand_that_rests_on_a_clean_recording_is_prepared_like_any_other():
-    identity = RecordingIdentity(0, None, 100, 800, 1)
-    recording = record_hand_condition(
-        MATERIALS["wood"], identity, seed=1, duration_seconds=3.0, guided_share=1.0, accelerometer_noise=False
-    )
-    prepared = preprocess_recording(recording, replace(PreprocessingSettings(), trim_seconds=0.1))
-    assert np.abs(prepared.waveform_mps2[:100]).max() < 1e-3 < 0.05 < np.std(prepared.waveform_mps2)
 
 
 def test_stick_slip_vibrates_along_the_movement_and_vanishes_at_speed():
@@ -233,21 +163,6 @@ def test_stick_slip_vibrates_along_the_movement_and_vanishes_at_speed():
     assert slipping[0] > 0.15 * base[0]
     assert slipping[2] < 1e-9
     assert added(0.6)[0][0] < 0.01 * added(0.6)[1][0]
-
-
-def test_the_three_axes_carry_different_but_related_signals():
-    vibration, _ = _vibration("stone", velocity=(0.08, 0.06), seconds=2.0)
-    correlation = np.corrcoef(vibration.T)
-    assert np.all(np.abs(correlation[np.triu_indices(3, 1)]) < 0.98)
-    assert abs(correlation[0, 2]) > 0.1
-
-
-def test_off_the_surface_the_tip_falls_no_faster_than_its_force_pushes():
-    count = 8000
-    path = _straight([0.0, 0.0], 0.1, 1500.0, count)
-    normal = tool_vibration(MATERIALS["sandpaper"], path, np.full(count, 0.2), specimen=4).acceleration_mps2[:, 2]
-    assert normal.min() > -(0.2 / 0.02 + 9.81) * 1.001
-    assert normal.max() > -1.3 * normal.min()
 
 
 def test_the_sensors_are_those_of_the_published_machine():
@@ -282,9 +197,7 @@ def test_a_machine_pass_rests_at_both_ends_and_moves_as_its_name_says():
 def test_the_frame_s_vibration_is_present_at_rest_and_stronger_in_motion():
     recording = record_machine_condition(MATERIALS["glass"], RecordingIdentity(6, 0, 60, 500, 0), seed=5)
     time = recording.acceleration_time_seconds
-    still, moving = (
-        recording.acceleration_g[(time > low) & (time < low + 0.3)] for low in (0.0, 0.8)
-    )
+    still, moving = (recording.acceleration_g[(time > low) & (time < low + 0.3)] for low in (0.0, 0.8))
 
     def low_over_high(values):
         power = np.sum(np.abs(np.fft.rfft(values - values.mean(axis=0), axis=0)) ** 2, axis=1)
@@ -292,35 +205,6 @@ def test_the_frame_s_vibration_is_present_at_rest_and_stronger_in_motion():
 
     assert low_over_high(still) > 1.5
     assert low_over_high(moving) > 2.0 * low_over_high(still)
-
-
-def test_the_machine_protocol_is_the_published_design():
-    identities = machine_conditions(MATERIALS["wood"])
-    assert len(identities) == 160 == len(set(identities))
-    assert {identity.direction_degrees for identity in identities} == set(range(0, 360, 45))
-    assert {identity.speed_mmps for identity in identities} == {20, 30, 40, 50, 60}
-    assert {identity.force_millinewtons for identity in identities} == {500, 1000}
-
-
-def test_hand_recordings_cover_slow_to_fast_and_light_to_firm():
-    identities = hand_conditions(MATERIALS["wood"], seed=1, recordings=40)
-    speeds = np.array([identity.speed_mmps for identity in identities])
-    forces = np.array([identity.force_millinewtons for identity in identities])
-    assert speeds.min() < 8 and speeds.max() > 700
-    assert 60 < np.median(speeds) < 220
-    assert forces.min() < 250 and forces.max() > 2500
-    assert abs(np.corrcoef(np.log(speeds), np.log(forces))[0, 1]) < 0.4
-
-
-def test_a_hand_recordings_speed_and_force_vary_within_it():
-    identity = RecordingIdentity(9, None, 300, 800, 0)
-    recording = record_hand_condition(MATERIALS["plastic"], identity, seed=2, duration_seconds=6.0)
-    speed = np.hypot(*np.diff(recording.position_mm, axis=0).T) * 100.0
-    moving = speed[speed > 15.0]
-    assert recording.duration_seconds == pytest.approx(6.0, abs=0.01)
-    assert np.median(moving) == pytest.approx(300.0, rel=0.15)
-    assert np.percentile(moving, 95) > 2.5 * np.percentile(moving, 10)
-    assert np.std(np.log(recording.force_newtons + 0.05)) > 0.08
 
 
 def _same(one, other):
@@ -340,9 +224,7 @@ def _same(one, other):
 def test_recordings_are_the_same_bytes_again_in_any_order_and_subset():
     words = {"seed": 9, "recordings_per_label": 2, "duration_seconds": 2.0}
     materials = list(MATERIALS.values())
-    everything = {
-        each.identity: each for each in record_hand(materials, labels=["wood", "stone"], **words)
-    }
+    everything = {each.identity: each for each in record_hand(materials, labels=["wood", "stone"], **words)}
     backwards = {each.identity: each for each in record_hand(materials[::-1], labels=["stone"], **words)}
     assert len(everything) == 4 and len(backwards) == 2
     for identity, recording in backwards.items():

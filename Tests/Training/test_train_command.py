@@ -14,8 +14,9 @@ import pytest
 import torch
 
 from haptoflow_training.cli import main
-from haptoflow_training.preprocessing.store import SegmentStore
-from haptoflow_training.preprocessing.store_lock import store_lock
+from haptoflow_training.errors import InputError
+from haptoflow_training.preprocessing.store import store_lock
+from haptoflow_training.training.processes import Job, run_jobs
 
 TRAINING = Path(__file__).resolve().parents[2] / "Training"
 CONFIGURATION = """
@@ -70,16 +71,6 @@ def is_running(process: int) -> bool:
         return False
 
 
-def test_two_trainings_that_start_together_share_one_store(tmp_path: Path) -> None:
-    both = [started(tmp_path, name) for name in ("one", "two")]
-    said = [process.communicate(timeout=240)[1] for process in both]
-    assert [process.returncode for process in both] == [0, 0], said
-    assert len(SegmentStore.open(tmp_path / "store").recordings) == 10
-    # One of them prepares; the other waits, or comes when all is done.
-    assert sum("prepare:" in one for one in said) == 1
-    assert sorted(path.name for path in tmp_path.glob("store*")) == ["store"]
-
-
 def test_a_training_that_is_killed_while_preparing_leaves_no_worker_and_no_lock(tmp_path: Path) -> None:
     killed = started(tmp_path, "killed", hand_seconds=60.0)
     wait_for(killed, lambda: (tmp_path / "store.unfinished").exists() and len(children_of(killed.pid)) >= 2)
@@ -93,18 +84,6 @@ def test_a_training_that_is_killed_while_preparing_leaves_no_worker_and_no_lock(
     again = started(tmp_path, "again")
     _, said = again.communicate(timeout=240)
     assert again.returncode == 0 and "waiting" not in said, said
-
-
-@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
-def test_a_training_that_is_stopped_while_preparing_says_how_to_go_on(tmp_path: Path, number: int) -> None:
-    process = started(tmp_path, "run", hand_seconds=20.0)
-    wait_for(process, lambda: (tmp_path / "store.unfinished").exists() and len(children_of(process.pid)) >= 2)
-    process.send_signal(number)
-    _, said = process.communicate(timeout=60)
-    assert process.returncode == 128 + number, said
-    name = signal.Signals(number).name
-    assert f"stopped by {name}, no model is written yet; run the same command again to go on" in said
-    assert "Traceback" not in said and not list(tmp_path.glob("store*"))
 
 
 def test_a_training_that_is_stopped_between_steps_exits_with_an_error_and_goes_on_from_there(tmp_path: Path) -> None:
@@ -159,7 +138,7 @@ def test_a_run_that_cannot_begin_is_refused_before_recordings_are_prepared(
 
 def test_a_lock_is_held_by_one_program_at_a_time_and_leaves_no_file(tmp_path: Path) -> None:
     holder = (
-        "import sys\nfrom pathlib import Path\nfrom haptoflow_training.preprocessing.store_lock import store_lock\n"
+        "import sys\nfrom pathlib import Path\nfrom haptoflow_training.preprocessing.store import store_lock\n"
         f"with store_lock(Path({str(tmp_path / 'store')!r})):\n"
         "    print('held', flush=True)\n    sys.stdin.readline()\n"
     )
@@ -175,3 +154,63 @@ def test_a_lock_is_held_by_one_program_at_a_time_and_leaves_no_file(tmp_path: Pa
     assert (tmp_path / "store.lock").exists()
     other.communicate("\n", timeout=30)
     assert other.returncode == 0 and not (tmp_path / "store.lock").exists()
+
+
+_PYTHON = (sys.executable, "-c")
+# Writes that it began, waits, writes its product; when terminated, it writes that too.
+_CAREFUL = """
+import pathlib, signal, sys, time
+folder, name, seconds = pathlib.Path(sys.argv[1]), sys.argv[2], float(sys.argv[3])
+def stop(number, frame):
+    (folder / f"{name}.stopped").touch()
+    sys.exit(1)
+signal.signal(signal.SIGTERM, stop)
+(folder / f"{name}.began").touch()
+time.sleep(seconds)
+(folder / name).touch()
+"""
+
+
+def _careful(folder: Path, name: str, seconds: float) -> Job:
+    words = [_CAREFUL, str(folder), name, str(seconds)]
+    return Job(name, words, folder / f"{name}.log", folder / name, program=_PYTHON)
+
+
+def test_no_more_jobs_run_at_a_time_than_there_are_lanes_and_progress_counts_them_all(tmp_path: Path) -> None:
+    jobs = [_careful(tmp_path, f"job{number}", 0.3) for number in range(5)]
+    most, heard = 0, []
+
+    def progress(finished: int) -> None:
+        nonlocal most
+        heard.append(finished)
+        most = max(most, len(list(tmp_path.glob("*.began"))) - finished)
+
+    run_jobs(jobs, 2, progress)
+    assert most <= 2 and heard == sorted(heard) and heard[-1] == 5
+    assert all(job.product.exists() for job in jobs)
+
+
+@pytest.mark.parametrize("program", ["raise SystemExit(3)", "print('ended well, made nothing')"])
+def test_a_failing_job_is_named_with_its_log_and_the_others_are_terminated(tmp_path: Path, program: str) -> None:
+    waits = f"import pathlib, time\nwhile not pathlib.Path({str(tmp_path / 'long.began')!r}).exists(): time.sleep(0.05)\n"
+    failing = Job("failing", (waits + program,), tmp_path / "logs" / "failing.log", tmp_path / "never", program=_PYTHON)
+    with pytest.raises(InputError, match=r"failing: .*failing\.log says why"):
+        run_jobs([_careful(tmp_path, "long", 60.0), failing], 2)
+    assert (tmp_path / "long.stopped").exists()
+
+
+def test_terminating_the_parent_terminates_its_jobs(tmp_path: Path) -> None:
+    parent = (
+        "import sys\nfrom pathlib import Path\nfrom haptoflow_training.training.processes import Job, run_jobs\n"
+        f"folder = Path({str(tmp_path)!r})\n"
+        f"words = ({_CAREFUL!r}, str(folder), 'job', '60')\n"
+        "run_jobs([Job('job', words, folder / 'log', folder / 'job', program=(sys.executable, '-c'))], 1)\n"
+    )
+    training = Path(__file__).resolve().parents[2] / "Training"
+    process = subprocess.Popen([*_PYTHON, parent], env={**os.environ, "PYTHONPATH": str(training)})
+    end = time.monotonic() + 30.0
+    while not (tmp_path / "job.began").exists() and time.monotonic() < end:
+        time.sleep(0.05)
+    process.send_signal(signal.SIGTERM)
+    assert process.wait(30.0) != 0
+    assert (tmp_path / "job.stopped").exists()

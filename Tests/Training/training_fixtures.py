@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from haptoflow_training.closed_loop.level_calibration import closed_loop_levels, offsets_db
-from haptoflow_training.closed_loop.phase_track import SurfaceStatistics
-from haptoflow_training.training.held_out import HeldOut
+from haptoflow_training.closed_loop.render import SurfaceStatistics
+from haptoflow_training.training.batches import HeldOut
 
 RATE_HZ = 2000
 

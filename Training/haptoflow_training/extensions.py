@@ -1,9 +1,8 @@
 """The seam by which another package extends a run: it derives a configuration of its own and puts it in place.
 
 A configuration class names the classes that train it and write it (`trained_by`, `exported_as`), so
-a derived one may bring further keys, rules, networks, objectives and kinds of tiers. haptoflow_training itself has no
-branch for them. It knows the names of the evaluation's keys, each with the value that changes nothing, to read files and
-checkpoints that state them (config.py). Importing a package that calls `use_configuration` changes what `load_config` reads.
+a derived one may bring further keys, rules, networks, objectives and kinds of tiers. haptoflow_training itself has
+neither keys nor branches for them. Importing a package that calls `use_configuration` changes what `load_config` reads.
 """
 
 from __future__ import annotations

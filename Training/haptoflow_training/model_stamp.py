@@ -7,7 +7,6 @@ import re
 from pathlib import Path
 
 from haptoflow_training.errors import InputError
-from haptoflow_training.export.model_file import read_model_file
 
 SHIPPED_MODEL = Path("Packages") / "com.haptoflow.runtime" / "Runtime" / "Models" / "default.haptoflow"
 # Key of the text chunk in a PNG file; the JavaScript and C# tools write the same key.
@@ -17,12 +16,6 @@ _PICTURE_KEY = "Model-SHA-256"
 def sha256_of(path: Path) -> str:
     """SHA-256 of a file's bytes, in hexadecimal."""
     return hashlib.sha256(path.read_bytes()).hexdigest()
-
-
-def graphs_sha256(path: Path) -> str:
-    """SHA-256 of a model file's graphs. The header is left out, because it holds figures measured with the model."""
-    graphs = read_model_file(path).graphs
-    return hashlib.sha256(b"".join(graphs[name] for name in sorted(graphs))).hexdigest()
 
 
 def model_line(sha256: str) -> str:

@@ -22,10 +22,8 @@ import numpy as np
 from renders import ENGINE, FULL_SCALE_MPS2, MODEL, ROOT, render, save
 from scipy.signal import butter, sosfiltfilt
 
-from haptoflow_benchmark.engine.engine_library import EngineLibrary, default_engine
-from haptoflow_benchmark.engine.wave_frames import wave_frames
-from haptoflow_benchmark.full_scale.measurement import model_labels
-from haptoflow_benchmark.full_scale.recorded_strokes import onto_table, read_recorded_strokes
+from haptoflow_benchmark.engine_library import EngineLibrary, default_engine, wave_frames
+from haptoflow_benchmark.engine_render import model_labels, onto_table, read_recorded_strokes
 from haptoflow_training.model_stamp import model_line, read_measured_page, sha256_of, with_measured_words
 
 PAGE = ROOT / "Training/results/device-loudness.md"

@@ -25,8 +25,7 @@ from native_engine import exposure
 from renders import FULL_SCALE_MPS2, MODEL, ROOT, colour_of, render, render_file, run, save
 from scipy.signal import welch
 
-from haptoflow_benchmark.engine.engine_library import default_engine
-from haptoflow_benchmark.engine.wave_frames import wave_frames
+from haptoflow_benchmark.engine_library import default_engine, wave_frames
 from haptoflow_training.model_stamp import model_line, sha256_of, with_measured_words
 
 IMAGES = ROOT / "Documentation~/images"

@@ -11,7 +11,7 @@ import numpy as np
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "Training"))
 
-from haptoflow_benchmark.engine.engine_library import EngineLibrary  # noqa: E402
+from haptoflow_benchmark.engine_library import EngineLibrary
 from haptoflow_training.native_library import NativeModel, options_of  # noqa: E402
 
 RATE_HZ = 8000

@@ -21,7 +21,7 @@ from scipy.io import wavfile
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "Training"))
 
-from haptoflow_benchmark.few_shot.unseen import unseen_materials  # noqa: E402
+from haptoflow_benchmark.wave_vector_study import unseen_materials
 from haptoflow_training.recordings.recording import STANDARD_GRAVITY_MPS2, Recording  # noqa: E402
 from haptoflow_training.recordings.synthetic.materials import load_materials  # noqa: E402
 from haptoflow_training.recordings.synthetic.recorder import record_condition  # noqa: E402

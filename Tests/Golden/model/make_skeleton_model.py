@@ -18,7 +18,7 @@ from haptoflow_training.export.trained_tier import TrainedTier
 from haptoflow_training.models.level_model import LevelModel, scaled_previous
 from haptoflow_training.models.refiner import Refiner
 from haptoflow_training.models.skeleton import ORDER, OUTPUTS, Skeleton
-from haptoflow_training.models.skeleton_model import SkeletonModel
+from haptoflow_training.models.haptoflow_model import SkeletonModel
 from haptoflow_training.training.config import TrainingConfig
 from haptoflow_training.training.run_log import write_json
 

@@ -9,12 +9,8 @@ from pathlib import Path
 from tqdm import tqdm
 
 from haptoflow_benchmark.commands.own_parts import ENGINE, add_recording_options, own_parts, require_engine
-from haptoflow_benchmark.own_model.label_discrimination import (
-    DiscriminationReport,
-    discriminate,
-    discriminate_parts,
-    train_classifier,
-    write_report,
+from haptoflow_benchmark.label_discrimination import (
+    DiscriminationReport, discriminate, discriminate_parts, train_classifier, write_report
 )
 from haptoflow_training.model_stamp import SHIPPED_MODEL, sha256_of
 from haptoflow_training.recordings.synthetic import load_materials

@@ -10,9 +10,9 @@ from pathlib import Path
 from tqdm import tqdm
 
 from haptoflow_benchmark.commands.own_parts import ENGINE, OwnParts, add_recording_options, own_parts, require_engine
-from haptoflow_benchmark.own_model.beside_learning import Verdict, render_learnt, verdict
-from haptoflow_benchmark.own_model.own_accuracy import LabelAccuracy, RenderedPart, label_accuracy, render_parts
-from haptoflow_benchmark.own_model.own_report import lines, write_own_report
+from haptoflow_benchmark.own_accuracy import (
+    LabelAccuracy, RenderedPart, Verdict, label_accuracy, lines, render_learnt, render_parts, verdict, write_own_report
+)
 from haptoflow_training.errors import InputError
 from haptoflow_training.model_stamp import SHIPPED_MODEL, sha256_of
 
@@ -43,9 +43,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         help="also learn each label from the recordings that the model was trained on (about 7 s each), and say whether the "
         "model is worth using; the exit code is 3 if it is not",
     )  # fmt: skip
-    parser.add_argument(
-        "--out", type=Path, help="for own-accuracy.json, .md and .png (default: printed only)"
-    )
+    parser.add_argument("--out", type=Path, help="for own-accuracy.json, .md and .png (default: printed only)")
 
 
 def run(options: argparse.Namespace) -> int:

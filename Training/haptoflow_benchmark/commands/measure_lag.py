@@ -9,8 +9,8 @@ from typing import Any
 
 from tqdm import tqdm
 
-from haptoflow_benchmark.full_scale.recorded_strokes import read_recorded_strokes
-from haptoflow_benchmark.lag.stylus_lag import LABELS, NOISE_METRES, RATES_HZ, SEEDS, lag_strokes, measure_lags
+from haptoflow_benchmark.engine_render import read_recorded_strokes
+from haptoflow_benchmark.stylus_lag import LABELS, NOISE_METRES, RATES_HZ, SEEDS, lag_strokes, measure_lags
 from haptoflow_training.errors import InputError
 from haptoflow_training.model_stamp import sha256_of
 from haptoflow_training.training.run_log import source_commit, write_json

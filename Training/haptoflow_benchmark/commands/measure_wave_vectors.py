@@ -8,7 +8,7 @@ from pathlib import Path
 
 from tqdm import tqdm
 
-from haptoflow_benchmark.few_shot.wave_vector_study import measured, study_surfaces
+from haptoflow_benchmark.wave_vector_study import measured, study_surfaces
 from haptoflow_training.whole_file import write_whole
 
 _EXAMPLES = """examples:

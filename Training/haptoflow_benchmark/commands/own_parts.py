@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from haptoflow_benchmark.own_model.own_accuracy import HeldOutPart
+from haptoflow_benchmark.own_accuracy import HeldOutPart
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.preprocessing.preparation import prepare_cut_where_needed, prepare_store

@@ -9,16 +9,89 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+import torch
+from scipy.signal import firwin
 from torch import Tensor, nn
+from torch.nn.utils import remove_weight_norm, weight_norm
 
-from haptoflow_paper.codec.causal_layers import (
-    CausalConvolution,
-    CausalResidualBlock,
-    CausalTransposedConvolution,
-    ResidualLstm,
-)
 from haptoflow_paper.codec.checkpoint_file import load_state, read_tensors
+from haptoflow_paper.codec.small_codec import LatentNormaliser
 from haptoflow_training.errors import InputError
+from haptoflow_training.waveform import SEGMENT_SAMPLES
+
+class CausalConvolution(nn.Module):
+    """Convolution of [B, C, N] to [B, D, ceil(N / stride)] that reads no sample after its own stride.
+
+    All padding is on the left, mirrored, except what the last stride needs to be full. Because of the mirroring, the
+    first outputs depend on up to `kernel - stride` later samples; N must exceed that number, or ValueError is raised.
+    """
+
+    def __init__(self, inputs: int, outputs: int, kernel: int, stride: int = 1) -> None:
+        super().__init__()
+        self.stride = stride
+        self.left = kernel - stride
+        self.conv = nn.ModuleDict({"conv": weight_norm(nn.Conv1d(inputs, outputs, kernel, stride=stride))})
+
+    def forward(self, signal: Tensor) -> Tensor:
+        length = int(signal.shape[-1])
+        if length <= self.left:
+            raise ValueError(f"{length} positions are too few to mirror {self.left} of them; expected more")
+        padded = nn.functional.pad(signal, (self.left, -length % self.stride), mode="reflect")
+        return self.conv["conv"](padded)
+
+
+class CausalTransposedConvolution(nn.Module):
+    """Transposed convolution of [B, C, N] to [B, D, N stride], kernel twice the stride, cut on the right."""
+
+    def __init__(self, inputs: int, outputs: int, stride: int) -> None:
+        super().__init__()
+        self.stride = stride
+        layer = nn.ConvTranspose1d(inputs, outputs, 2 * stride, stride=stride)
+        self.convtr = nn.ModuleDict({"convtr": weight_norm(layer)})
+
+    def forward(self, signal: Tensor) -> Tensor:
+        return self.convtr["convtr"](signal)[..., : -self.stride]
+
+
+class CausalResidualBlock(nn.Module):
+    """Bottleneck of half the channels (kernel 3, then 1) beside a shortcut of kernel 1; keeps [B, C, N]."""
+
+    def __init__(self, channels: int) -> None:
+        super().__init__()
+        self.block = nn.Sequential(
+            nn.ELU(),
+            CausalConvolution(channels, channels // 2, 3),
+            nn.ELU(),
+            CausalConvolution(channels // 2, channels, 1),
+        )
+        self.shortcut = CausalConvolution(channels, channels, 1)
+
+    def forward(self, signal: Tensor) -> Tensor:
+        return self.shortcut(signal) + self.block(signal)
+
+
+class ResidualLstm(nn.Module):
+    """Two LSTM layers over positions, added to their input; keeps [B, C, N]."""
+
+    def __init__(self, channels: int) -> None:
+        super().__init__()
+        self.lstm = nn.LSTM(channels, channels, num_layers=2)
+
+    def forward(self, signal: Tensor) -> Tensor:
+        sequence = signal.permute(2, 0, 1)
+        recalled, _ = self.lstm(sequence)
+        return (recalled + sequence).permute(1, 2, 0)
+
+
+def fold_weight_norm(module: nn.Module) -> None:
+    """Replace every weight-normalised layer by a plain one with the same output, in place; not for training.
+
+    Weights are then computed once instead of in every call; the state dict loses its published names.
+    """
+    for layer in module.modules():
+        if hasattr(layer, "weight_g"):
+            remove_weight_norm(layer)
+
 
 ENCODEC_RATE_HZ = 24_000
 FRAME_SAMPLES = 320
@@ -118,3 +191,91 @@ class EnCodec(nn.Module):
         if not state:
             raise InputError(f"{path}: holds no encoder or decoder, expected EnCodec's 24 kHz state dict")
         load_state(self, state, path)
+
+
+# 63 dB stop band; with 16 samples a side the pass band reaches 880 of 1,000 Hz.
+_KAISER_BETA = 6.0
+_HALF_WIDTH = 16
+
+
+def _continued(waveform: Tensor, reach: int) -> Tensor:
+    """Extended by point reflection about its ends, so that value and slope are continuous; [B, 1, N] to [B, 1, N + 2
+    reach].
+
+    A plain mirror image has a kink: band noise of 20-450 Hz was reconstructed with 42 dB instead of 58 dB.
+    """
+    before = 2.0 * waveform[..., :1] - waveform[..., 1 : reach + 1].flip(-1)
+    after = 2.0 * waveform[..., -1:] - waveform[..., -reach - 1 : -1].flip(-1)
+    return torch.cat([before, waveform, after], dim=-1)
+
+
+class PolyphaseResampler(nn.Module):
+    """Windowed sinc with its corner at the lower rate's Nyquist frequency, 16 lower-rate samples a side.
+
+    Sample i of the lower rate is sample i * factor of the higher one: no delay. The lower-rate length must
+    exceed 16.
+    """
+
+    taps: Tensor
+
+    def __init__(self, factor: int) -> None:
+        super().__init__()
+        self.factor = factor
+        taps = firwin(2 * _HALF_WIDTH * factor + 1, 1.0 / factor, window=("kaiser", _KAISER_BETA))
+        kernel = torch.tensor(taps, dtype=torch.float32).reshape(1, 1, -1)
+        self.register_buffer("taps", kernel, persistent=False)
+
+    def upsample(self, waveform: Tensor) -> Tensor:
+        """[B, 1, N] to [B, 1, N factor]; the samples themselves are kept to within 2e-4."""
+        return nn.functional.conv_transpose1d(
+            _continued(waveform, _HALF_WIDTH),
+            self.taps * self.factor,
+            stride=self.factor,
+            padding=2 * _HALF_WIDTH * self.factor,
+            output_padding=self.factor - 1,
+        )
+
+    def downsample(self, waveform: Tensor) -> Tensor:
+        """[B, 1, N factor] to [B, 1, N], what lies above the lower rate's Nyquist frequency removed."""
+        return nn.functional.conv1d(
+            _continued(waveform, _HALF_WIDTH * self.factor), self.taps, stride=self.factor
+        )
+
+
+WAVEFORM_RATE_HZ = 2_000
+# EnCodec was trained on sound within +-1; waveforms in unit scale have an RMS of 1 and peaks of several.
+DEFAULT_WAVEFORM_SCALE = 0.1
+
+_FACTOR = ENCODEC_RATE_HZ // WAVEFORM_RATE_HZ
+_SAMPLES_24_KHZ = SEGMENT_SAMPLES * _FACTOR
+
+
+class ResampledEnCodec(nn.Module):
+    """Scale, upsample 12 times, encode, normalise; and the inverse. Input and output are in unit scale at 2 kHz."""
+
+    latent_shape = (LATENT_CHANNELS, -(-_SAMPLES_24_KHZ // FRAME_SAMPLES))
+
+    def __init__(self, codec: EnCodec, waveform_scale: float = DEFAULT_WAVEFORM_SCALE) -> None:
+        super().__init__()
+        self.codec = codec
+        self.waveform_scale = waveform_scale
+        self.resampler = PolyphaseResampler(_FACTOR)
+        self.normaliser = LatentNormaliser(LATENT_CHANNELS)
+
+    def encode_unnormalised(self, waveform: Tensor) -> Tensor:
+        """[B, 1, 200] in unit scale to EnCodec's own latent [B, 128, 8]."""
+        return self.codec.encode(self.resampler.upsample(waveform * self.waveform_scale))
+
+    def encode(self, waveform: Tensor) -> Tensor:
+        """[B, 1, 200] in unit scale to the normalised latent [B, 128, 8]."""
+        return self.normaliser(self.encode_unnormalised(waveform))
+
+    def decode(self, latent: Tensor) -> Tensor:
+        """[B, 128, 8] normalised to [B, 1, 200] in unit scale."""
+        decoded = self.codec.decode(self.normaliser.inverse(latent), _SAMPLES_24_KHZ)
+        return self.resampler.downsample(decoded) / self.waveform_scale
+
+    @torch.no_grad()
+    def fit_normaliser(self, waveforms: Tensor, batch: int = 64) -> None:
+        """Fit the latent statistics to waveforms [K, 1, 200] in unit scale; `normaliser.save` keeps them."""
+        self.normaliser.fit(torch.cat([self.encode_unnormalised(part) for part in waveforms.split(batch)]))

@@ -11,6 +11,7 @@ import os
 import time
 from collections.abc import Sequence
 from dataclasses import asdict
+from pathlib import Path
 from typing import Any, Protocol
 
 import numpy as np
@@ -20,18 +21,51 @@ from torch import Tensor
 from tqdm import tqdm
 
 from haptoflow_paper.codec.checkpoint_file import load_state, read_tensors
-from haptoflow_paper.codec.reconstruction_loss import (
-    signal_to_noise_ratio_db,
-    spectral_loss,
-    time_loss,
-)
-from haptoflow_paper.codec.small_codec import SmallCodec
-from haptoflow_paper.codec.small_codec_config import SmallCodecConfig
+from haptoflow_paper.codec.small_codec import SmallCodec, SmallCodecConfig
 from haptoflow_training.errors import InputError
+from haptoflow_training.training.batches import HeldOut, clear_spans
 from haptoflow_training.training.config import load_config
-from haptoflow_training.training.held_out import HeldOut, clear_spans
 from haptoflow_training.training.run_log import MetricsLog
 from haptoflow_training.waveform import SEGMENT_SAMPLES
+
+_WINDOWS = (16, 32, 64, 128, 200)
+_POWER_FLOOR = 1e-4
+
+
+def _magnitudes(waveform: Tensor, window: int) -> Tensor:
+    spectrum = torch.stft(
+        waveform.squeeze(1),
+        n_fft=window,
+        hop_length=max(4, window // 4),
+        window=torch.hann_window(window, device=waveform.device),
+        center=False,
+        return_complex=True,
+    )
+    # Scaled so that white noise of unit variance has unit power at every resolution.
+    return torch.sqrt(spectrum.abs().square() / (0.375 * window) + _POWER_FLOOR)
+
+
+def time_loss(decoded: Tensor, original: Tensor) -> Tensor:
+    """Batch mean of the RMS of the difference, both [B, 1, N]. Not squared, so that good segments still count."""
+    return (decoded - original).square().mean(dim=(1, 2)).add(1e-8).sqrt().mean()
+
+
+def spectral_loss(decoded: Tensor, original: Tensor) -> Tensor:
+    """Mean |log magnitude ratio| over Hann windows of 16 to 200 samples, power floor 1e-4; N >= 200."""
+    distances = []
+    for window in _WINDOWS:
+        ratio = _magnitudes(decoded, window) / _magnitudes(original, window)
+        distances.append(ratio.log().abs().mean())
+    return torch.stack(distances).mean()
+
+
+@torch.no_grad()
+def signal_to_noise_ratio_db(decoded: Tensor, original: Tensor) -> float:
+    """10 log10 of the original's power over the error's, over all of [B, 1, N]; infinite without error."""
+    signal = original.double().square().sum()
+    noise = (decoded.double() - original.double()).square().sum()
+    return float(10.0 * torch.log10(signal / noise))
+
 
 CHECKPOINT_NAME = "checkpoint.pt"
 LOG_NAME = "log.csv"
@@ -232,3 +266,32 @@ def train_small_codec(store: WaveformStore, config: SmallCodecConfig) -> SmallCo
         codec.normaliser.fit(codec.encoder(drawn))
     codec.save(config.output_folder / RESULT_NAME)
     return codec
+
+
+# Vibration below 0.01 m/s^2 cannot be felt; such segments are set to silence.
+_QUIET_RMS_MPS2 = 0.01
+_SEGMENTS_AT_A_TIME = 512
+
+_Wave = NDArray[np.float32]
+
+
+@torch.no_grad()
+def codec_reconstruction(checkpoint: Path | str, waves: Sequence[_Wave], hop_samples: int = 28) -> list[_Wave]:
+    """Waves [n] in m/s^2 at 2 kHz, encoded and decoded by the small codec in `checkpoint`, at their original length.
+
+    Processed like a latent row: a segment of 200 samples begins at every hop (28 samples are 72 Hz), in unit scale by
+    its own RMS, and its first `hop_samples` are played. InputError if the checkpoint is not a small codec's.
+    """
+    codec = SmallCodec.load(checkpoint).eval()
+    return [_reconstructed(codec, np.asarray(wave, dtype=np.float32), hop_samples) for wave in waves]
+
+
+def _reconstructed(codec: SmallCodec, wave: _Wave, hop_samples: int) -> _Wave:
+    padded = np.concatenate([wave, np.zeros(SEGMENT_SAMPLES, dtype=np.float32)])
+    segments = np.lib.stride_tricks.sliding_window_view(padded, SEGMENT_SAMPLES)[: len(wave) : hop_samples]
+    rms = np.sqrt(np.square(segments, dtype=np.float64).mean(axis=1, keepdims=True))
+    level = np.maximum(rms, _QUIET_RMS_MPS2).astype(np.float32)
+    unit = torch.from_numpy(segments / level).unsqueeze(1)
+    decoded = torch.cat([codec.decode(codec.encode(part)) for part in unit.split(_SEGMENTS_AT_A_TIME)])
+    hops: _Wave = decoded.squeeze(1).numpy()[:, :hop_samples] * level
+    return hops.reshape(-1)[: len(wave)]

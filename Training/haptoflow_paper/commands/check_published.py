@@ -9,20 +9,21 @@ from pathlib import Path
 
 from tqdm import tqdm
 
-from haptoflow_benchmark.engine.engine_library import default_engine
+from haptoflow_benchmark.engine_library import default_engine
 from haptoflow_paper.published.check.lines import FAIL
 from haptoflow_paper.published.check.parity import parity_lines
-from haptoflow_paper.published.check.pictures import draw_chart, draw_spectra
-from haptoflow_paper.published.check.points import blocks_to_measure, idle_line, measure_points, time_lines
 from haptoflow_paper.published.check.report import (
     CHART,
     FIGURES,
     PAGE,
     SPECTRA,
+    draw_chart,
+    draw_spectra,
     environment,
     summary,
     write_report,
 )
+from haptoflow_paper.published.check.points import blocks_to_measure, idle_line, measure_points, time_lines
 from haptoflow_paper.published.check.signals import count_of_labels, render_labels, signal_lines
 from haptoflow_paper.published.level_measurement import reference_motions, render_waves, segments_a_wave
 from haptoflow_paper.rows.engine_generator import EngineGenerator

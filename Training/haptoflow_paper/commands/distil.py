@@ -9,14 +9,18 @@ from pathlib import Path
 
 from tqdm import tqdm
 
-from haptoflow_benchmark.engine.engine_library import default_engine
-from haptoflow_paper.distil.comparison import compare, render_held_out, steps_of_comparison
-from haptoflow_paper.distil.distilled_file import complete
-from haptoflow_paper.distil.labels_file import write_labels
-from haptoflow_paper.distil.motions import STROKE_SECONDS
-from haptoflow_paper.distil.rendering import Rendering, render_all, seconds_of_a_stroke
-from haptoflow_paper.distil.report import PAGE, SPECTRA, draw_spectra, write_report
-from haptoflow_paper.distil.teacher import Teacher, checked_solver
+from haptoflow_benchmark.engine_library import default_engine
+from haptoflow_paper.distil.comparison import (
+    PAGE,
+    SPECTRA,
+    compare,
+    draw_spectra,
+    render_held_out,
+    steps_of_comparison,
+    write_report,
+)
+from haptoflow_paper.distil.rendering import Rendering, complete, render_all, seconds_of_a_stroke, write_labels
+from haptoflow_paper.distil.teacher import STROKE_SECONDS, Teacher, checked_solver
 from haptoflow_paper.report.accuracy_time import machine_words
 from haptoflow_paper.rows.engine_generator import SOLVERS
 from haptoflow_training.closed_loop.render import UPDATE_RATE_HZ

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import hashlib
 import datetime
 import os
 import sys
@@ -14,23 +15,19 @@ from tqdm import tqdm
 from haptoflow_paper.reference.reference_conditions import conditions
 from haptoflow_paper.reference.reference_rows import CODEC_ROW
 from haptoflow_paper.reference.reference_set import ReferencePair, reference_set
-from haptoflow_paper.report.accuracy_time import machine_words, table, timed_rows, with_times
-from haptoflow_paper.report.accuracy_time_chart import draw_chart
+from haptoflow_paper.report.accuracy_time import annotate_model, machine_words, table, timed_rows, with_times
+from haptoflow_paper.report.accuracy_time_chart import draw_chart, draw_spectra
 from haptoflow_paper.report.accuracy_time_report import write_document
-from haptoflow_paper.report.annotation import annotate_model
-from haptoflow_paper.report.label_spectra import draw_spectra
 from haptoflow_paper.rows import accuracy
 from haptoflow_paper.rows.accuracy import Yardstick
 from haptoflow_paper.rows.row_plan import PlannedRow, load_plan
 from haptoflow_paper.rows.row_runner import UPDATE_RATE_HZ, generator_of, made_from, measure_rows
 from haptoflow_paper.rows.row_store import stored_row
-from haptoflow_paper.rows.row_training import train_models
-from haptoflow_paper.rows.timing import TimedSource, time_sources
-from haptoflow_paper.rows.timing_history import append_run, published_run, timing_run
-from haptoflow_paper.rows.workplace import Workplace
+from haptoflow_paper.rows.workplace import Workplace, train_models
+from haptoflow_paper.rows.timing import TimedSource, append_run, published_run, time_sources, timing_run
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.model_file import read_model_file
-from haptoflow_training.model_stamp import SHIPPED_MODEL, graphs_sha256, sha256_of
+from haptoflow_training.model_stamp import SHIPPED_MODEL, sha256_of
 from haptoflow_training.recordings.synthetic import load_materials
 from haptoflow_training.training.run_log import source_commit, write_json
 
@@ -71,6 +68,12 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--workers", type=int, default=os.cpu_count() or 1, help="processes that record and measure (default: cores)"
     )
+
+
+def graphs_sha256(path: Path) -> str:
+    """SHA-256 of a model file's graphs. The header is left out, because it holds figures measured with the model."""
+    graphs = read_model_file(path).graphs
+    return hashlib.sha256(b"".join(graphs[name] for name in sorted(graphs))).hexdigest()
 
 
 def run(options: argparse.Namespace) -> int:

@@ -9,8 +9,7 @@ from pathlib import Path
 
 from tqdm import tqdm
 
-from haptoflow_benchmark.few_shot.few_shot_cases import SECONDS, study_materials
-from haptoflow_benchmark.few_shot.filtered_surfaces import filtered_surfaces
+from haptoflow_paper.few_shot.few_shot_cases import SECONDS, filtered_surfaces, study_materials
 from haptoflow_paper.few_shot.few_shot_report import (
     assembled,
     curve_table,
@@ -20,8 +19,7 @@ from haptoflow_paper.few_shot.few_shot_report import (
     write_chart,
     write_results,
 )
-from haptoflow_paper.few_shot.few_shot_study import StudyPlan, cells_of
-from haptoflow_paper.few_shot.few_shot_training import with_trained
+from haptoflow_paper.few_shot.few_shot_study import StudyPlan, cells_of, with_trained
 from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.model_stamp import read_measured_page, sha256_of, with_measured_words
 from haptoflow_training.whole_file import check_writable, write_whole

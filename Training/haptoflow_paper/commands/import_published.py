@@ -9,7 +9,7 @@ from pathlib import Path
 
 from tqdm import tqdm
 
-from haptoflow_benchmark.engine.engine_library import default_engine
+from haptoflow_benchmark.engine_library import default_engine
 from haptoflow_paper.published.checkpoint import read_checkpoint
 from haptoflow_paper.published.level_measurement import segments_to_render
 from haptoflow_paper.published.published_file import LICENCES, PublishedFile

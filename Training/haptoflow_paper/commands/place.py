@@ -8,14 +8,18 @@ from pathlib import Path
 
 from tqdm import tqdm
 
-from haptoflow_benchmark.full_scale.measurement import model_labels
-from haptoflow_benchmark.full_scale.recorded_strokes import read_recorded_strokes
-from haptoflow_paper.place.creeping import CREEPING_LABELS, creeping, held_silent, holds, recorder_without_noise
-from haptoflow_paper.place.hand_overs import HOP_SAMPLES, hand_overs
-from haptoflow_paper.place.passes import Renderer
-from haptoflow_paper.place.place_accuracy import accuracy_report, measure_cells, steady_pairs
-from haptoflow_paper.place.place_report import page_words
-from haptoflow_paper.place.place_study import measure_likeness, steps_of
+from haptoflow_benchmark.engine_render import model_labels, read_recorded_strokes
+from haptoflow_paper.place.creeping import (
+    CREEPING_LABELS,
+    HOP_SAMPLES,
+    creeping,
+    hand_overs,
+    held_silent,
+    holds,
+    recorder_without_noise,
+)
+from haptoflow_paper.place.place_study import Renderer, measure_likeness, steps_of
+from haptoflow_paper.place.place_report import accuracy_report, measure_cells, page_words, steady_pairs
 from haptoflow_paper.reference.reference_set import reference_set
 from haptoflow_training.model_stamp import read_measured_page, sha256_of, with_measured_words
 from haptoflow_training.training.run_log import source_commit, write_json

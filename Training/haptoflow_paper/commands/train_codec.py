@@ -6,7 +6,7 @@ import argparse
 import dataclasses
 from pathlib import Path
 
-from haptoflow_paper.codec.small_codec_config import read_small_codec_config
+from haptoflow_paper.codec.small_codec import read_small_codec_config
 from haptoflow_paper.codec.trainer import RESULT_NAME, train_small_codec
 from haptoflow_training.preprocessing.store import SegmentStore
 

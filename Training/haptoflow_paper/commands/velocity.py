@@ -8,7 +8,7 @@ from pathlib import Path
 
 from tqdm import tqdm
 
-from haptoflow_benchmark.full_scale.recorded_strokes import read_recorded_strokes
+from haptoflow_benchmark.engine_render import read_recorded_strokes
 from haptoflow_paper.velocity.velocity_cases import person_of
 from haptoflow_paper.velocity.velocity_report import page_words
 from haptoflow_paper.velocity.velocity_study import VelocityPlan, run_study, steps_of

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import dataclasses
 import functools
+import json
+import math
+import os
 import time
 from collections.abc import Callable, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
@@ -14,21 +17,51 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from haptoflow_benchmark.engine.engine_library import default_engine
-from haptoflow_paper.distil.motions import STROKE_SECONDS, Stroke, strokes_of
-from haptoflow_paper.distil.teacher import Teacher
+from haptoflow_benchmark.engine_library import default_engine
+from haptoflow_paper.distil.teacher import STROKE_SECONDS, Stroke, Teacher, strokes_of
 from haptoflow_paper.rows.engine_generator import EngineGenerator
 from haptoflow_training.closed_loop.render import hop_positions, run_closed_loop
-from haptoflow_training.recordings.generated_dataset import GeneratedOrigin, generated_path, start_generated, write_generated
+from haptoflow_training.errors import InputError
+from haptoflow_training.export.model_file import read_model_file, write_model_file
+from haptoflow_training.preprocessing.wave_vectors import WaveVector, estimate_wave_vectors
+from haptoflow_training.recordings.generated_dataset import GENERATED_FILE, GeneratedOrigin, origin_of, read_generated
+from haptoflow_training.recordings.material_recording import MaterialRecording
+from haptoflow_training.recordings.recording import RecordingIdentity
 from haptoflow_training.stopping import end_if_stopped
 from haptoflow_training.waveform import SAMPLE_RATE_HZ, SEGMENT_SAMPLES
+from haptoflow_training.whole_file import write_whole
+
+_Floats = NDArray[np.float32]
+
+
+def start_generated(root: Path, origin: GeneratedOrigin) -> None:
+    """Create the folder, or go on with one of the same origin; InputError if it holds recordings of another."""
+    document = {"source": origin.source, "licence": origin.licence, "labels": list(origin.labels)}
+    if (root / GENERATED_FILE).is_file() and origin_of(root) != origin:
+        raise InputError(f"{root}: holds recordings of another origin; remove the folder or choose another")
+    root.mkdir(parents=True, exist_ok=True)
+    (root / GENERATED_FILE).write_text(json.dumps(document, indent=2, ensure_ascii=False) + "\n", encoding="utf-8")
+
+
+def generated_path(root: Path, identity: RecordingIdentity) -> Path:
+    return root / f"{identity.name}.npz"
+
+
+def write_generated(path: Path, waveform_mps2: _Floats, motion: _Floats) -> None:
+    """Write waveform [n] and motion [n, 3] (vx, vy in m/s, force in N), both at 2 kHz; the file appears whole or not at
+    all."""
+    unfinished = path.with_name(f".{os.getpid()}.{path.name}")
+    try:
+        np.savez(unfinished, waveform_mps2=waveform_mps2.astype(np.float32), motion=motion.astype(np.float32))
+        unfinished.replace(path)
+    finally:
+        unfinished.unlink(missing_ok=True)
+
 
 # The closed loop begins in silence, which is no part of the material.
 SETTLING_SAMPLES = 2 * SEGMENT_SAMPLES
 _BATCH = 24
 _TRIED_SECONDS = 0.5
-
-_Floats = NDArray[np.float32]
 
 
 @dataclass(frozen=True)
@@ -130,3 +163,55 @@ def _render_some(root: Path, rendering: Rendering, out: Path, strokes: Sequence[
 def _generator(root: Path, teacher: Teacher) -> EngineGenerator:
     """The generator of this worker process, opened once; nobody closes it, because it ends with the process."""
     return teacher.open(default_engine(root), _BATCH)
+
+
+_OF_THE_OTHER = ("name", "category", "stiffness_newtons_per_metre", "friction_coefficient")
+
+
+def complete(file: Path, teacher: Teacher) -> int:
+    """Rewrite the file with them; returns its CRC-32."""
+    model = read_model_file(file)
+    header = model.header
+    entries = {entry["name"]: entry for entry in header["labels"]}
+    for label in teacher.labels:
+        for other in label.others:
+            header["labels"].append({**entries[label.name], **{key: other[key] for key in _OF_THE_OTHER}})
+    header["name"] = f"{teacher.name}, distilled"
+    header["description"] = f"{len(entries)} materials of {teacher.name}, learnt from what it generates."
+    header["normalisation"]["assumed"] = teacher.level_is_assumed
+    return write_model_file(file, model)
+
+
+def write_labels(rendering: Rendering, recordings: Path, out: Path, advance: Callable[[int], object]) -> None:
+    """Wave vectors are stated, in the teacher's own axes: training would turn a label of which it has to find them, and a
+    surface that is turned for the teacher should stay so. advance: told of each label."""
+    entries = []
+    for number, label in enumerate(rendering.teacher.labels):
+        vectors = _wave_vectors(rendering, recordings, number)
+        lines = [
+            "[[label]]",
+            f"name = {_quoted(label.name)}",
+            f"category = {_quoted(label.category)}",
+            f"textures = [{number}]",
+            f"stiffness_newtons_per_metre = {float(label.stiffness_newtons_per_metre)!r}",
+            f"friction_coefficient = {float(label.friction_coefficient)!r}",
+            *(f"wavelength_metres = {1e-3 / math.hypot(*vector):.6g}" for vector in vectors[:1]),
+            f"wave_vectors_per_mm = [{', '.join(f'[{x:.6f}, {y:.6f}]' for x, y in vectors)}]",
+        ]
+        entries.append("\n".join(lines))
+        advance(1)
+    heading = f"# Labels of {rendering.teacher.name}; a texture is a label's number in the names of the recordings."
+    write_whole(out, ("\n\n".join([heading, *entries]) + "\n").encode())
+
+
+def _wave_vectors(rendering: Rendering, recordings: Path, label: int) -> tuple[WaveVector, ...]:
+    read = []
+    for stroke in rendering.strokes_of_label(label):
+        waveform, motion = read_generated(generated_path(recordings, stroke.identity))
+        read.append(MaterialRecording(stroke.identity.name, "", waveform, motion[:, :2], motion[:, 2], "", ""))
+    return estimate_wave_vectors(read)
+
+
+def _quoted(text: str) -> str:
+    """A TOML string: JSON's escapes are a part of TOML's."""
+    return json.dumps(text, ensure_ascii=False)

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from haptoflow_benchmark.metrics import temporal_metrics as temporal
-from haptoflow_benchmark.metrics import waveform_metrics as metrics
+from haptoflow_paper.metrics import temporal_metrics as temporal
+from haptoflow_benchmark import waveform_metrics as metrics
 from haptoflow_paper.metrics import row_metrics
 from haptoflow_paper.reference.reference_conditions import Condition, is_on_other_label
 from haptoflow_paper.reference.reference_set import ReferencePair
@@ -47,7 +47,7 @@ def measure_cell(
         "band_error_db": float(np.median(bands)),
     }
     if len(hop_starts):
-        cell["continuity"] = metrics.hop_jump_ratio(generated, hop_starts - SETTLING_SAMPLES)
+        cell["continuity"] = row_metrics.hop_jump_ratio(generated, hop_starts - SETTLING_SAMPLES)
     return cell | _temporal_figures(generated, recorded) | _rib_figures(condition, generated, recorded)
 
 
@@ -77,7 +77,7 @@ def _rib_figures(condition: Condition, generated: _Floats, recorded: _Floats) ->
         if (reference := row_metrics.rib_coherence(recorded, rate)) >= _MINIMUM_COHERENCE:
             steps.append(min(1.0, row_metrics.rib_coherence(generated, rate) / reference))
         if _FUNDAMENTALS_HZ[0] < rate < _FUNDAMENTALS_HZ[1]:
-            made, truth = (metrics.fundamental_hz(wave, rate) for wave in (generated, recorded))
+            made, truth = (row_metrics.fundamental_hz(wave, rate) for wave in (generated, recorded))
             errors.append(100.0 * abs(made / truth - 1.0))
     if swings:
         found["rib_modulation_error_db"] = max(swings, key=abs)
@@ -86,7 +86,7 @@ def _rib_figures(condition: Condition, generated: _Floats, recorded: _Floats) ->
     if errors:
         found["f0_error_percent"] = max(errors)
     if _FUNDAMENTALS_HZ[0] < condition.rib_rates_hz[0] < _FUNDAMENTALS_HZ[1]:
-        truth = metrics.fundamental_hz(recorded, condition.rib_rates_hz[0])
+        truth = row_metrics.fundamental_hz(recorded, condition.rib_rates_hz[0])
         shares = [row_metrics.harmonic_share(wave, truth) for wave in (generated, recorded)]
         found["harmonic_share"] = temporal.folded(shares[0] / (shares[1] + 1e-9))
     return found

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from haptoflow_benchmark.metrics.waveform_metrics import power_spectrum, rms
+from haptoflow_benchmark.waveform_metrics import power_spectrum, rms
 from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
 # Bark band edges (Zwicker 1961) inside the band that the system renders.
@@ -18,6 +18,7 @@ CRITICAL_BAND_EDGES_HZ = (20.0, 100.0, 200.0, 300.0, 400.0, 510.0, 630.0, 770.0,
 _MINIMUM_LINE_HZ = 25.0
 _COHERENCE_LAG_SECONDS = 0.5
 _FLOOR, _POWER_FLOOR = 1e-9, 1e-12
+_FREQUENCY_POINTS = 1 << 16
 
 _Wave = NDArray[np.floating]
 _Doubles = NDArray[np.float64]
@@ -94,3 +95,22 @@ def rib_coherence(wave: _Wave, rib_rate_hz: float) -> float:
         raise ValueError("a wave of a second and a half at least is needed to follow ribs over half a second")
     power = 0.5 * (np.square(np.abs(later)).mean() + np.square(np.abs(earlier)).mean())
     return float(np.abs((later * earlier.conj()).mean()) / (power + _POWER_FLOOR))
+
+
+def fundamental_hz(wave: _Wave, expected_hz: float) -> float:
+    """The strongest line within 12 % of `expected_hz`, interpolated between bins by zero-padding."""
+    wave = np.asarray(wave, dtype=np.float64)
+    spectrum = np.abs(np.fft.rfft(wave * np.hanning(len(wave)), _FREQUENCY_POINTS))
+    frequency = np.fft.rfftfreq(_FREQUENCY_POINTS, 1.0 / SAMPLE_RATE_HZ)
+    near = np.flatnonzero(np.abs(frequency - expected_hz) <= 0.12 * expected_hz)
+    return float(frequency[near[np.argmax(spectrum[near])]])
+
+
+def hop_jump_ratio(wave: _Wave, hop_starts: NDArray[np.int64]) -> float:
+    """RMS of the sample differences at hop boundaries over that of all others: 1 means that seams cannot be
+    detected."""
+    differences = np.diff(np.asarray(wave, dtype=np.float64))
+    at = np.zeros(len(differences), dtype=np.bool_)
+    inside = hop_starts[(hop_starts > 0) & (hop_starts <= len(differences))]
+    at[inside - 1] = True
+    return rms(differences[at]) / (rms(differences[~at]) + _FLOOR)

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from haptoflow_benchmark.metrics.temporal_metrics import ENVELOPE_SAMPLES, crest_factor, kurtosis, variation
+from haptoflow_paper.metrics.temporal_metrics import ENVELOPE_SAMPLES, crest_factor, kurtosis, variation
 from haptoflow_paper.metrics.cell_figures import SETTLING_SAMPLES
 from haptoflow_paper.metrics.row_metrics import CRITICAL_BAND_EDGES_HZ
 from haptoflow_paper.reference.reference_set import ReferencePair

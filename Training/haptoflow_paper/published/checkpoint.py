@@ -14,9 +14,8 @@ from torch import Tensor
 from haptoflow_paper.codec.checkpoint_file import load_state
 from haptoflow_paper.codec.encodec import EnCodec, read_published_state
 from haptoflow_paper.published.meta_file import META_FILE, PublishedMeta, read_meta
-from haptoflow_paper.published.network import NetworkSizes, PublishedNetwork
+from haptoflow_paper.published.network import NetworkSizes, PublishedNetwork, ResidualQuantiser, codebooks_of
 from haptoflow_paper.published.published_model import PublishedModel
-from haptoflow_paper.published.residual_quantiser import ResidualQuantiser, codebooks_of
 from haptoflow_paper.published.safetensors_file import read_safetensors
 from haptoflow_training.errors import InputError
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from haptoflow_paper.rows.engine_generator import EngineGenerator
 from haptoflow_training.export.exponents import LabelExponents, centroid_hz
-from haptoflow_training.export.seed_bank import SEED_SAMPLES
+from haptoflow_paper.runs.tier import SEED_SAMPLES
 from haptoflow_training.waveform import SAMPLE_RATE_HZ, SEGMENT_SAMPLES
 
 # Along one diagonal of the surface, forwards and backwards.

@@ -207,3 +207,86 @@ class PublishedNetwork(nn.Module):
         self.label_embed = LabelEmbedding(sizes)
         self.prev_segment_encoder = PastFeatures(sizes)
         self.control_embedding = ControlEmbedding(sizes)
+
+
+_WIDTH = 6
+_ROLL_OFF = 0.99
+
+
+class SincResampler(nn.Module):
+    """[B, 1, N] at one rate to [B, 1, ceil(N new / old)] at another; what lies outside is taken as zero.
+
+    One output phase for each of `new / gcd` fractions of an input sample, computed as channels of one convolution.
+    """
+
+    kernels: Tensor
+
+    def __init__(self, old_hz: int, new_hz: int) -> None:
+        super().__init__()
+        divisor = math.gcd(old_hz, new_hz)
+        self.old, self.new = old_hz // divisor, new_hz // divisor
+        corner = min(self.old, self.new) * _ROLL_OFF
+        self.reach = math.ceil(_WIDTH * self.old / corner)
+        inputs = torch.arange(-self.reach, self.reach + self.old, dtype=torch.float64) / self.old
+        outputs = -torch.arange(self.new, dtype=torch.float64)[:, None] / self.new
+        place = ((outputs + inputs) * corner).clamp(-_WIDTH, _WIDTH)
+        window = torch.cos(place * math.pi / _WIDTH / 2) ** 2
+        kernels = torch.sinc(place) * window * corner / self.old
+        self.register_buffer("kernels", kernels.float().unsqueeze(1), persistent=False)
+
+    def forward(self, waveform: Tensor) -> Tensor:
+        samples = int(waveform.shape[-1])
+        padded = nn.functional.pad(waveform, (self.reach, self.reach + self.old))
+        phases = nn.functional.conv1d(padded, self.kernels, stride=self.old)
+        steps = int(phases.shape[-1])
+        interleaved = phases.transpose(1, 2).reshape(-1, 1, steps * self.new)
+        return interleaved[..., : -(-samples * self.new // self.old)]
+
+
+FRAME_RATE_HZ = 75
+
+
+def codebooks_of(bandwidth_kbps: float, available: int, bins: int) -> int:
+    """How many codebooks a bandwidth pays for: log2(bins) bits from each, 75 times a second; at least one."""
+    bits_per_second = FRAME_RATE_HZ * math.log2(bins)
+    return min(available, max(1, math.floor(bandwidth_kbps * 1000 / bits_per_second)))
+
+
+class ResidualQuantiser(nn.Module):
+    """Each codebook takes the code vector nearest to what those before it left.
+
+    codebooks: [Q, bins, C], the used ones. The nearest is chosen by comparing distances with their least, because model
+    files have no operator that returns a place; of equal code vectors the mean is the vector itself.
+    """
+
+    codebooks: Tensor
+    squares: Tensor
+
+    def __init__(self, codebooks: Tensor) -> None:
+        super().__init__()
+        self.register_buffer("codebooks", codebooks.float())
+        self.register_buffer("squares", self.codebooks.square().sum(dim=-1))
+
+    def forward(self, latent: Tensor) -> Tensor:
+        """[B, C, P] to the sum of its code vectors, [B, C, P]."""
+        left = latent.transpose(1, 2)
+        total = torch.zeros_like(left)
+        for level in range(len(self.codebooks)):
+            distances = self._distances(left, level)
+            chosen = (distances <= distances.amin(dim=-1, keepdim=True)).to(left.dtype)
+            nearest = (chosen / chosen.sum(dim=-1, keepdim=True)) @ self.codebooks[level]
+            total, left = total + nearest, left - nearest
+        return total.transpose(1, 2)
+
+    def codes(self, latent: Tensor) -> Tensor:
+        """[B, C, P] to the places of the chosen vectors in their codebooks, [B, Q, P]."""
+        left = latent.transpose(1, 2)
+        places = []
+        for level in range(len(self.codebooks)):
+            places.append(self._distances(left, level).argmin(dim=-1))
+            left = left - self.codebooks[level][places[-1]]
+        return torch.stack(places, dim=1)
+
+    def _distances(self, points: Tensor, level: int) -> Tensor:
+        """Squared distances [B, P, bins] without the point's own square, which all of them share."""
+        return self.squares[level] - 2.0 * points @ self.codebooks[level].transpose(0, 1)

@@ -12,21 +12,20 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from haptoflow_benchmark.engine.engine_library import EngineLibrary
+from haptoflow_benchmark.engine_library import EngineLibrary
 from haptoflow_paper.published.checkpoint import Checkpoint
-from haptoflow_paper.published.embedding_rows import EmbeddingRows
-from haptoflow_paper.published.graphs import decoder_graph, encoder_graph, field_graph, level_graph
-from haptoflow_paper.published.labels import PublishedLabel, published_labels
+from haptoflow_paper.published.labels import EmbeddingRows, PublishedLabel, published_labels
+from haptoflow_paper.published.published_model import decoder_graph, encoder_graph, field_graph, level_graph
 from haptoflow_paper.published.level_measurement import RenderedLevels, render_levels
 from haptoflow_paper.published.meta_file import PublishedMeta
 from haptoflow_paper.rows.engine_generator import EngineGenerator
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.exponents import LabelExponents
 from haptoflow_training.export.model_file import ModelFile, write_model_file
-from haptoflow_training.export.seed_bank import SEED_SAMPLES
+from haptoflow_paper.runs.tier import SEED_SAMPLES
 from haptoflow_training.model_stamp import sha256_of
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE
-from haptoflow_training.models.velocity_field import parameter_count
+from haptoflow_training.models.haptoflow_model import parameter_count
 from haptoflow_training.waveform import SAMPLE_RATE_HZ, SEGMENT_SAMPLES
 
 STANDARD_GRAVITY_MPS2 = 9.80665

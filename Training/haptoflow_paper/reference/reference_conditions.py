@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from haptoflow_benchmark.metrics.temporal_metrics import rib_rates_hz
+from haptoflow_paper.metrics.temporal_metrics import rib_rates_hz
 from haptoflow_training.recordings.synthetic import Material, hand_conditions
 from haptoflow_training.recordings.synthetic.carriers import hand_ride
 

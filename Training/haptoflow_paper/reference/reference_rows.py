@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from haptoflow_benchmark.metrics.waveform_metrics import power_spectrum
+from haptoflow_benchmark.waveform_metrics import power_spectrum
 from haptoflow_paper.reference.reference_set import ReferencePair
 
 REFERENCE_ROWS = ("independent-draw", "another-specimen", "mean-spectrum", "white-noise", "silence")

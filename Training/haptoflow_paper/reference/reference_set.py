@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from haptoflow_paper.reference.reference_conditions import Condition, conditions, is_on_other_label, motion_of
 from haptoflow_training import preprocessing
-from haptoflow_training.closed_loop.phase_track import phases_of
+from haptoflow_training.closed_loop.render import phases_of
 from haptoflow_training.preprocessing.pipeline import PreparedRecording, preprocess_recording
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.recordings import synthetic

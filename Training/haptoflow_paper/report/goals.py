@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from haptoflow_paper.metrics.judged_figures import BY_KEY
-from haptoflow_paper.report.verdicts import AHEAD, BEHIND, EVEN, rivals
+from haptoflow_paper.report.accuracy_time import AHEAD, BEHIND, EVEN, rivals
 from haptoflow_paper.rows.row_plan import RIVAL_BLOCKS
 
 _Row = Mapping[str, Any]

@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from haptoflow_paper.rivals.autoregressive import AutoregressiveRival
-from haptoflow_paper.rivals.dstn import DstnRival
+from haptoflow_paper.rivals.transformer import DstnRival, TransformerRival
 from haptoflow_paper.rivals.rival import Rival
 from haptoflow_paper.rivals.spsi import SpsiRival
-from haptoflow_paper.rivals.transformer import TransformerRival
 
 _BUILDERS: dict[str, Callable[..., Rival]] = {
     "transformer": TransformerRival,

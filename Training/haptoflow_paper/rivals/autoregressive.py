@@ -13,9 +13,8 @@ import torch
 from torch import Tensor
 
 from haptoflow_paper.rivals.rival import Rival, reads
-from haptoflow_training.models.all_pole_filter import AllPoleFilter, PredictedFilter, prediction_errors
-from haptoflow_training.models.burg import burg_distance
-from haptoflow_training.models.condition_perceptron import ConditionPerceptron
+from haptoflow_training.models.all_pole_filter import AllPoleFilter, PredictedFilter, burg_distance, prediction_errors
+from haptoflow_training.models.conditioning import ConditionPerceptron
 from haptoflow_training.models.level_model import PREVIOUS_LIMIT
 from haptoflow_training.models.skeleton import LIKELIHOOD_END
 
@@ -69,5 +68,5 @@ class AutoregressiveRival(Rival):
         return (log_gain + 0.5 * error.square() * torch.exp(-2.0 * log_gain)).mean(dim=1)
 
     def filter_distance(self, segment: Tensor, embedding: Tensor, motion: Tensor) -> Tensor:
-        """[B]: of the predicted filter from Burg's of a recorded segment [B, 1, 200] (models/burg.py)."""
+        """[B]: of the predicted filter from Burg's of a recorded segment [B, 1, 200] (models/all_pole_filter.py)."""
         return burg_distance(self.perceptron(embedding, motion), segment[:, 0])

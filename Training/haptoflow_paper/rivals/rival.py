@@ -5,9 +5,61 @@ from __future__ import annotations
 import torch
 from torch import Tensor, nn
 
-from haptoflow_paper.rivals.segment_network import INPUTS, SegmentNetwork
-from haptoflow_training.models.condition_perceptron import ConditionPerceptron
-from haptoflow_training.models.rib_comb import GAINS, PARTIALS, RibComb, spread_gains
+from haptoflow_paper.runs.continuing_comb import GAINS, ContinuingComb, spread_gains
+from haptoflow_paper.runs.velocity_field import MotionEncoder
+from haptoflow_training.models.conditioning import EMBEDDING_SIZE, ConditionPerceptron
+from haptoflow_training.models.rib_comb import PARTIALS, RibComb
+
+INPUTS = ("noisy", "previous", "embedding", "motion", "phases")
+
+
+class SegmentNetwork(nn.Module):
+    """A network that returns the whole segment in one pass, in unit scale (waves are divided by the level).
+
+    inputs: the names of what its exported graph reads, in the order of `INPUTS`; the other arguments of `forward` do
+    not affect its output. is_sampled: it draws a segment instead of predicting the mean, so that a distance between
+    distributions can train it.
+    """
+
+    inputs: tuple[str, ...] = INPUTS
+    is_sampled = True
+
+    @property
+    def comb(self) -> RibComb | None:
+        """The comb of its rib partials; None for a network without ribs."""
+        raise NotImplementedError
+
+    def forward(self, noisy: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor, phases: Tensor) -> Tensor:
+        """Segment [B, 1, 200] from standard normal noise and previous waveform [B, 1, 200], embedding [B, 64],
+        motion [B, 3] (vx, vy in m/s, force in N) and phases [B, 6] (models/surface_waves.py)."""
+        raise NotImplementedError
+
+    def loss(
+        self,
+        segment: Tensor,
+        previous: Tensor,
+        embedding: Tensor,
+        motion: Tensor,
+        phases: Tensor,
+        generator: torch.Generator,
+    ) -> Tensor:
+        """[B]: this network's own training loss for recorded segments [B, 1, 200], row by row."""
+        raise NotImplementedError
+
+
+class SegmentNetworkGraph(nn.Module):
+    """A segment network with exactly the arguments of its exported graph: `inputs`, in order."""
+
+    def __init__(self, network: SegmentNetwork) -> None:
+        super().__init__()
+        self.network = network
+
+    def forward(self, *given: Tensor) -> Tensor:
+        named = dict(zip(self.network.inputs, given, strict=True))
+        # Only arguments that the network ignores are missing, so the placeholder does not end in the graph.
+        placeholder = given[0].new_zeros(())
+        return self.network(*(named.get(name, placeholder) for name in INPUTS))
+
 
 RIB_INPUTS = ("previous", "phases")
 _HIDDEN = 96
@@ -24,7 +76,7 @@ class RibLines(nn.Module):
 
     def __init__(self) -> None:
         super().__init__()
-        self.comb = RibComb()
+        self.comb = ContinuingComb()
         self.register_buffer("spread", spread_gains(), persistent=False)
         self.gains = ConditionPerceptron(GAINS, _HIDDEN)
         last = self.gains.layers[-1]
@@ -100,3 +152,15 @@ def reads(*own: str, ribs: bool) -> tuple[str, ...]:
     """The inputs of a rival in the order of `INPUTS`: its own, material and motion, and those of the rib lines."""
     wanted = {*own, "embedding", "motion", *(RIB_INPUTS if ribs else ())}
     return tuple(name for name in INPUTS if name in wanted)
+
+
+class ConditionEncoder(nn.Module):
+    """Embedding [B, 64] and motion [B, 3] to one vector [B, size]."""
+
+    def __init__(self, size: int) -> None:
+        super().__init__()
+        self.motion = MotionEncoder()
+        self.project = nn.Linear(2 * EMBEDDING_SIZE, size)
+
+    def forward(self, embedding: Tensor, motion: Tensor) -> Tensor:
+        return self.project(torch.cat([embedding, self.motion(motion)], dim=1))

@@ -13,7 +13,7 @@ import torch
 from torch import Tensor, nn
 
 from haptoflow_paper.rivals.rival import Rival, reads
-from haptoflow_training.models.condition_perceptron import ConditionPerceptron
+from haptoflow_training.models.conditioning import ConditionPerceptron
 from haptoflow_training.waveform import SEGMENT_SAMPLES
 
 BINS = SEGMENT_SAMPLES // 2 + 1

@@ -10,14 +10,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from haptoflow_benchmark.metrics.label_classifier import LabelClassifier, concatenate, window_features
+from haptoflow_benchmark.label_discrimination import LabelClassifier, concatenate, window_features
 from haptoflow_paper.metrics import row_metrics
 from haptoflow_paper.metrics.cell_figures import SETTLING_SAMPLES, measure_cell
 from haptoflow_paper.metrics.told_apart import told_apart_percent
 from haptoflow_paper.reference.reference_conditions import is_on_other_label
 from haptoflow_paper.reference.reference_set import ReferencePair, known_phases
-from haptoflow_training.closed_loop.phase_track import SurfaceStatistics
-from haptoflow_training.closed_loop.render import SegmentSource, hop_positions, run_closed_loop
+from haptoflow_training.closed_loop.render import SegmentSource, SurfaceStatistics, hop_positions, run_closed_loop
 from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
 _Floats = NDArray[np.float32]

@@ -9,8 +9,8 @@ from types import TracebackType
 import numpy as np
 from numpy.typing import NDArray
 
-from haptoflow_benchmark.engine.engine_library import EngineLibrary
-from haptoflow_training.closed_loop.phase_track import SurfaceStatistics
+from haptoflow_benchmark.engine_library import EngineLibrary
+from haptoflow_training.closed_loop.render import SurfaceStatistics
 from haptoflow_training.native_library import NativeModel, options_of
 from haptoflow_training.waveform import SEGMENT_SAMPLES
 

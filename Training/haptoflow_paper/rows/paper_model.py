@@ -19,10 +19,9 @@ import torch
 from haptoflow_paper.codec.representation import CodecRepresentation
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.model_file import ModelFile, write_model_file
-from haptoflow_training.export.onnx_graphs import export_level_model, export_network
+from haptoflow_paper.runs.tier import export_level_model, export_network
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE
-from haptoflow_training.models.haptoflow_model import HaptoFlowModel
-from haptoflow_training.models.velocity_field import parameter_count
+from haptoflow_training.models.haptoflow_model import HaptoFlowModel, parameter_count
 from haptoflow_training.training.config import TrainingConfig, load_config
 from haptoflow_training.training.trainer import build_model
 

@@ -14,9 +14,9 @@ from typing import Any
 import numpy as np
 import torch
 
-from haptoflow_benchmark.engine.engine_library import EngineLibrary, default_engine
-from haptoflow_benchmark.metrics.waveform_metrics import rms
-from haptoflow_paper.codec.codec_reconstruction import codec_reconstruction
+from haptoflow_benchmark.engine_library import EngineLibrary, default_engine
+from haptoflow_benchmark.waveform_metrics import rms
+from haptoflow_paper.codec.trainer import codec_reconstruction
 from haptoflow_paper.metrics.row_metrics import kink_db
 from haptoflow_paper.reference.reference_rows import CODEC_ROW, reference_waves
 from haptoflow_paper.reference.reference_set import ReferencePair

@@ -6,14 +6,18 @@ between). Times about double at the live pace, which is the one that matters in 
 
 from __future__ import annotations
 
+import json
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from haptoflow_training.closed_loop.render import SegmentSource
 from haptoflow_training.models.surface_waves import PHASES
+from haptoflow_training.training.run_log import write_text
 
 _WARM_UP_RUNS = 20
 
@@ -73,3 +77,57 @@ def time_sources(
         name: Milliseconds(float(np.quantile(values, 0.5)), float(np.quantile(values, 0.99)))
         for name, values in times.items()
     }
+
+
+_DIGITS = 4
+
+
+def timing_run(
+    hot: Mapping[str, Milliseconds],
+    paced: Mapping[str, Milliseconds],
+    *,
+    date: str,
+    commit: str,
+    graphs_sha256: str,
+    is_complete: bool,
+    machine: str,
+    load_before: Sequence[float],
+    load_after: Sequence[float],
+) -> dict[str, Any]:
+    """A run as stored in the history. graphs_sha256: of the shipped model. is_complete: every row whose model exists
+    was timed. load_*: the machine's load averages over 1, 5 and 15 minutes."""
+    rows = {name: {"ms_per_segment": _shown(hot[name]), "ms_paced": _shown(paced[name])} for name in hot}
+    loads = [[round(value, 2) for value in load] for load in (load_before, load_after)]
+    return {
+        "date": date, "commit": commit, "graphs_sha256": graphs_sha256, "is_complete": is_complete, "machine": machine,
+        "load_before": loads[0], "load_after": loads[1], "rows": rows,
+    }  # fmt: skip
+
+
+def _shown(times: Milliseconds) -> dict[str, float]:
+    return {"p50": round(times.p50, _DIGITS), "p99": round(times.p99, _DIGITS)}
+
+
+def read_history(path: Path) -> list[dict[str, Any]]:
+    """All runs, oldest first; none if the file does not exist yet."""
+    if not path.exists():
+        return []
+    runs: list[dict[str, Any]] = json.loads(path.read_text(encoding="utf-8"))["runs"]
+    return runs
+
+
+def append_run(path: Path, run: Mapping[str, Any]) -> list[dict[str, Any]]:
+    """Append `run` to the history and write it; existing entries never change."""
+    runs = [*read_history(path), dict(run)]
+    lines = ",\n".join(f"    {json.dumps(entry, ensure_ascii=False)}" for entry in runs)
+    write_text(path, f'{{\n  "runs": [\n{lines}\n  ]\n}}\n')
+    return runs
+
+
+def published_run(
+    runs: Sequence[Mapping[str, Any]], graphs_sha256: str, wanted: Collection[str]
+) -> Mapping[str, Any] | None:
+    """The model's first run that holds every wanted row, else its first complete one; None if there is neither."""
+    of_model = [run for run in runs if run["graphs_sha256"] == graphs_sha256]
+    whole = (run for run in of_model if set(wanted) <= set(run["rows"]))
+    return next(whole, next((run for run in of_model if run["is_complete"]), None))

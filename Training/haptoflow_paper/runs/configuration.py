@@ -10,16 +10,30 @@ from haptoflow_training.training.config import ModelConfig, OptimiserConfig, Rec
 
 
 @dataclass(frozen=True)
+class SolverConfig:
+    """The solver the exported tier uses by default and the one used for validation figures."""
+
+    kind: str = "midpoint"
+    steps: int = 2
+
+
+@dataclass(frozen=True)
 class EvaluatedModelConfig(ModelConfig):
-    """architecture: `unet` (the velocity field, with `width` to `levels`) or the name of a rival.
+    """network: also `field`, a velocity field from noise, or a rival in its place.
+
+    architecture: `unet` (the velocity field, with `width` to `levels`) or the name of a rival.
 
     ribs: the field has a rib comb, and a rival adds rib lines (raw samples only).
-    impulses: raw samples only.
+    impulses: a field's rare events come from the tails of the noise (raw samples only).
     sampled: a rival that predicts the mean as published (transformer, dstn, spsi) draws its segment.
     representation: table for `build_representation`.
     patch: how many positions of the representation are one of the field.
     """
 
+    networks: ClassVar[tuple[str, ...]] = ("field", "skeleton", "refinement")
+
+    ribs: bool = False
+    impulses: bool = False
     architecture: str = "unet"
     sampled: bool = False
     patch: int = 8
@@ -69,11 +83,14 @@ class EvaluatedConfig(TrainingConfig):
     model: EvaluatedModelConfig = field(default_factory=EvaluatedModelConfig)
     optimiser: EvaluatedOptimiserConfig = field(default_factory=EvaluatedOptimiserConfig)
     recipe: EvaluatedRecipeConfig = field(default_factory=EvaluatedRecipeConfig)
+    solver: SolverConfig = field(default_factory=SolverConfig)
 
     def rules(self) -> tuple[Rule, ...]:
         model, recipe = self.model, self.recipe
         return (
             *super().rules(),
+            (self.solver.kind in ("euler", "midpoint", "heun"), "solver.kind", "'euler', 'midpoint' or 'heun'"),
+            (1 <= self.solver.steps <= 16, "solver.steps", "1 to 16"),
             (self.optimiser.budget_seconds >= 0.0, "optimiser.budget_seconds", "at least 0"),
             (
                 model.architecture in ("unet", *ARCHITECTURES),

@@ -7,11 +7,9 @@ from collections.abc import Sequence
 import torch
 from torch import Tensor, nn
 
-from haptoflow_paper.codec.representation_base import Representation
-from haptoflow_paper.rivals.segment_network import SegmentNetwork
-from haptoflow_training.models.conditioning import TimeEncoder
-from haptoflow_training.models.haptoflow_model import FieldModel
-from haptoflow_training.models.velocity_field import VelocityField
+from haptoflow_paper.codec.representation import Representation
+from haptoflow_paper.rivals.rival import SegmentNetwork
+from haptoflow_paper.runs.velocity_field import FieldModel, TimeEncoder, VelocityField
 
 
 class EvaluatedModel(FieldModel):

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
-from haptoflow_benchmark.full_scale.recorded_strokes import on_table_spline
+from haptoflow_benchmark.engine_render import on_table_spline
 from haptoflow_paper.velocity.velocity_estimators import Array, tracker_noise
 
 RATES_HZ = (72.0, 90.0, 120.0, 500.0)

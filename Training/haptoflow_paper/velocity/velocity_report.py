@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from haptoflow_paper.velocity.velocity_figures import pooled_rms
-from haptoflow_paper.velocity.velocity_study import HEADSET_RATES_HZ, PRODUCT, TODAY
+from haptoflow_paper.velocity.velocity_study import HEADSET_RATES_HZ, PRODUCT, TODAY, pooled_rms
 from haptoflow_training.markdown import table
 
 _SCRIBBLES = ("scribble 2 Hz", "scribble 3 Hz", "scribble 5 Hz")

@@ -15,13 +15,14 @@ import numpy as np
 import torch
 from numpy.typing import NDArray
 
-from haptoflow_training.closed_loop.phase_track import SurfaceStatistics
-from haptoflow_training.closed_loop.render import UPDATE_RATE_HZ, SegmentSource, hop_positions, run_closed_loop
+from haptoflow_training.closed_loop.render import (
+    UPDATE_RATE_HZ, SegmentSource, SurfaceStatistics, hop_positions, run_closed_loop
+)
 from haptoflow_training.export.level_table import LevelTable
 from haptoflow_training.export.trained_tier import TrainedTier
 from haptoflow_training.models.level_model import scaled_previous
 from haptoflow_training.preprocessing.store import SegmentStore, StoredRecording
-from haptoflow_training.training.held_out import HeldOut
+from haptoflow_training.training.batches import HeldOut
 
 _Floats = NDArray[np.float32]
 

@@ -17,12 +17,7 @@ from tqdm import tqdm
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.model_file import read_model_file, write_model_file
 from haptoflow_training.fewshot.add_label import require_new_name, with_label
-from haptoflow_training.fewshot.learning import (
-    DEFAULT_SECONDS_LIMIT,
-    MaterialWords,
-    joined,
-    learn_material,
-)
+from haptoflow_training.fewshot.learning import DEFAULT_SECONDS_LIMIT, MaterialWords, joined, learn_material
 from haptoflow_training.recordings.dataset import UNKNOWN
 from haptoflow_training.recordings.material_recording import material_files, read_material_recordings
 from haptoflow_training.recordings.open_recordings import RecordingFile

@@ -9,7 +9,6 @@ from dataclasses import dataclass
 
 from haptoflow_training.closed_loop.level_calibration import Extent
 from haptoflow_training.closed_loop.measured_levels import seconds_of_a_measurement
-from haptoflow_training.export.onnx_graphs import export_level_model
 from haptoflow_training.export.trained_tier import TrainedTier, tier_of
 from haptoflow_training.models.haptoflow_model import HaptoFlowModel
 from haptoflow_training.training.config import TrainingConfig
@@ -56,7 +55,6 @@ def share_out(
         tier = tier_of(config, list(source.store.labels), model)
         started = time.monotonic()
         tier.graphs()
-        export_level_model(model.level)
         after = 1.5 * (time.monotonic() - started) + 1.0
         if config.calibrates_level:
             extent, seconds = affordable_extent(tier, source, _MAXIMUM_SHARE_AFTER * whole - after)

@@ -11,8 +11,7 @@ from haptoflow_training.errors import InputError
 from haptoflow_training.preprocessing.preparation import prepare_cut_where_needed, prepare_store
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.preprocessing.split import SPLITS
-from haptoflow_training.preprocessing.store import SegmentStore
-from haptoflow_training.preprocessing.store_lock import store_lock
+from haptoflow_training.preprocessing.store import SegmentStore, store_lock
 from haptoflow_training.recordings.dataset import Dataset
 from haptoflow_training.recordings.labels import LabelMap, load_labels
 from haptoflow_training.recordings.open_recordings import open_with_labels
@@ -52,9 +51,7 @@ def run(options: argparse.Namespace) -> int:
     datasets = [open_with_labels(folder, options.labels) for folder in options.recordings]
     entries = [entry for dataset in datasets for entry in dataset]
     if not entries:
-        first = next(
-            (f"; the first problem: {problem}" for dataset in datasets for problem in dataset.problems), ""
-        )
+        first = next((f"; the first problem: {problem}" for dataset in datasets for problem in dataset.problems), "")
         raise InputError(f"{', '.join(map(str, options.recordings))}: no recording with a label{first}")
     for dataset in datasets:
         for problem in dataset.problems:
@@ -64,8 +61,7 @@ def run(options: argparse.Namespace) -> int:
         if dataset.left_out:
             print(dataset.left_out)
     settings = PreprocessingSettings(
-        held_out_directions=tuple(options.hold_out_direction),
-        held_out_speeds_mmps=tuple(options.hold_out_speed),
+        held_out_directions=tuple(options.hold_out_direction), held_out_speeds_mmps=tuple(options.hold_out_speed)
     )
     begun = time.perf_counter()
     # Synthetic recordings are split by their names alone.

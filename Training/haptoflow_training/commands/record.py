@@ -13,19 +13,11 @@ from tqdm import tqdm
 from haptoflow_training.errors import InputError
 from haptoflow_training.recordings.dataset_layout import SENSOR_FOLDER
 from haptoflow_training.recordings.dataset_writer import (
-    TextureEntry,
-    write_provenance,
-    write_recording,
-    write_texture_list,
+    TextureEntry, write_provenance, write_recording, write_texture_list
 )
 from haptoflow_training.recordings.recording import RecordingIdentity
 from haptoflow_training.recordings.synthetic import (
-    TRAINING_SPECIMENS,
-    Material,
-    hand_conditions,
-    load_materials,
-    machine_conditions,
-    record_condition_of,
+    TRAINING_SPECIMENS, Material, hand_conditions, load_materials, machine_conditions, record_condition_of
 )
 from haptoflow_training.recordings.synthetic.materials import select_materials
 
@@ -61,10 +53,7 @@ def run(options: argparse.Namespace) -> int:
     missing = [task for task in wanted if not _complete(options.out, task[1])]
     write_texture_list(
         options.out,
-        [
-            TextureEntry(each.texture_id, each.label, {"Friction coefficient": each.friction})
-            for each in materials
-        ],
+        [TextureEntry(each.texture_id, each.label, {"Friction coefficient": each.friction}) for each in materials],
     )
     write_provenance(
         options.out,

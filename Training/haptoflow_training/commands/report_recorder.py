@@ -16,26 +16,14 @@ from tqdm import tqdm
 
 from haptoflow_training.errors import InputError
 from haptoflow_training.recordings.synthetic import (
-    TRAINING_SPECIMENS,
-    hand_conditions,
-    load_materials,
-    record_hand_condition,
-)
-from haptoflow_training.recordings.synthetic.calibration import calibrate
-from haptoflow_training.recordings.synthetic.materials import (
-    DEFAULT_MATERIALS_PATH,
-    Material,
-    select_materials,
-    write_calibrated,
+    TRAINING_SPECIMENS, hand_conditions, load_materials, record_hand_condition
 )
 from haptoflow_training.recordings.synthetic.measurement import (
-    TOLERANCE,
-    Design,
-    Deviation,
-    Measurement,
-    measure,
+    TOLERANCE, Design, Deviation, Measurement, SpreadMeasurement, calibrate, measure, measure_spread
 )
-from haptoflow_training.recordings.synthetic.spread_measurement import SpreadMeasurement, measure_spread
+from haptoflow_training.recordings.synthetic.materials import (
+    DEFAULT_MATERIALS_PATH, Material, select_materials, write_calibrated
+)
 
 # The report measures another specimen than the calibration used, so that a fit to one random draw would show.
 _CALIBRATION_SEED, _REPORT_SEED = 7, 2029
@@ -90,9 +78,7 @@ def run(options: argparse.Namespace) -> int:
             write_calibrated(options.materials, {each.label: each.calibrated for each in materials})
             # Report the values as stored in the file, with the digits stored there.
             materials = select_materials(load_materials(options.materials), labels)
-        measured = list(
-            tqdm(processes.map(_measure, materials), total=len(materials), unit="material", disable=None)
-        )
+        measured = list(tqdm(processes.map(_measure, materials), total=len(materials), unit="material", disable=None))
     rows = [
         Row(material, measurement, Deviation.of(measurement.targets(), material.targets), spread)
         for material, (measurement, spread) in zip(materials, measured)

@@ -7,7 +7,7 @@ import tomllib
 from pathlib import Path
 
 from haptoflow_training.errors import InputError
-from haptoflow_training.strokes.hand_stroke import DEFAULT_TREMOR_METRES, SpatialStroke, scripted_stroke
+from haptoflow_training.hand_stroke import DEFAULT_TREMOR_METRES, SpatialStroke, scripted_stroke
 from haptoflow_training.whole_file import write_whole
 
 _KEYS = ("waypoints_metres", "segment_seconds", "rate_hz", "seed", "tremor_metres", "force_newtons",

@@ -15,15 +15,16 @@ from tqdm import tqdm
 
 from haptoflow_training.errors import InputError
 from haptoflow_training.model_stamp import read_measured_page, with_measured_words
-from haptoflow_training.studies.golden import golden_text
-from haptoflow_training.studies.log_columns import LATENCY, SIMILARITY, STUDIES
-from haptoflow_training.studies.session_writer import merged_csv
-from haptoflow_training.studies.simulated_participants import MATERIALS, METHODS, PLANNED_DZ, planted
-from haptoflow_training.studies.simulation import simulate_latency, simulate_similarity
+from haptoflow_training.studies.plans import golden_text
+from haptoflow_training.studies.log_table import LATENCY, SIMILARITY, STUDIES
+from haptoflow_training.studies.session_file import merged_csv
+from haptoflow_training.studies.simulation import (
+    MATERIALS, METHODS, PLANNED_DZ, planted, simulate_latency, simulate_similarity
+)
 from haptoflow_training.studies.study_folder import read_faultless, read_folder
 from haptoflow_training.whole_file import write_whole
 
-_PUBLISHED = Path("Training") / "results" / "benchmarks.md"
+_PUBLISHED = Path("Documentation~") / "benchmarks.md"
 _PUBLISHED_LAGS = Path("Training") / "results" / "default" / "stylus-lag.json"
 
 
@@ -143,11 +144,9 @@ The report is one file with its figures inside. Logs with a problem are refused;
 
 
 def _analyse(options: argparse.Namespace) -> int:
-    from haptoflow_training.studies.latency_analysis import analyse_latency
+    from haptoflow_training.studies.analysis import analyse_latency
     from haptoflow_training.studies.report import Analysed, report, results
-    from haptoflow_training.studies.similarity_analysis import (
-        MINIMUM_PARTICIPANTS, analyse_similarity, too_few_words,
-    )  # fmt: skip
+    from haptoflow_training.studies.analysis import MINIMUM_PARTICIPANTS, analyse_similarity, too_few_words
 
     _require_range("--seed", options.seed, 0)
     for out in (options.out, options.results):
@@ -246,58 +245,18 @@ def _latency_power(options: argparse.Namespace) -> int:
     return 0
 
 
-def _add_validate(parser: argparse.ArgumentParser) -> None:
-    parser.description = (
-        "Simulate studies with a known truth, analyse them, and count how often thresholds, differences and their "
-        "absence are found as they should be."
-    )
-    parser.epilog = """examples:
-  haptoflow-training study validate --out Training/results/study-validation.json --page Training/results/study-validation.md
-  haptoflow-training study validate --studies 20 --simulations 100 --out first-look.json
-
-About ten minutes of one core.
-"""
-    parser.add_argument("--out", required=True, type=Path, help="JSON file to write")
-    parser.add_argument("--page", type=Path, help="page whose measured part is written anew")
-    parser.add_argument("--studies", type=int, default=200, help="written as logs and analysed whole (default 200)")
-    parser.add_argument("--simulations", type=int, default=2000, help="of each single question (default 2000)")
-    parser.add_argument("--seed", type=int, default=1, help="0 or more (default 1)")
-    parser.set_defaults(run=_validate)
-
-
-def _validate(options: argparse.Namespace) -> int:
-    from haptoflow_training.studies.validation import steps_of, validated
-    from haptoflow_training.studies.validation_words import page_words
-
-    for name, lowest in (("studies", 2), ("simulations", 2), ("seed", 0)):
-        _require_range(f"--{name}", getattr(options, name), lowest)
-    if options.page is not None:
-        read_measured_page(options.page)
-    with tqdm(total=steps_of(options.studies, options.simulations), unit="study", disable=None) as progress:
-        found = validated(
-            studies=options.studies, simulations=options.simulations, seed=options.seed, advance=progress.update
-        )
-    write_whole(options.out, (json.dumps(found, indent=1) + "\n").encode())
-    words = page_words(found)
-    _write_measured(options.page, words)
-    print(words)
-    return 0
-
-
 def _add_budget(parser: argparse.ArgumentParser) -> None:
     parser.description = "Add up pose interval, inference, audio block and device, beside the thresholds of the paper."
     parser.epilog = """examples:
   haptoflow-training study budget
   haptoflow-training study budget --bench out/bench.json --device-ms 25
-  haptoflow-training study budget --page Training/results/delay-budget.md --chart Documentation~/images/delay-budget.png
+  haptoflow-training study budget --page Documentation~/delay-budget.md --chart Documentation~/images/delay-budget.png
 
-The first reads the tables of Training/results/benchmarks.md, the second those of `npm run bench` on this machine with a
+The first reads the tables of Documentation~/benchmarks.md, the second those of `npm run bench` on this machine with a
 device delay that you measured. The third writes the page anew after `npm run bench -- --publish`.
 """
     parser.add_argument("--bench", type=Path, default=_PUBLISHED, help="bench.json, or the page that publishes it")
-    parser.add_argument(
-        "--lags", type=Path, default=_PUBLISHED_LAGS, help="what haptoflow-benchmark measure-lag wrote"
-    )
+    parser.add_argument("--lags", type=Path, default=_PUBLISHED_LAGS, help="what haptoflow-benchmark measure-lag wrote")
     parser.add_argument("--device-ms", type=float, help="from the audio callback to the hand, as you measured it")
     parser.add_argument("--page", type=Path, help="page whose measured part is written anew")
     parser.add_argument("--chart", type=Path, help="PNG file to write")
@@ -305,7 +264,7 @@ device delay that you measured. The third writes the page anew after `npm run be
 
 
 def _budget(options: argparse.Namespace) -> int:
-    from haptoflow_training.studies.bench_figures import read_bench
+    from haptoflow_training.studies.delay_budget import read_bench
     from haptoflow_training.studies.delay_budget import page_words, read_lags, write_chart
 
     if options.device_ms is not None:
@@ -360,7 +319,6 @@ _STEPS = {
     "merge": (_add_merge, "write all sessions of a study as one table"),
     "analyse": (_add_analyse, "write the report of a folder of logs"),
     "power": (_add_power, "estimate the power of a planned number of participants"),
-    "validate": (_add_validate, "analyse simulated studies with known results"),
     "budget": (_add_budget, "add up the parts of the delay beside the thresholds of the paper"),
     "golden": (_add_golden, "write the plans that the Unity package must agree with"),
 }

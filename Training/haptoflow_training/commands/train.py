@@ -169,9 +169,7 @@ def _run(options: argparse.Namespace) -> int:
         processes.wait()
         source = open_source(config.data, store_folder, options.workers)
         config = _emphasising_what_is_there(config, source)
-        trainer = trainer_class(
-            config, source.store, options.out, processes, options.base, source.wave_vectors, start
-        )
+        trainer = trainer_class(config, source.store, options.out, processes, options.base, source.wave_vectors, start)
         extent = Extent()
         if options.minutes is not None:
             shares: Minutes = share_out(

@@ -17,7 +17,7 @@ from haptoflow_training.commands.train import add_minutes_option, add_recordings
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.trained_tier import load_tiers
 from haptoflow_training.training.config import load_config
-from haptoflow_training.training.job_lanes import Job, run_jobs
+from haptoflow_training.training.processes import Job, run_jobs
 from haptoflow_training.training.recordings_source import open_source
 from haptoflow_training.training.run_log import last_step
 from haptoflow_training.training.trainer import planned_steps

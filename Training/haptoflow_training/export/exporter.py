@@ -1,4 +1,4 @@
-"""Writes a trained run as a `.haptoflow` file: header, embeddings, skeleton or seed bank, graphs."""
+"""Writes a trained run as a `.haptoflow` file: header, embeddings, skeleton, graphs."""
 
 from __future__ import annotations
 
@@ -17,18 +17,14 @@ from haptoflow_training.export.exponents import fit_exponents
 from haptoflow_training.export.label_info import LabelInfo
 from haptoflow_training.export.level_table import LevelTable, MeasuredLevels
 from haptoflow_training.export.model_file import ModelFile, write_model_file
-from haptoflow_training.export.onnx_graphs import export_level_model
 from haptoflow_training.export.parity import write_parity
-from haptoflow_training.export.seed_bank import SEED_SAMPLES, build_seed_bank
-from haptoflow_training.export.skeleton_tensors import skeleton_header, skeleton_tensors
 from haptoflow_training.export.trained_tier import TrainedTier, load_tiers
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE
 from haptoflow_training.models.level_model import shift_level
 from haptoflow_training.preprocessing.store import SegmentStore
 from haptoflow_training.recordings.landing import Landing
-from haptoflow_training.training.batches import SegmentBatches
+from haptoflow_training.training.batches import HeldOut, SegmentBatches
 from haptoflow_training.training.config import TrainingConfig
-from haptoflow_training.training.held_out import HeldOut
 from haptoflow_training.training.run_log import source_commit
 from haptoflow_training.waveform import SAMPLE_RATE_HZ, SEGMENT_SAMPLES
 
@@ -147,8 +143,7 @@ def export_run(
 ) -> int:
     """Write the finished run in `folder` to `out`, and golden vectors to `parity`; returns the file's CRC-32.
 
-    Golden vectors cover the raw tiers only: a latent tier starts from noise of another shape, which only the engine
-    draws. further_tiers: folders of runs trained with `--base folder`, each one more tier of the same file. levels: the
+    further_tiers: folders of runs trained with `--base folder`, each one more tier of the same file. levels: the
     level error of each label, which is subtracted, and level tables.
     """
     store, infos = source.store, source.labels
@@ -169,21 +164,14 @@ def export_run(
     graphs = {name: graph for tier in tiers for name, graph in tier.graphs().items()}
     tensors = {name: values for tier in tiers for name, values in tier.tensors().items()}
     tensors["embedding"] = model.embedding.weight.detach().numpy().copy()
-    if default.skeleton is None:
-        graphs["level"] = export_level_model(model.level)
-        wave_numbers = model.embedding.wave_numbers.numpy()
-        bank = build_seed_bank(store, wave_numbers, seed=config.seed, held_out=HeldOut.of(config.batch))
-        header["seed_bank"] = {"samples": SEED_SAMPLES, "tensor": "seeds", "entries": bank.entries}
-        tensors["seeds"] = bank.waves
-    else:
-        header["skeleton"] = skeleton_header(default.skeleton)
-        tensors |= skeleton_tensors(model.level, default.skeleton)
-        if model.embedding.specimens:
-            tensors["pieces"] = model.embedding.offsets.detach().numpy().copy()
+    shared = default.shared(store)
+    header |= shared.header
+    tensors |= shared.tensors
+    graphs |= shared.graphs
     file = ModelFile(header=header, tensors=tensors, graphs=graphs)
     checksum = write_model_file(out, file)
     if parity is not None:
         batch = SegmentBatches(store, "validation", config.batch, config.seed).draw(10)
-        raw = [tier for tier in tiers if tier.works_on_samples]
-        write_parity(parity, raw, batch, model_crc32=checksum, seed=config.seed)
+        golden = [tier for tier in tiers if tier.golden_solvers]
+        write_parity(parity, golden, batch, model_crc32=checksum, seed=config.seed)
     return checksum

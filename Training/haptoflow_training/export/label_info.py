@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from haptoflow_training.recordings.landing import Landing
-from haptoflow_training.recordings.wander import RibWander, StickSlip
+from haptoflow_training.recordings.landing import Landing, RibWander, StickSlip
 
 
 @dataclass(frozen=True)

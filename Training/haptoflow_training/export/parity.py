@@ -16,15 +16,6 @@ from haptoflow_training.models.level_model import scaled_previous
 from haptoflow_training.training.batches import SegmentBatch
 from haptoflow_training.training.run_log import write_json
 
-_SOLVERS = {
-    "flow": (("euler", 1), ("euler", 8), ("midpoint", 2), ("heun", 3), ("midpoint", 4)),
-    "average-velocity": (("euler", 1), ("euler", 2), ("euler", 4)),
-    "direct": (("euler", 1),),
-    "skeleton": (("euler", 1),),
-    "refine": (("euler", 1),),
-}
-
-
 def _in_double(batch: SegmentBatch) -> SegmentBatch:
     parts = {field.name: getattr(batch, field.name) for field in dataclasses.fields(batch)}
     return dataclasses.replace(
@@ -33,9 +24,7 @@ def _in_double(batch: SegmentBatch) -> SegmentBatch:
 
 
 @torch.no_grad()
-def write_parity(
-    path: Path, tiers: list[TrainedTier], batch: SegmentBatch, *, model_crc32: int, seed: int
-) -> None:
+def write_parity(path: Path, tiers: list[TrainedTier], batch: SegmentBatch, *, model_crc32: int, seed: int) -> None:
     """Write one case for each row of `batch`, cycling through tiers and solvers; the previous waveforms are recorded
     ones. Computed in double precision: an all-pole filter at single precision is no reference."""
     generator = torch.Generator().manual_seed(seed)
@@ -46,7 +35,7 @@ def write_parity(
     cases: list[dict[str, Any]] = []
     for row in range(batch.label.shape[0]):
         tier = tiers[row % len(tiers)]
-        kind, steps = _SOLVERS[tier.kind][row // len(tiers) % len(_SOLVERS[tier.kind])]
+        kind, steps = tier.golden_solvers[row // len(tiers) % len(tier.golden_solvers)]
         embedding = tier.model.embedding(batch.label[row : row + 1])
         motion, previous = batch.motion[row : row + 1], batch.previous[row : row + 1]
         where = batch.position_mm[row : row + 1], batch.wander[row : row + 1]

@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
+import torch
 from numpy.typing import NDArray
 from torch import Tensor, nn
 
-from haptoflow_training.models.condition_perceptron import ConditionPerceptron
+from haptoflow_training.export.model_file import ModelFile
+from haptoflow_training.models.conditioning import ConditionPerceptron
+from haptoflow_training.models.haptoflow_model import parameter_count
 from haptoflow_training.models.level_model import LevelModel
 from haptoflow_training.models.refiner import Refiner
 from haptoflow_training.models.rung_impulses import TAIL_RUNGS
 from haptoflow_training.models.skeleton import LINE_HARMONICS, ORDER, SWING_HARMONICS, Skeleton
-from haptoflow_training.models.velocity_field import parameter_count
 
 Tensors = dict[str, NDArray[np.float32]]
 
@@ -62,3 +64,30 @@ def _layers(name: str, layers: nn.Sequential) -> Tensors:
 def _numbers(values: Tensor) -> NDArray[np.float32]:
     numbers: NDArray[np.float32] = values.detach().numpy().astype(np.float32).copy()
     return numbers
+
+
+_NAMES = {
+    "level.law.": "level.power_law.",
+    "level.correction.": "level.correction.",
+    "skeleton.": "skeleton.perceptron.layers.",
+}
+
+
+def has_skeleton(file: ModelFile) -> bool:
+    return "skeleton" in file.header
+
+
+def skeleton_weights(file: ModelFile) -> dict[str, Tensor]:
+    """Level and skeleton of the file, by the names that a SkeletonModel's state has; the embedding is not among them."""
+    return {
+        replacement + name.removeprefix(prefix): torch.from_numpy(tensor.copy())
+        for name, tensor in file.tensors.items()
+        for prefix, replacement in _NAMES.items()
+        if name.startswith(prefix)
+    }
+
+
+def embedding_rows(file: ModelFile) -> dict[str, Tensor]:
+    """The embedding [64] of each label."""
+    rows = torch.from_numpy(file.tensors["embedding"].copy())
+    return {cast(str, label["name"]): rows[label["embedding_row"]] for label in file.header["labels"]}

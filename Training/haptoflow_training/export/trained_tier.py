@@ -1,4 +1,4 @@
-"""A finished run as a tier of a model file, with the solver that runs its network."""
+"""A finished run as a tier of a model file."""
 
 from __future__ import annotations
 
@@ -10,18 +10,15 @@ import torch
 from torch import Tensor
 
 from haptoflow_training.errors import InputError
-from haptoflow_training.export.onnx_graphs import export_network, export_refinement
-from haptoflow_training.export.skeleton_tensors import Tensors, condition_tensors
+from haptoflow_training.export.model_file import ModelFile
+from haptoflow_training.export.onnx_graphs import export_refinement
+from haptoflow_training.export.skeleton_tensors import Tensors, condition_tensors, skeleton_header, skeleton_tensors
 from haptoflow_training.extensions import located
-from haptoflow_training.models.haptoflow_model import Condition, HaptoFlowModel
+from haptoflow_training.models.haptoflow_model import Condition, HaptoFlowModel, SkeletonModel, parameter_count
 from haptoflow_training.models.skeleton import Skeleton
-from haptoflow_training.models.skeleton_model import SkeletonModel
-from haptoflow_training.models.velocity_field import parameter_count
+from haptoflow_training.preprocessing.store import SegmentStore
 from haptoflow_training.training.config import TIER_NAMES, TrainingConfig
-from haptoflow_training.training.flow_matching import solve
 from haptoflow_training.training.trainer import load_trained
-
-_ONE_STEP = ("direct", "skeleton", "refine")
 
 
 @dataclass(frozen=True)
@@ -39,52 +36,40 @@ class TrainedTier:
 
     @property
     def kind(self) -> str:
-        if isinstance(self.model, SkeletonModel):
-            return "skeleton" if self.model.refiner is None else "refine"
-        return "direct" if self.config.recipe.energy_steps else "flow"
+        return "skeleton" if self.skeleton_model.refiner is None else "refine"
 
     @property
     def solver(self) -> str:
-        return self.config.solver.kind if self.kind == "flow" else "euler"
+        return "euler"
 
     @property
     def steps(self) -> int:
-        return self.config.solver.steps if self.kind == "flow" else 1
+        return 1
 
-    def evaluate(self, noisy: Tensor, time: Tensor, interval: Tensor, condition: Condition) -> Tensor:
-        """The output of the exported graph: the velocity, or the segment of a direct tier. interval [B, 1]: the flow
-        time of a step, which only a derived tier may read."""
-        if self.kind in _ONE_STEP:
-            return self.model.one_step(noisy, *condition)
-        return self.model.field(noisy, time, *condition)
+    @property
+    def golden_solvers(self) -> tuple[tuple[str, int], ...]:
+        """Solvers and steps that golden vectors cover; none for a tier that has no golden vectors."""
+        return ((self.solver, self.steps),)
 
     def generate(self, noise: Tensor, condition: Condition, solver: str, steps: int) -> Tensor:
         """A segment in unit scale [B, 1, 200] from noise, computed as in the engine."""
-
-        def field(noisy: Tensor, time: Tensor) -> Tensor:
-            interval = torch.full_like(time, 1.0 / steps)
-            return self.evaluate(noisy, time, interval, condition)
-
-        if self.kind in _ONE_STEP:
-            return field(noise, torch.zeros(noise.shape[0], 1))
-        return solve(field, noise, solver if self.kind == "flow" else "euler", steps)
+        return self.model.one_step(noise, *condition)
 
     @property
-    def works_on_samples(self) -> bool:
-        """Whether the noise that a segment begins with has the segment's shape, as golden vectors need it."""
-        return self.model.shape == HaptoFlowModel.shape
+    def skeleton_model(self) -> SkeletonModel:
+        """The model of a tier with a skeleton."""
+        assert isinstance(self.model, SkeletonModel)
+        return self.model
 
     @property
     def skeleton(self) -> Skeleton | None:
-        """The skeleton that this tier plays or refines; None for a velocity field."""
+        """The skeleton that this tier plays or refines; None for a tier of another kind."""
         return self.model.skeleton if isinstance(self.model, SkeletonModel) else None
 
     def graphs(self) -> dict[str, bytes]:
         """The graphs of this tier alone, by their names in the file."""
-        if isinstance(self.model, SkeletonModel):
-            refiner = self.model.refiner
-            return {} if refiner is None else {f"{self.name}.field": export_refinement(refiner)}
-        return {f"{self.name}.field": export_network(self.model, self.kind)}
+        refiner = self.skeleton_model.refiner
+        return {} if refiner is None else {f"{self.name}.field": export_refinement(refiner)}
 
     def tensors(self) -> Tensors:
         """The tensors of this tier alone, by their names in the file."""
@@ -92,24 +77,19 @@ class TrainedTier:
             return condition_tensors(self.name, self.model.refiner)
         return {}
 
+    def shared(self, store: SegmentStore) -> ModelFile:
+        """What all tiers of the file share beside the embedding: entries of the header, tensors and graphs."""
+        model = self.skeleton_model
+        tensors = skeleton_tensors(model.level, model.skeleton)
+        if model.embedding.specimens:
+            tensors["pieces"] = model.embedding.offsets.detach().numpy().copy()
+        return ModelFile({"skeleton": skeleton_header(model.skeleton)}, tensors, {})
+
     def header_entry(self) -> dict[str, Any]:
         """The tier's entry in the file's header."""
-        if self.skeleton is not None:
-            graph = {"field": f"{self.name}.field"} if self.kind == "refine" else {}
-            parameters = parameter_count(self.model.network)
-            return {"name": self.name, "kind": self.kind, **graph, "parameters": parameters, "accuracy": {}, "cost": {}}
-        return {
-            "name": self.name,
-            "kind": self.kind,
-            "field": f"{self.name}.field",
-            "level": "level",
-            "solver": self.solver,
-            "steps": self.steps,
-            "parameters": parameter_count(self.model.network),
-            "representation": "raw",
-            "accuracy": {},
-            "cost": {},
-        }
+        graph = {"field": f"{self.name}.field"} if self.kind == "refine" else {}
+        parameters = parameter_count(self.model.network)
+        return {"name": self.name, "kind": self.kind, **graph, "parameters": parameters, "accuracy": {}, "cost": {}}
 
 
 def tier_of(config: TrainingConfig, labels: list[str], model: HaptoFlowModel, folder: Path | None = None) -> TrainedTier:

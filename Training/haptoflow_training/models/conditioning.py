@@ -1,8 +1,4 @@
-"""The condition inputs of the networks: flow time, material and motion.
-
-HaptoFlow (paper, section 3.1): material embedding, motion and flow time, 64 values each, are concatenated and injected
-into every level through FiLM.
-"""
+"""The condition inputs of the networks: material and motion."""
 
 from __future__ import annotations
 
@@ -85,38 +81,21 @@ class MotionFeatures(nn.Module):
         return torch.cat([logarithms * 0.5, direction, axial, waves, speed_force * self.scale], dim=1)
 
 
-class MotionEncoder(nn.Module):
-    """Motion [B, 3] to 64 values by a multi-layer perceptron."""
+class ConditionPerceptron(nn.Module):
+    """Embedding [B, 64] and motion features, and `further` numbers [B, F] if any, through two hidden layers to
+    [B, outputs]."""
 
-    def __init__(self, hidden: int = 128) -> None:
+    def __init__(self, outputs: int, hidden: int = 256, further: int = 0) -> None:
         super().__init__()
         self.features = MotionFeatures()
         self.layers = nn.Sequential(
-            nn.Linear(self.features.size, hidden),
+            nn.Linear(EMBEDDING_SIZE + self.features.size + further, hidden),
             nn.SiLU(),
             nn.Linear(hidden, hidden),
             nn.SiLU(),
-            nn.Linear(hidden, EMBEDDING_SIZE),
+            nn.Linear(hidden, outputs),
         )
 
-    def forward(self, motion: Tensor) -> Tensor:
-        return self.layers(self.features(motion))
-
-
-class TimeEncoder(nn.Module):
-    """Flow time [B, 1] in [0, 1] to 64 values: sinusoids of geometrically spaced frequency, then two layers."""
-
-    frequencies: Tensor
-
-    def __init__(self) -> None:
-        super().__init__()
-        half = EMBEDDING_SIZE // 2
-        frequencies = torch.exp(torch.linspace(0.0, math.log(100.0), half)).reshape(1, half)
-        self.register_buffer("frequencies", frequencies, persistent=False)
-        self.layers = nn.Sequential(
-            nn.Linear(EMBEDDING_SIZE, EMBEDDING_SIZE), nn.SiLU(), nn.Linear(EMBEDDING_SIZE, EMBEDDING_SIZE)
-        )
-
-    def forward(self, time: Tensor) -> Tensor:
-        angles = time * self.frequencies
-        return self.layers(torch.cat([angles.sin(), angles.cos()], dim=1))
+    def forward(self, embedding: Tensor, motion: Tensor, further: Tensor | None = None) -> Tensor:
+        given = [embedding, self.features(motion)] + ([] if further is None else [further])
+        return self.layers(torch.cat(given, dim=1))

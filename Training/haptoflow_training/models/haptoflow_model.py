@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-import torch
 from torch import Tensor, nn
 
-from haptoflow_training.models.band_limit import BandLimit
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE
 from haptoflow_training.models.label_embedding import LabelEmbedding
+from haptoflow_training.models.refiner import Refiner
 from haptoflow_training.models.rib_comb import RibComb
-from haptoflow_training.models.velocity_field import VelocityField
+from haptoflow_training.models.skeleton import Skeleton
 from haptoflow_training.waveform import SEGMENT_SAMPLES
 
 # What a segment is generated under: previous waveform [B, *shape] in unit scale, embedding [B, 64], motion [B, 3] and
@@ -63,29 +62,38 @@ class HaptoFlowModel(nn.Module):
         raise NotImplementedError
 
 
-class FieldModel(HaptoFlowModel):
-    """A velocity field from noise to the segment."""
+def parameter_count(module: nn.Module) -> int:
+    """Weights of a module, buffers not counted."""
+    return sum(parameter.numel() for parameter in module.parameters())
+
+
+class SkeletonModel(HaptoFlowModel):
+    """The skeleton alone, or refined."""
 
     def __init__(
         self,
         *,
         wave_vectors: Sequence[Sequence[tuple[float, float]]],
         level: nn.Module,
-        field: VelocityField,
+        skeleton: Skeleton,
+        refiner: Refiner | None = None,
         specimens: int = 0,
     ) -> None:
         super().__init__(wave_vectors=wave_vectors, level=level, specimens=specimens)
-        self.field = field
-        self.band_limit = BandLimit()
+        self.skeleton, self.refiner = skeleton, refiner
+        # It has no weights: the losses measure partials with it.
+        self.measured_ribs = RibComb()
 
     @property
-    def comb(self) -> RibComb | None:
-        return self.field.comb
+    def comb(self) -> RibComb:
+        return self.measured_ribs
 
     @property
     def network(self) -> nn.Module:
-        return self.field
+        return self.skeleton if self.refiner is None else self.refiner
 
     def one_step(self, noise: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor, phases: Tensor) -> Tensor:
-        change = self.field(noise, torch.zeros(1, 1), previous, embedding, motion, phases)
-        return self.band_limit(previous, noise + change)
+        parts = self.skeleton.parts(noise, previous, self.skeleton.gains(embedding, motion, phases), phases)
+        if self.refiner is None:
+            return parts.begun
+        return parts.begun + self.refiner(parts, previous, embedding, motion, phases)

@@ -27,9 +27,7 @@ class LabelEmbedding(nn.Module):
 
     wave_numbers: Tensor
 
-    def __init__(
-        self, size: int, wave_vectors: Sequence[Sequence[tuple[float, float]]], specimens: int = 0
-    ) -> None:
+    def __init__(self, size: int, wave_vectors: Sequence[Sequence[tuple[float, float]]], specimens: int = 0) -> None:
         super().__init__()
         self.learnt = nn.Embedding(len(wave_vectors), size - WAVE_NUMBERS)
         self.specimens = specimens

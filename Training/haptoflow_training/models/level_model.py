@@ -10,10 +10,7 @@ import torch
 from torch import Tensor, nn
 
 from haptoflow_training.models.conditioning import (
-    EMBEDDING_SIZE,
-    SMOOTH_LOG_SPEED_HARMONICS,
-    MotionFeatures,
-    speed_and_force,
+    EMBEDDING_SIZE, SMOOTH_LOG_SPEED_HARMONICS, MotionFeatures, speed_and_force
 )
 from haptoflow_training.models.label_embedding import WAVE_VECTORS, rib_frequencies_hz
 from haptoflow_training.models.surface_waves import rate_sizes

@@ -8,6 +8,7 @@ exceeded is fixed (4.6, 0.9, 0.2 and 0.05 % of the samples); their strength and 
 from __future__ import annotations
 
 import math
+from typing import ClassVar
 
 import torch
 from torch import Tensor, nn
@@ -22,7 +23,6 @@ _RINGS_HZ = (50.0, 90.0, 160.0, 280.0, 500.0, 800.0)
 _RING_DECAY = 0.4
 # A delta, then cosine and sine of each ring.
 ATOMS = 1 + 2 * len(_RINGS_HZ)
-GAINS = len(RUNGS) * ATOMS
 # The convolution is a product of matrices, one window of the segment at a time.
 _WINDOW = 25
 # A kernel of 64 taps reaches into three windows before a window.
@@ -50,11 +50,12 @@ def _atoms() -> Tensor:
 
 
 class TailImpulses(nn.Module):
-    """noise [B, 1, N] and gains [B, rungs * 13] to impulses [B, 1, N]; the output is zero where all gains are zero.
-
-    both_tails: gains [B, 2 * rungs * 13], of positive noise first: asperities that push the tip up need not resemble
-    those that push it down.
+    """noise [B, 1, N] and gains [B, 2 * rungs * 13], of positive noise first, to impulses [B, 1, N]: asperities that push
+    the tip up need not resemble those that push it down. The output is zero where all gains are zero.
     """
+
+    thresholds: ClassVar[tuple[float, ...]] = TAIL_RUNGS
+    tails: ClassVar[int] = 2
 
     rungs: Tensor
     scales: Tensor
@@ -62,15 +63,14 @@ class TailImpulses(nn.Module):
     read: Tensor
     struck_atoms: Tensor
 
-    def __init__(
-        self, samples: int = 200, rungs: tuple[float, ...] = TAIL_RUNGS, both_tails: bool = True
-    ) -> None:
+    def __init__(self, samples: int = 200) -> None:
         super().__init__()
+        rungs = self.thresholds
         self.samples, self.windows = samples, samples // _WINDOW
-        self.both_tails, self.kernels = both_tails, len(rungs) * (2 if both_tails else 1)
+        self.kernels = len(rungs) * self.tails
         self.register_buffer("rungs", torch.tensor(rungs).reshape(1, -1, 1), persistent=False)
         scales = torch.tensor([1.0 / _excess_deviation(rung) for rung in rungs])
-        self.register_buffer("scales", (scales.repeat(2) if both_tails else scales).reshape(1, -1, 1), persistent=False)
+        self.register_buffer("scales", scales.repeat(self.tails).reshape(1, -1, 1), persistent=False)
         self.register_buffer("atoms", _atoms(), persistent=False)
         reach = _WINDOWS_BEFORE * _WINDOW
         windows_read = torch.arange(self.windows).unsqueeze(1) + torch.arange(_WINDOWS_BEFORE + 1)
@@ -94,14 +94,5 @@ class TailImpulses(nn.Module):
 
     def _excess(self, gathered: Tensor) -> Tensor:
         """[B, windows, kernels, sources]: by how much the noise exceeds each rung."""
-        if self.both_tails:
-            up, down = (gathered - self.rungs).clamp(min=0.0), (gathered + self.rungs).clamp(max=0.0)
-            return torch.stack([up, down], dim=2).flatten(2, 3)
-        return gathered - torch.maximum(torch.minimum(gathered, self.rungs), -self.rungs)
-
-
-class RungImpulses(TailImpulses):
-    """Impulses of a network: gains [B, 52], the same kernel for both tails."""
-
-    def __init__(self, samples: int = 200) -> None:
-        super().__init__(samples, RUNGS, both_tails=False)
+        up, down = (gathered - self.rungs).clamp(min=0.0), (gathered + self.rungs).clamp(max=0.0)
+        return torch.stack([up, down], dim=2).flatten(2, 3)

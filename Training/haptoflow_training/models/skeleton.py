@@ -14,9 +14,8 @@ from typing import NamedTuple
 import torch
 from torch import Tensor, nn
 
-from haptoflow_training.models.all_pole_filter import AllPoleFilter, PredictedFilter, prediction_errors
-from haptoflow_training.models.burg import burg_distance
-from haptoflow_training.models.condition_perceptron import ConditionPerceptron
+from haptoflow_training.models.all_pole_filter import AllPoleFilter, PredictedFilter, burg_distance, prediction_errors
+from haptoflow_training.models.conditioning import ConditionPerceptron
 from haptoflow_training.models.level_model import PREVIOUS_LIMIT
 from haptoflow_training.models.rung_impulses import ATOMS, TailImpulses, TAIL_RUNGS
 from haptoflow_training.models.surface_waves import FAMILIES, RATE_FEATURES, SurfaceWaves, rate_features
@@ -115,7 +114,7 @@ class Skeleton(nn.Module):
         return (gains.log_gain + swing + 0.5 * beyond.square()).mean(dim=1)
 
     def filter_distance(self, segment: Tensor, embedding: Tensor, motion: Tensor, phases: Tensor) -> Tensor:
-        """[B]: of the predicted filter from Burg's of a recorded segment [B, 1, 200] (models/burg.py)."""
+        """[B]: of the predicted filter from Burg's of a recorded segment [B, 1, 200] (models/all_pole_filter.py)."""
         raw = self.perceptron(embedding, motion, rate_features(phases))[:, : ORDER + 1]
         return burg_distance(raw, segment[:, 0])
 

@@ -55,8 +55,7 @@ class SurfaceWaves(nn.Module):
             cosines.append(inside * turned_cosine)
             sines.append(inside * turned_sine)
             turned_cosine, turned_sine = (
-                turned_cosine * cosine - turned_sine * sine,
-                turned_sine * cosine + turned_cosine * sine,
+                turned_cosine * cosine - turned_sine * sine, turned_sine * cosine + turned_cosine * sine
             )
         return torch.stack(cosines, dim=2), torch.stack(sines, dim=2)
 

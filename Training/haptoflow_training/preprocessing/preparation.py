@@ -26,9 +26,16 @@ from haptoflow_training.preprocessing import store as store_module
 from haptoflow_training.preprocessing.padding import PaddedRecording, pad_recording
 from haptoflow_training.preprocessing.pipeline import PreparedRecording, preprocess_parts
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
-from haptoflow_training.preprocessing.split import SPLITS, Split, split_of
+from haptoflow_training.preprocessing.split import (
+    SPLITS,
+    Split,
+    cut,
+    labels_to_cut,
+    labels_without_a_split,
+    split_of,
+    time_parts,
+)
 from haptoflow_training.preprocessing.store import SegmentStore, SkippedRecording, StoredRecording
-from haptoflow_training.preprocessing.time_split import cut, labels_to_cut, labels_without_a_split, time_parts
 from haptoflow_training.recordings.recording import Recording, RecordingIdentity
 from haptoflow_training.stopping import deferred, end_if_stopped
 
@@ -83,13 +90,13 @@ def prepare_store(
 ) -> SegmentStore:
     """Prepare every recording, in order, into the folder `out`; an older store there is replaced at the end.
 
-    cut_labels: labels whose recordings are cut by time into training, validation and test (time_split.py); a recording
+    cut_labels: labels whose recordings are cut by time into training, validation and test (split.py); a recording
     that is too short for that stays whole, in the split of its name.
 
     A recording that cannot be prepared is skipped and listed in the store; one with gaps becomes one for each stretch
     between them. InputError: none was usable, a name occurred twice, a label is not in `labels`, or the disk is full;
     `out` is then unchanged. The result is the same for any number of `workers`. Two programs must not prepare one
-    folder at a time: see store_lock.py.
+    folder at a time: see store.py.
     """
     settings = settings or PreprocessingSettings()
     out = Path(out).absolute()

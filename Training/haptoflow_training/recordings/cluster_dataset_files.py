@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from haptoflow_training.errors import InputError
-from haptoflow_training.recordings.dataset_layout import SensorKind
-from haptoflow_training.recordings.file_names import ending_of
+from haptoflow_training.recordings.dataset_layout import SensorKind, ending_of
 from haptoflow_training.recordings.parquet_files import read_parquet
 
 if TYPE_CHECKING:

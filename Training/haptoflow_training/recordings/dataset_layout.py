@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import Path
 
 from haptoflow_training.recordings.labels import plain_name
 
@@ -93,3 +94,23 @@ def is_published_list(names: Mapping[int, str]) -> bool:
     is known, and agrees with all such names."""
     known = {texture_id: name for texture_id, name in _NAMES.items() if texture_id in names}
     return bool(known) and all(plain_name(names[texture_id]) == plain_name(name) for texture_id, name in known.items())
+
+
+def ending_of(path: Path) -> str:
+    """The ending in lower case, with its dot."""
+    return path.suffix.lower()
+
+
+def beside(path: Path, name: str) -> Path:
+    """The file `name` in the folder of `path`, in whatever case it is written there; as given if there is none, or if
+    one of exactly this name exists."""
+    wanted = path.parent / name
+    if wanted.is_file() or not path.parent.is_dir():
+        return wanted
+    same = sorted(one for one in wanted.parent.glob("*") if one.name.lower() == wanted.name.lower() and one.is_file())
+    return same[0] if same else wanted
+
+
+def sidecar_of(path: Path) -> Path:
+    """NAME.json of a recording, whether it exists or not."""
+    return beside(path, path.with_suffix(".json").name)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 import zipfile
 from dataclasses import dataclass
 from pathlib import Path
@@ -63,30 +62,6 @@ class GeneratedFile:
         )  # fmt: skip
 
 
-def start_generated(root: Path, origin: GeneratedOrigin) -> None:
-    """Create the folder, or go on with one of the same origin; InputError if it holds recordings of another."""
-    document = {"source": origin.source, "licence": origin.licence, "labels": list(origin.labels)}
-    if (root / GENERATED_FILE).is_file() and _origin(root) != origin:
-        raise InputError(f"{root}: holds recordings of another origin; remove the folder or choose another")
-    root.mkdir(parents=True, exist_ok=True)
-    (root / GENERATED_FILE).write_text(json.dumps(document, indent=2, ensure_ascii=False) + "\n", encoding="utf-8")
-
-
-def generated_path(root: Path, identity: RecordingIdentity) -> Path:
-    return root / f"{identity.name}.npz"
-
-
-def write_generated(path: Path, waveform_mps2: _Floats, motion: _Floats) -> None:
-    """Write waveform [n] and motion [n, 3] (vx, vy in m/s, force in N), both at 2 kHz; the file appears whole or not at
-    all."""
-    unfinished = path.with_name(f".{os.getpid()}.{path.name}")
-    try:
-        np.savez(unfinished, waveform_mps2=waveform_mps2.astype(np.float32), motion=motion.astype(np.float32))
-        unfinished.replace(path)
-    finally:
-        unfinished.unlink(missing_ok=True)
-
-
 def read_generated(path: Path) -> tuple[_Floats, _Floats]:
     """Waveform [n] and motion [n, 3] of a file; DatasetFileError if they are not there."""
     expected = "waveform_mps2 [n] and motion [n, 3], finite"
@@ -104,7 +79,7 @@ def read_generated(path: Path) -> tuple[_Floats, _Floats]:
 
 def open_generated(root: Path, labels: LabelMap | None = None) -> Dataset:
     """Index a folder of generated recordings, sorted by name; recordings that no label of `labels` names are left out."""
-    origin = _origin(root)
+    origin = origin_of(root)
     complete: list[GeneratedFile] = []
     unlabelled: list[GeneratedFile] = []
     problems: list[DatasetFileError] = []
@@ -128,7 +103,7 @@ def open_generated(root: Path, labels: LabelMap | None = None) -> Dataset:
     )  # fmt: skip
 
 
-def _origin(root: Path) -> GeneratedOrigin:
+def origin_of(root: Path) -> GeneratedOrigin:
     path = root / GENERATED_FILE
     try:
         document = json.loads(path.read_text(encoding="utf-8"))

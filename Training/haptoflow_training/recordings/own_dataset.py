@@ -9,7 +9,7 @@ from pathlib import Path
 from haptoflow_training.errors import InputError
 from haptoflow_training.recordings.cluster_dataset_files import DatasetFileError
 from haptoflow_training.recordings.dataset import UNKNOWN, Dataset
-from haptoflow_training.recordings.file_names import ending_of
+from haptoflow_training.recordings.dataset_layout import ending_of
 from haptoflow_training.recordings.labels import LabelMap
 from haptoflow_training.recordings.own_files import OWN_ENDINGS, OwnRecordingFile, described_file, is_motion_file
 

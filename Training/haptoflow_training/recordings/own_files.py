@@ -13,7 +13,7 @@ from scipy import signal
 
 from haptoflow_training.recordings.cluster_dataset_files import open_table
 from haptoflow_training.recordings.dataset import UNKNOWN
-from haptoflow_training.recordings.file_names import beside, ending_of, sidecar_of
+from haptoflow_training.recordings.dataset_layout import beside, ending_of, sidecar_of
 from haptoflow_training.recordings.native_recording import NativeRecording, Track, read_native
 from haptoflow_training.recordings.recording import STANDARD_GRAVITY_MPS2, Recording, RecordingIdentity
 

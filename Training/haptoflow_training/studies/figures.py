@@ -11,12 +11,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy import stats
 
-from haptoflow_training.studies.latency_analysis import LatencyResult
+from haptoflow_training.studies.analysis import LatencyResult, SimilarityResult
 from haptoflow_training.studies.plans import TURN_OFF, TURN_ON
-from haptoflow_training.studies.problems import participants_words
+from haptoflow_training.studies.log_table import participants_words
 from haptoflow_training.studies.psychometric import Answers
 from haptoflow_training.studies.rating_tests import SIGNIFICANCE, TREND, Pair
-from haptoflow_training.studies.similarity_analysis import SimilarityResult
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -10,11 +10,10 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import stats
 
-from haptoflow_training.studies.intervals import Share, share
+from haptoflow_training.studies.psychometric import Answers, Share, fit, share, threshold_difference
 from haptoflow_training.studies.plans import CONDITIONS
-from haptoflow_training.studies.psychometric import Answers, fit, threshold_difference
 from haptoflow_training.studies.rating_tests import EQUIVALENCE_POINTS, SIGNIFICANCE, RatingResult, analysed
-from haptoflow_training.studies.simulated_participants import LEVELS_MS, AnswerModel, RatingModel
+from haptoflow_training.studies.simulation import LEVELS_MS, AnswerModel, RatingModel
 
 _RESAMPLES = 1000
 # Asymptotic relative efficiency of a signed-rank test of each participant's difference, against a t test, for normal
@@ -101,11 +100,7 @@ class LatencyPower:
 
 
 def latency_power(
-    participants: int,
-    *,
-    simulations: int,
-    seed: int,
-    advance: Callable[[], object] = int,
+    participants: int, *, simulations: int, seed: int, advance: Callable[[], object] = int
 ) -> LatencyPower:
     """participants: at least 5, because fewer give no interval."""
     model = AnswerModel()

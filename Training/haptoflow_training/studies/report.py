@@ -2,21 +2,69 @@
 
 from __future__ import annotations
 
+import base64
 from collections.abc import Sequence
 from dataclasses import dataclass
+from html import escape
 from typing import Any
 
-from haptoflow_training.studies import report_words as words
 from haptoflow_training.studies.figures import SIMULATED_WORDS, latency_figure, mean_interval, similarity_figure
-from haptoflow_training.studies.html import heading, listing, page, paragraph, picture, table
-from haptoflow_training.studies.intervals import Interval
-from haptoflow_training.studies.latency_analysis import LatencyResult
+from haptoflow_training.studies.psychometric import Fit, Interval
+from haptoflow_training.studies.analysis import LatencyResult, SimilarityResult
 from haptoflow_training.studies.plans import CONDITIONS
-from haptoflow_training.studies.problems import participants_words
-from haptoflow_training.studies.psychometric import Fit
+from haptoflow_training.studies.log_table import participants_words
 from haptoflow_training.studies.rating_tests import Pair
 from haptoflow_training.studies.session_file import Session
-from haptoflow_training.studies.similarity_analysis import SimilarityResult
+
+_STYLE = """
+body { font: 15px/1.5 system-ui, sans-serif; max-width: 62em; margin: 2em auto; padding: 0 1em; color: #222 }
+table { border-collapse: collapse; margin: 1em 0; font-size: 13px }
+th, td { border-bottom: 1px solid #ddd; padding: 0.25em 0.7em; text-align: left }
+th { background: #f4f4f4 }
+figure { margin: 1em 0 }
+figure img { max-width: 100% }
+figcaption { font-size: 13px; color: #555 }
+.simulated { background: #b00020; color: white; padding: 0.6em 1em; font-weight: bold }
+"""
+
+
+def page(title: str, banner: str, parts: Sequence[str]) -> str:
+    """banner: shown above everything and before the title; none if empty."""
+    head = f"{banner} - {title}" if banner else title
+    shown = f'<p class="simulated" role="alert">{escape(banner)}</p>\n' if banner else ""
+    return (
+        f'<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n<title>{escape(head)}</title>\n'
+        f"<style>{_STYLE}</style>\n</head>\n<body>\n{shown}<h1>{escape(title)}</h1>\n"
+        + "\n".join(parts)
+        + "\n</body>\n</html>\n"
+    )
+
+
+def heading(words: str, level: int = 2) -> str:
+    return f"<h{level}>{escape(words)}</h{level}>"
+
+
+def paragraph(words: str) -> str:
+    return f"<p>{escape(words)}</p>"
+
+
+def listing(entries: Sequence[str]) -> str:
+    return "<ul>\n" + "\n".join(f"<li>{escape(entry)}</li>" for entry in entries) + "\n</ul>"
+
+
+def table(headings: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    head = "".join(f"<th>{escape(words)}</th>" for words in headings)
+    body = "\n".join("<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row) + "</tr>" for row in rows)
+    return f"<table>\n<tr>{head}</tr>\n{body}\n</table>"
+
+
+def picture(svg: str, caption: str) -> str:
+    """The figure embedded as an image: several inline SVG trees would share their identifiers."""
+    data = base64.b64encode(svg.encode()).decode()
+    words = escape(caption, quote=True)
+    image = f'<img src="data:image/svg+xml;base64,{data}" alt="{words}">'
+    return f"<figure>{image}<figcaption>{words}</figcaption></figure>"
+
 
 _NONE = "-"
 
@@ -40,9 +88,9 @@ class Analysed:
 def report(analysed: Analysed) -> str:
     """The report as HTML. It contains neither date nor machine, so that the same logs give the same report."""
     simulated = analysed.is_simulated
-    parts = [paragraph(words.INTRODUCTION)]
+    parts = [paragraph(INTRODUCTION)]
     if simulated:
-        parts.append(paragraph(words.SIMULATED))
+        parts.append(paragraph(SIMULATED))
     if analysed.latency is not None:
         parts += _latency(analysed.latency, simulated)
     if analysed.similarity is not None:
@@ -71,9 +119,9 @@ def _latency(result: LatencyResult, is_simulated: bool) -> list[str]:
     rows = [_fit_row(condition, result.fits[condition], result.answers[condition]) for condition in CONDITIONS]
     parts = [
         heading("Delay tolerance"),
-        paragraph(f"{participants_words(result.participants)}. {words.LATENCY}"),
-        picture(latency_figure(result, is_simulated=is_simulated), _marked(words.LATENCY_CAPTION, is_simulated)),
-        table(words.FIT_HEADINGS, rows),
+        paragraph(f"{participants_words(result.participants)}. {LATENCY}"),
+        picture(latency_figure(result, is_simulated=is_simulated), _marked(LATENCY_CAPTION, is_simulated)),
+        table(FIT_HEADINGS, rows),
         *(
             paragraph(f"{condition}: {statement}.")
             for condition in CONDITIONS
@@ -90,7 +138,7 @@ def _latency(result: LatencyResult, is_simulated: bool) -> list[str]:
         for condition in CONDITIONS
         for point in result.points[condition]
     ]  # fmt: skip
-    return [*parts, table(words.POINT_HEADINGS, points)]
+    return [*parts, table(POINT_HEADINGS, points)]
 
 
 def _fit_row(condition: str, fit: Fit, answers: int) -> list[str]:
@@ -120,10 +168,10 @@ def _difference_words(difference: float, interval: Interval | None) -> str:
 def _similarity(result: SimilarityResult, is_simulated: bool) -> list[str]:
     parts = [
         heading("Similarity"),
-        paragraph(f"{participants_words(result.participants)}. {words.similarity(result.bound)}"),
-        picture(similarity_figure(result, is_simulated=is_simulated), _marked(words.SIMILARITY_CAPTION, is_simulated)),
-        table(words.MATERIAL_HEADINGS, [_material_row(result, name) for name in result.materials]),
-        listing(words.EFFECT_SIZES),
+        paragraph(f"{participants_words(result.participants)}. {similarity(result.bound)}"),
+        picture(similarity_figure(result, is_simulated=is_simulated), _marked(SIMILARITY_CAPTION, is_simulated)),
+        table(MATERIAL_HEADINGS, [_material_row(result, name) for name in result.materials]),
+        listing(EFFECT_SIZES),
     ]
     for place, name in enumerate(result.materials):
         found = result.by_material[name]
@@ -138,10 +186,9 @@ def _similarity(result: SimilarityResult, is_simulated: bool) -> list[str]:
             )
         ]
         parts += [
-            table(words.METHOD_HEADINGS, means),
-            table(words.PAIR_HEADINGS, [_pair_row(result, pair) for pair in found.pairs]),
+            table(METHOD_HEADINGS, means), table(PAIR_HEADINGS, [_pair_row(result, pair) for pair in found.pairs])
         ]
-    return [*parts, listing(words.LIMITS)]
+    return [*parts, listing(LIMITS)]
 
 
 def _material_row(result: SimilarityResult, name: str) -> list[str]:
@@ -188,7 +235,7 @@ def _sessions(sessions: Sequence[Session]) -> str:
                 "yes" if session.is_simulated else "no", headset, delay, _text(build.get("package")),
             ]
         )  # fmt: skip
-    return table(words.SESSION_HEADINGS, rows)
+    return table(SESSION_HEADINGS, rows)
 
 
 def _marked(caption: str, is_simulated: bool) -> str:
@@ -257,3 +304,68 @@ def _similarity_results(result: SimilarityResult) -> dict[str, Any]:
             for place, name in enumerate(result.materials)
         },
     }
+
+
+INTRODUCTION = (
+    "This report was written by haptoflow-training study analyse from the logs of a folder. "
+    "Documentation~/study-analysis.md explains every test and how it was validated."
+)
+SIMULATED = (
+    "Every answer and rating in this report was drawn at random by a program. It shows what the analysis does, and "
+    "says nothing about people."
+)
+LATENCY = (
+    "Each participant said after each trial whether a delay was perceived. The percentage of yes is fitted by "
+    "y = 100 / (1 + exp(-k (x - x0))) of the delivered delay x, by maximum likelihood on the single answers; x0 is the "
+    "delay at which half of the answers are yes. Intervals are expanded percentile intervals of 95 % from 2,000 "
+    "resamples of the participants; standard errors leave out one participant after the other. Practice is left "
+    "out."
+)
+LATENCY_CAPTION = (
+    "Percentage of trials in which a delay was perceived. Points are percentages at the mean delivered delay, bars "
+    "their intervals of 95 % (Wilson's, which do not vanish at 0 and 100 %), dashed lines the fitted curves, thick "
+    "lines about 50 % the intervals of the thresholds. A tick is a single answer: yes above, no below. The two "
+    "conditions are drawn a little aside, so that neither hides the other."
+)
+_SIMILARITY = (
+    "Each participant rated from 1 to 7 how similar each method's virtual material feels to the real one. For each "
+    "material, Friedman's test asks whether the methods differ at all; where p < 0.05, every pair is compared by "
+    "Wilcoxon's signed-rank test with Shaffer's static correction over the material's pairs. Two one-sided Wilcoxon "
+    "tests ask of every pair whether its difference lies within {bound:g} points of rating, with Holm's correction "
+    "over the material's pairs. Practice is left out."
+)
+
+
+def similarity(bound: float) -> str:
+    """bound: of equivalence, in points of rating."""
+    return _SIMILARITY.format(bound=bound)
+
+
+SIMILARITY_CAPTION = (
+    "Similarity ratings: a dot is one participant's rating, a dash the mean, bars its interval of 95 % (Student's t; "
+    "each participant rated every method, so that intervals that overlap say little about a difference). Brackets: "
+    "† p < 0.1 and * p < 0.05 for a difference after Shaffer's correction, green ≈ p < 0.05 for equivalence after Holm's."
+)
+EFFECT_SIZES = (
+    "Kendall's W: how far participants agree on the order of the methods, from 0 (not at all) to 1 (fully).",
+    "Rank-biserial r: the share of the ranked differences that favours the first method less the share that favours "
+    "the second; 0 means balance, 1 and -1 that every difference points the same way.",
+    "Cohen's d_z: the mean difference in standard deviations of the differences; the paper planned for 0.67.",
+)
+LIMITS = (
+    "No correction is made over materials: with six of them and no difference anywhere, one in four such studies "
+    "finds a difference on some material.",
+    "A pair without * and without ≈ is undecided: no difference was found, and none was excluded.",
+)
+FIT_HEADINGS = (
+    "condition", "answers", "threshold x0 (ms)", "95 % interval", "standard error", "k (1/ms)", "95 % interval",
+    "standard error",
+)  # fmt: skip
+POINT_HEADINGS = ("condition", "planned (ms)", "delivered (ms)", "yes (%)", "95 % interval", "answers")
+MATERIAL_HEADINGS = ("material", "normality (Shapiro-Wilk, p < 0.05)", "Friedman chi-square", "p", "Kendall's W")
+METHOD_HEADINGS = ("method", "mean rating", "95 % interval", "Shapiro-Wilk p")
+PAIR_HEADINGS = (
+    "pair", "mean difference", "Wilcoxon p", "p after Shaffer", "rank-biserial r", "d_z", "equivalence p",
+    "p after Holm",
+)  # fmt: skip
+SESSION_HEADINGS = ("session", "seed", "resumptions", "simulated", "headset", "device delay", "HaptoFlow")

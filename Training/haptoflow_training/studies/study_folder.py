@@ -10,10 +10,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from haptoflow_training.errors import InputError
-from haptoflow_training.studies.log_columns import SIMILARITY, STUDIES
-from haptoflow_training.studies.problems import Problem, ranges
+from haptoflow_training.studies.log_table import SIMILARITY, STUDIES, Problem, ranges
 from haptoflow_training.studies.session_file import NAME, Session, read_session
-from haptoflow_training.studies.similarity_analysis import EQUIVALENCE_KEY, session_bound
+from haptoflow_training.studies.analysis import EQUIVALENCE_KEY, session_bound
 
 _MAXIMUM_SHOWN = 20
 _OWN_SETTINGS = ("pen_hand",)

@@ -14,19 +14,6 @@ from haptoflow_training.extensions import configuration_class
 Rule = tuple[bool, str, str]
 # The order of tiers in a file; the most accurate comes last.
 TIER_NAMES = ("sketch", "draft", "standard")
-# Keys of the evaluation's own configurations, with the value for which a run does what every run here does: files and
-# checkpoints that say so are read.
-_EVALUATION_KEYS: dict[str, Any] = {
-    "optimiser.budget_seconds": 0.0,
-    "model.architecture": "unet",
-    "model.sampled": False,
-    "model.patch": 8,
-    "model.representation": {"kind": "raw"},
-    "recipe.objective": "flow",
-    "recipe.reflow_steps": 0,
-    "recipe.reflow_pairs": 36000,
-    "recipe.reflow_learning_rate": 4e-4,
-}
 
 
 @dataclass(frozen=True)
@@ -59,17 +46,14 @@ class DataConfig:
 
 @dataclass(frozen=True)
 class ModelConfig:
-    """network: what ships, `skeleton` (no network: a filter, rib lines and impulses) or `refinement` (of the skeleton of
-    another run, `--base`); or `field` (a velocity field from noise).
-
-    hidden: width of the skeleton's perceptron. width, previous_width, levels: of a field or a refinement. ribs: a field
-    has a rib comb. impulses: a field's rare events come from the tails of the noise.
+    """network: `skeleton` (no network: a filter, rib lines and impulses) or `refinement` (of the skeleton of another run,
+    `--base`). hidden: width of the skeleton's perceptron. width, previous_width, levels: of a refinement.
     """
+
+    networks: ClassVar[tuple[str, ...]] = ("skeleton", "refinement")
 
     network: str = "skeleton"
     hidden: int = 160
-    ribs: bool = False
-    impulses: bool = False
     width: int = 64
     previous_width: int = 32
     levels: int = 2
@@ -128,8 +112,8 @@ class BatchConfig:
 
 @dataclass(frozen=True)
 class RecipeConfig:
-    """The training recipe after conditional flow matching (`optimiser.steps`), phase after phase; a phase of 0 steps is
-    left out.
+    """The training recipe around the fit (`optimiser.steps`: of a skeleton by its likelihood), phase after phase; a phase
+    of 0 steps is left out.
 
     embedding_steps: first of all, fits the labels alone to a skeleton and a level that are there (`--from`).
     filter_steps: before it, fits an all-pole filter to Burg's estimates from single segments.
@@ -150,14 +134,6 @@ class RecipeConfig:
     self_forcing_learning_rate: float = 3e-4
     shares_base: bool = False
     calibrate_level: bool = False
-
-
-@dataclass(frozen=True)
-class SolverConfig:
-    """The solver the exported tier uses by default and the one used for validation figures."""
-
-    kind: str = "midpoint"
-    steps: int = 2
 
 
 @dataclass(frozen=True)
@@ -182,7 +158,6 @@ class TrainingConfig:
     optimiser: OptimiserConfig = field(default_factory=OptimiserConfig)
     batch: BatchConfig = field(default_factory=BatchConfig)
     recipe: RecipeConfig = field(default_factory=RecipeConfig)
-    solver: SolverConfig = field(default_factory=SolverConfig)
 
     def to_dict(self) -> dict[str, Any]:
         return dataclasses.asdict(self)
@@ -198,8 +173,6 @@ class TrainingConfig:
         config, optimiser = self, self.optimiser
         return (
             (config.data.source in ("synthetic", "folders"), "data.source", "'synthetic' or 'folders'"),
-            (config.solver.kind in ("euler", "midpoint", "heun"), "solver.kind", "'euler', 'midpoint' or 'heun'"),
-            (1 <= config.solver.steps <= 16, "solver.steps", "1 to 16"),
             (optimiser.learning_rate > 0.0, "optimiser.learning_rate", "above 0"),
             (optimiser.batch_size >= 1, "optimiser.batch_size", "at least 1"),
             (optimiser.steps >= 0, "optimiser.steps", "at least 0"),
@@ -226,9 +199,9 @@ class TrainingConfig:
             ),
             (config.batch.emphasis > 0.0, "batch.emphasis", "above 0"),
             (
-                config.model.network in ("field", "skeleton", "refinement"),
+                config.model.network in config.model.networks,
                 "model.network",
-                "'field', 'skeleton' or 'refinement'",
+                f"one of {', '.join(config.model.networks)}",
             ),
             (
                 config.model.has_filter or config.recipe.filter_steps == 0,
@@ -260,24 +233,25 @@ def _convert(value: Any, default: Any, key: str, path: Path) -> Any:
     return tuple(value) if isinstance(default, tuple) else value
 
 
-def _read_section(section: type[_Section], table: dict[str, Any], prefix: str, path: Path) -> _Section:
+def _read_section(section: type[_Section], table: dict[str, Any], prefix: str, path: Path, *, passes: bool) -> _Section:
     defaults = section()
     fields = dataclasses.fields(section)  # type: ignore[arg-type]
     known = {entry.name: getattr(defaults, entry.name) for entry in fields}
     values: dict[str, Any] = {}
     for key, value in table.items():
         name = f"{prefix}{key}"
-        if key not in known and name in _EVALUATION_KEYS:
-            if value == _EVALUATION_KEYS[name]:
-                continue
-            raise InputError(f"{path}: key '{name}' is one of the evaluation: use the same command of `haptoflow-paper`")
+        if key not in known and passes:
+            continue
         if key not in known:
-            raise InputError(f"{path}: unknown key '{name}'; known here: {', '.join(sorted(known))}")
+            raise InputError(
+                f"{path}: unknown key '{name}'; known here: {', '.join(sorted(known))} (keys of rivals, latents and velocity "
+                "fields are those of `haptoflow-paper`, which has the same command)"
+            )
         default = known[key]
         if dataclasses.is_dataclass(default):
             if not isinstance(value, dict):
                 raise InputError(f"{path}: '{name}' must be a table [{name}]")
-            values[key] = _read_section(type(default), value, f"{name}.", path)
+            values[key] = _read_section(type(default), value, f"{name}.", path, passes=passes)
         else:
             values[key] = _convert(value, default, name, path)
     return section(**values)
@@ -337,12 +311,18 @@ def _merged(below: dict[str, Any], above: dict[str, Any]) -> dict[str, Any]:
     return merged
 
 
-def config_from_dict(
-    table: dict[str, Any], path: Path, kind: type[TrainingConfig] | None = None
-) -> TrainingConfig:
+def config_from_dict(table: dict[str, Any], path: Path, kind: type[TrainingConfig] | None = None) -> TrainingConfig:
     """The configuration in `table`, checked; `path` names its origin in messages. kind: the class to read it as
     (default: that of extensions.py)."""
-    config = _read_section(kind or configuration_class(), table, "", path)
+    return _checked(_read_section(kind or configuration_class(), table, "", path, passes=False), path)
+
+
+def config_of_run(table: dict[str, Any], path: Path, kind: type[TrainingConfig] | None = None) -> TrainingConfig:
+    """As `config_from_dict`, for what a checkpoint of any version states: keys that are no longer known are passed over."""
+    return _checked(_read_section(kind or configuration_class(), table, "", path, passes=True), path)
+
+
+def _checked(config: TrainingConfig, path: Path) -> TrainingConfig:
     for holds, key, expected in config.rules():
         if not holds:
             raise InputError(f"{path}: key '{key}' is out of range, expected {expected}")

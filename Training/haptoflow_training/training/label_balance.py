@@ -131,11 +131,7 @@ class LabelBalance:
     def _remember(self, group: Tensor, counted: Tensor, recorded: Tensor, drawn: Tensor) -> None:
         arrived = torch.zeros_like(self._sums["count"]).index_add_(0, group, counted)
         kept = torch.exp(-arrived / _MEMORY_SEGMENTS)
-        new = {
-            "recorded": counted * recorded,
-            "drawn": counted * drawn,
-            "count": counted,
-        }
+        new = {"recorded": counted * recorded, "drawn": counted * drawn, "count": counted}
         for name, sums in self._sums.items():
             sums.mul_(kept).index_add_(0, group, new[name])
 

@@ -1,4 +1,4 @@
-"""The losses of a training step on one batch, by objective: `level`, `flow` or `energy`."""
+"""The losses of a training step on one batch, by objective: `level` or `energy`."""
 
 from __future__ import annotations
 
@@ -12,9 +12,7 @@ from haptoflow_training.models.label_embedding import rib_frequencies_hz, surfac
 from haptoflow_training.models.level_model import level_loss, scaled_previous
 from haptoflow_training.models.rib_comb import PARTIALS
 from haptoflow_training.training.batches import Chain, SegmentBatch
-from haptoflow_training.training.config import SolverConfig
 from haptoflow_training.training.energy_distance import energy_distance_loss, envelopes, halves_of, spectra
-from haptoflow_training.training.flow_matching import Field, flow_matching_loss, solve
 from haptoflow_training.training.label_balance import LabelBalance, label_features
 
 _BALANCE_WEIGHT = 2.0
@@ -65,7 +63,6 @@ class Losses(nn.Module):
     def __init__(
         self,
         model: HaptoFlowModel,
-        solver: SolverConfig,
         *,
         train_level: bool = True,
         balance: LabelBalance | None = None,
@@ -74,16 +71,10 @@ class Losses(nn.Module):
         super().__init__()
         self.ribs_followed = ribs_followed
         self.model = model
-        self._solver = solver
         self._train_level = train_level
         self._balance = balance
 
-    def forward(
-        self,
-        batch: SegmentBatch,
-        objective: str,
-        generator: torch.Generator,
-    ) -> tuple[Tensor, Tensor]:
+    def forward(self, batch: SegmentBatch, objective: str, generator: torch.Generator) -> tuple[Tensor, Tensor]:
         level = self.level_loss(batch)
         if objective == "level":
             return level, torch.zeros(())
@@ -128,8 +119,6 @@ class Losses(nn.Module):
 
     def field_loss(self, given: ScaledBatch, objective: str, generator: torch.Generator) -> Tensor:
         """The network's loss by one objective, a scalar."""
-        if objective == "flow":
-            return flow_matching_loss(self._field(given.condition), given.segment, generator, 1.0 / given.power)
         _, first, second = self.two_draws(given, generator)
         return self.one_step_loss(given, (first, second))
 
@@ -186,9 +175,7 @@ class Losses(nn.Module):
         return [recorded.detach(), *drawn], resolved
 
     @torch.no_grad()
-    def render_chain(
-        self, chain: Chain, embedding: Tensor, objective: str, generator: torch.Generator
-    ) -> Tensor:
+    def render_chain(self, chain: Chain, embedding: Tensor, objective: str, generator: torch.Generator) -> Tensor:
         """The previous waveform [B, 1, 200] in m/s^2 after the chain's hops, rendered by the network itself."""
         model, previous = self.model, chain.start
         for hop in range(chain.motion.shape[1]):
@@ -221,12 +208,7 @@ class Losses(nn.Module):
     def drawn(self, objective: str, noise: Tensor, condition: Condition) -> Tensor:
         """The segment [B, *shape] that the network of an objective makes of noise. condition: previous, embedding,
         motion, phases."""
-        if objective == "energy":
-            return self.model.one_step(noise, *condition)
-        return solve(self._field(condition), noise, self._solver.kind, self._solver.steps)
-
-    def _field(self, condition: Condition) -> Field:
-        return lambda noisy, time: self.model.field(noisy, time, *condition)
+        return self.model.one_step(noise, *condition)
 
     def _steady_segment(self, batch: SegmentBatch, embedding: Tensor) -> tuple[Tensor, Tensor]:
         """The segment in unit scale, as if the motion continued as it began: each sample is divided by the level at

@@ -12,28 +12,22 @@ from typing import Any
 
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.label_info import LabelInfo
-from haptoflow_training.export.seed_bank import SEED_SAMPLES
 from haptoflow_training.preprocessing.preparation import prepare_cut_where_needed, prepare_store
 from haptoflow_training.preprocessing.rib_phases import with_rib_phases
 from haptoflow_training.preprocessing.split import SPLITS
-from haptoflow_training.preprocessing.store import SegmentStore
-from haptoflow_training.preprocessing.store_lock import store_lock
+from haptoflow_training.preprocessing.store import SegmentStore, store_lock
 from haptoflow_training.recordings.dataset import UNKNOWN, Dataset
 from haptoflow_training.recordings.labels import LabelDefinition, LabelMap, load_labels
-from haptoflow_training.recordings.landing import landing_of, landing_of_spring
+from haptoflow_training.recordings.landing import landing_of, landing_of_spring, rib_wander_of, stick_slip_of
 from haptoflow_training.recordings.open_recordings import RecordingFile, open_recordings
 from haptoflow_training.recordings.recording import Recording, RecordingIdentity
 from haptoflow_training.recordings.synthetic import (
-    Material,
-    hand_conditions,
-    load_materials,
-    machine_conditions,
-    record_condition_of,
+    Material, hand_conditions, load_materials, machine_conditions, record_condition_of
 )
 from haptoflow_training.recordings.synthetic.materials import select_materials
-from haptoflow_training.recordings.wander import rib_wander_of, stick_slip_of
 from haptoflow_training.training.config import DataConfig
 from haptoflow_training.training.found_wave_vectors import with_found_ribs
+from haptoflow_training.waveform import SEGMENT_SAMPLES
 
 _MAXIMUM_SHOWN = 10
 SYNTHETIC_STATEMENT = "trained on synthetic recordings"
@@ -123,12 +117,7 @@ def _fingerprint(data: DataConfig, further: dict[str, Any]) -> dict[str, Any]:
 
 
 def _open_or_prepare(
-    data: DataConfig,
-    out: Path,
-    recordings: Any,
-    labels: list[str],
-    workers: int,
-    further: dict[str, Any] | None = None,
+    data: DataConfig, out: Path, recordings: Any, labels: list[str], workers: int, further: dict[str, Any] | None = None
 ) -> SegmentStore:
     fingerprint = _fingerprint(data, further or {})
     if (found := _open_if_made_from(out, fingerprint)) is not None:
@@ -139,12 +128,7 @@ def _open_or_prepare(
         if (found := _open_if_made_from(out, fingerprint)) is not None:
             return found
         return prepare(
-            recordings,
-            labels,
-            out,
-            seed=data.recordings_seed,
-            provenance={"made_from": fingerprint},
-            workers=workers,
+            recordings, labels, out, seed=data.recordings_seed, provenance={"made_from": fingerprint}, workers=workers
         )
 
 
@@ -163,9 +147,7 @@ def synthetic_label_infos(data: DataConfig) -> list[LabelInfo]:
             category=material.category,
             stiffness_newtons_per_metre=material.stiffness_newtons_per_metre,
             friction_coefficient=material.friction,
-            wavelength_metres=(
-                1e-3 * material.dominant_ruling.wavelength_mm if material.dominant_ruling else None
-            ),
+            wavelength_metres=(1e-3 * material.dominant_ruling.wavelength_mm if material.dominant_ruling else None),
             wave_vectors_per_mm=material.wave_vectors_per_mm,
             landing=landing_of(material),
             stick_slip=stick_slip_of(material),
@@ -179,9 +161,7 @@ def open_source(data: DataConfig, store_folder: Path, workers: int) -> Source:
     """Prepare (or reuse) the store that `data` describes; InputError where folders hold nothing usable."""
     if data.source == "synthetic":
         infos = synthetic_label_infos(data)
-        store = _open_or_prepare(
-            data, store_folder, synthetic_recordings(data), [info.name for info in infos], workers
-        )
+        store = _open_or_prepare(data, store_folder, synthetic_recordings(data), [info.name for info in infos], workers)
         return Source(
             store,
             infos,
@@ -258,8 +238,8 @@ def _require_splits(store: SegmentStore, unusable: Sequence[str]) -> None:
     unusable: lines about files that were excluded before preparation."""
     counts = {label: dict.fromkeys(SPLITS, 0) for label in store.labels}
     for recording in store.recordings:
-        # Shorter recordings contain no window for the seed bank.
-        if recording.split != "train" or recording.length > SEED_SAMPLES:
+        # Shorter recordings contain no window of past and segment.
+        if recording.split != "train" or recording.length > 2 * SEGMENT_SAMPLES:
             counts[store.labels[recording.label_index]][recording.split] += 1
     lacking = [label for label, of_label in counts.items() if of_label["train"] == 0]
     if lacking:

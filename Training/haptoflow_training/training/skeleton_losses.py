@@ -3,22 +3,61 @@
 from __future__ import annotations
 
 import math
+
 import torch
 from torch import Tensor
 
 from haptoflow_training.models.label_embedding import WAVE_VECTORS, surface_path
-from haptoflow_training.models.skeleton_model import SkeletonModel
 from haptoflow_training.models.skeleton import LIKELIHOOD_END, ORDER
-from haptoflow_training.models.surface_waves import FAMILIES, advanced, path_of, with_path, with_rates_at
+from haptoflow_training.models.haptoflow_model import SkeletonModel
+from haptoflow_training.models.surface_waves import FAMILIES, MINIMUM_HZ, advanced, path_of, with_path, with_rates_at
 from haptoflow_training.training.batches import SegmentBatch
-from haptoflow_training.training.filter_fitting import audible, motion_at, weighted_mean, with_floor, without_waves
 from haptoflow_training.training.losses import Losses, ScaledBatch
 from haptoflow_training.waveform import SAMPLE_RATE_HZ, SEGMENT_SAMPLES
+
+_SMALL = 1e-6
+# Noise added to recordings before a filter is fitted. Where nothing is felt, a filter has better uses for its poles.
+_FLOOR_MPS2 = 0.005
+# In unit scale at most this: 45 dB below the level.
+_LARGEST_FLOOR = 10.0 ** (-45.0 / 20.0)
+# A vibration of this RMS weighs half.
+_FAINT_MPS2 = 0.03
+
+
+def with_floor(segment: Tensor, log_level: Tensor, generator: torch.Generator) -> Tensor:
+    """Segments [B, 1, 200] in unit scale, of the level exp(log_level) [B, 1] in m/s^2, over the noise floor."""
+    floor = (_FLOOR_MPS2 * torch.exp(-log_level.detach())).clamp(max=_LARGEST_FLOOR).unsqueeze(2)
+    return segment + floor * torch.randn(segment.shape, generator=generator)
+
+
+def motion_at(motion_path: Tensor, sample: int) -> Tensor:
+    """[B, 3]: the motion at about a sample of segments whose motions are known at evenly spaced samples [B, K, 3], from
+    the first to the last."""
+    return motion_path[:, round(sample * (motion_path.shape[1] - 1) / (SEGMENT_SAMPLES - 1))]
+
+
+def audible(log_level: Tensor) -> Tensor:
+    """[B]: near 1 where the expected level exp(log_level) [B, 1] in m/s^2 can be felt, 0 at rest, where nothing is
+    recorded. All other segments weigh alike: weighting down unpredictable ones would bias a likelihood towards too little
+    variance."""
+    power = log_level.detach().squeeze(1).mul(2.0).exp()
+    return power / (power + _FAINT_MPS2**2)
+
+
+def without_waves(rates_hz: Tensor) -> Tensor:
+    """[B]: 1 where all families of the surface's waves [B, F] stand still, else 0. Burg's method takes their lines for
+    resonances."""
+    return (rates_hz.abs() <= MINIMUM_HZ).all(dim=1).to(rates_hz.dtype)
+
+
+def weighted_mean(values: Tensor, weight: Tensor) -> Tensor:
+    """Of [B] each."""
+    return (weight * values).sum() / (weight.sum() + _SMALL)
+
 
 # Samples by which the second pass of the shift's loss is begun later: up to the hop of an update at 72 Hz.
 _MAXIMUM_SHIFT = 27
 _SHIFT_WEIGHT = 1.0
-_SMALL = 1e-6
 
 
 class SkeletonLosses(Losses):
@@ -52,9 +91,6 @@ class SkeletonLosses(Losses):
         turns[:, WAVE_VECTORS:] = 0.0
         path = path_of(phases) - turns.unsqueeze(2)
         return with_path(torch.cat([phases[:, :FAMILIES] - turns, rates], dim=1), path)
-
-    def drawn(self, objective: str, noise: Tensor, condition: tuple[Tensor, Tensor, Tensor, Tensor]) -> Tensor:
-        return self.model.one_step(noise, *condition)
 
     def _skeleton_loss(self, given: ScaledBatch, objective: str, generator: torch.Generator) -> Tensor:
         skeleton = self.model.skeleton

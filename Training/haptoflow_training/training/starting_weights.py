@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 from pathlib import Path
 from typing import Any
 
@@ -10,12 +11,10 @@ from torch import Tensor, nn
 
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.model_file import read_model_file
-from haptoflow_training.export.model_weights import embedding_rows, has_skeleton, skeleton_weights
+from haptoflow_training.export.skeleton_tensors import embedding_rows, has_skeleton, skeleton_weights
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE
-from haptoflow_training.models.haptoflow_model import HaptoFlowModel
+from haptoflow_training.models.haptoflow_model import HaptoFlowModel, SkeletonModel
 from haptoflow_training.models.label_embedding import WAVE_NUMBERS
-from haptoflow_training.models.skeleton_model import SkeletonModel
-
 
 def adopt_base(model: HaptoFlowModel, folder: Path, labels: list[str]) -> None:
     """Copy the embedding, the level and, for a refinement, the skeleton of the finished run in `folder` into `model`,
@@ -85,3 +84,26 @@ def _adopt_file(model: HaptoFlowModel, path: Path, labels: list[str]) -> None:
             raise InputError(f"--from {path}: its '{name}' does not fit; begin with its [model], or without --from")
         own[name] = value
     model.load_state_dict(own)
+
+
+class MovingAverage:
+    """average <- decay average + (1 - decay) weights, with the decay ramped up over the first steps."""
+
+    def __init__(self, module: nn.Module, decay: float) -> None:
+        self.module = copy.deepcopy(module).eval().requires_grad_(False)
+        self._decay = decay
+        self._updates = 0
+
+    @torch.no_grad()
+    def update(self, module: nn.Module) -> None:
+        self._updates += 1
+        decay = min(self._decay, (1.0 + self._updates) / (10.0 + self._updates))
+        for average, weight in zip(self.module.parameters(), module.parameters(), strict=True):
+            average.lerp_(weight.detach(), 1.0 - decay)
+
+    def state(self) -> dict[str, object]:
+        return {"module": self.module.state_dict(), "updates": self._updates}
+
+    def restore(self, state: dict[str, object]) -> None:
+        self.module.load_state_dict(state["module"])  # type: ignore[arg-type]
+        self._updates = int(state["updates"])  # type: ignore[call-overload]

@@ -1,4 +1,4 @@
-"""The training loop: level model first, then level and velocity field together, then the level once more.
+"""The training loop: level model first, then level and skeleton or network together, then the level once more.
 
 Resumable: a checkpoint holds weights, moving average, optimiser, random generators and position. A run that is started
 again in the same folder continues and ends with the same weights as one that was never interrupted. A run with a time
@@ -25,24 +25,21 @@ from tqdm import tqdm
 
 from haptoflow_training.errors import InputError
 from haptoflow_training.extensions import located
-from haptoflow_training.models.haptoflow_model import FieldModel, HaptoFlowModel
+from haptoflow_training.models.haptoflow_model import HaptoFlowModel, SkeletonModel
 from haptoflow_training.models.level_model import LevelModel
 from haptoflow_training.models.refiner import Refiner
 from haptoflow_training.models.skeleton import Skeleton
-from haptoflow_training.models.skeleton_model import SkeletonModel
-from haptoflow_training.models.velocity_field import VelocityField
 from haptoflow_training.preprocessing.store import SegmentStore
 from haptoflow_training.stopping import Stopped, end_if_stopped
 from haptoflow_training.training.batches import SegmentBatches
 from haptoflow_training.training.budget import Budget
-from haptoflow_training.training.config import TrainingConfig, config_from_dict
+from haptoflow_training.training.config import TrainingConfig, config_of_run
 from haptoflow_training.training.label_balance import LabelBalance
 from haptoflow_training.training.losses import Losses
-from haptoflow_training.training.moving_average import MovingAverage
+from haptoflow_training.training.starting_weights import MovingAverage, adopt_base, adopt_start, checkpoint_of
 from haptoflow_training.training.processes import Processes
 from haptoflow_training.training.run_log import MetricsLog, plot_metrics, source_commit, write_json
 from haptoflow_training.training.skeleton_losses import SkeletonLosses
-from haptoflow_training.training.starting_weights import adopt_base, adopt_start, checkpoint_of
 
 _COLUMNS = ("step", "phase", "field_loss", "level_loss", "validation_field_loss", "validation_level_loss", "seconds")
 _LOG_EVERY = 100
@@ -143,7 +140,7 @@ class Trainer:
             adopt_start(self.model, start, list(store.labels))
         self._balance = LabelBalance(len(store.labels))
         self._losses = self.losses_of(config)(
-            self.model, config.solver, train_level=not config.recipe.shares_base, balance=self._balance,
+            self.model, train_level=not config.recipe.shares_base, balance=self._balance,
             ribs_followed=store.ribs_followed,
         )  # fmt: skip
         self._average = MovingAverage(self.model, optimiser.average_decay)
@@ -165,19 +162,18 @@ class Trainer:
     def build_model(config: TrainingConfig, wave_vectors: WaveVectors, specimens: int = 0) -> HaptoFlowModel:
         """As the function `build_model`, for configurations of this trainer."""
         shape = config.model
-        sizes: dict[str, int] = {
-            "width": shape.width, "previous_width": shape.previous_width, "levels": shape.levels,
-        }  # fmt: skip
-        given: dict[str, Any] = {"wave_vectors": wave_vectors, "level": LevelModel(), "specimens": specimens}
-        if shape.network == "field":
-            return FieldModel(**given, field=VelocityField(**sizes, ribs=shape.ribs, impulses=shape.impulses))
-        refiner = Refiner(**sizes) if shape.network == "refinement" else None
-        return SkeletonModel(**given, skeleton=Skeleton(shape.hidden), refiner=refiner)
+        level, refiner = LevelModel(), None
+        if shape.network == "refinement":
+            refiner = Refiner(width=shape.width, previous_width=shape.previous_width, levels=shape.levels)
+        skeleton = Skeleton(shape.hidden)
+        return SkeletonModel(
+            wave_vectors=wave_vectors, level=level, skeleton=skeleton, refiner=refiner, specimens=specimens
+        )
 
     @staticmethod
     def losses_of(config: TrainingConfig) -> type[Losses]:
         """The class of the losses of a run."""
-        return Losses if config.model.network == "field" else SkeletonLosses
+        return SkeletonLosses
 
     @staticmethod
     def possible_phases(config: TrainingConfig) -> list[Phase]:
@@ -189,11 +185,11 @@ class Trainer:
         )
         rate, batch, energy_batch = optimiser.learning_rate, optimiser.batch_size, recipe.energy_batch_size
         forced_rate = recipe.self_forcing_learning_rate
-        forced = Phase("self-forcing", "flow", recipe.self_forcing_steps, forced_rate, batch, 1)
+        forced = Phase("self-forcing", "energy", recipe.self_forcing_steps, forced_rate, batch, 1)
         if recipe.energy_steps:
             # If all pasts were the network's own, it would forget how to continue a recorded one.
             forced = Phase("self-forcing", "energy", recipe.self_forcing_steps, forced_rate, energy_batch, 2)
-        fitted = "likelihood" if config.model.network == "skeleton" else "flow"
+        fitted = "likelihood" if config.model.network == "skeleton" else "energy"
         return [
             Phase("embedding", fitted, recipe.embedding_steps, recipe.embedding_learning_rate, batch),
             Phase("level", "level", level_steps, rate, 8 * batch),
@@ -442,9 +438,7 @@ class Trainer:
     def validate(self, phase: Phase | None = None) -> tuple[float, float]:
         """(level loss, loss of the phase's objective) of the averaged model on fixed pairs of the validation split."""
         generator = torch.Generator().manual_seed(99)
-        losses = self.losses_of(self._config)(
-            self.averaged_model, self._config.solver, ribs_followed=self._store.ribs_followed
-        )
+        losses = self.losses_of(self._config)(self.averaged_model, ribs_followed=self._store.ribs_followed)
         objective = (phase or self._phases[-1]).objective
         if objective == "level":
             objective = next((entry.objective for entry in self._phases if entry.name == "field"), "level")
@@ -472,11 +466,7 @@ class Trainer:
 
     def _save(self) -> None:
         # Each process has its own generators and running averages; the weights are the same everywhere.
-        own = {
-            "noise": self._noise.get_state(),
-            "batches": self._batches.state(),
-            "balance": self._balance.state(),
-        }
+        own = {"noise": self._noise.get_state(), "batches": self._batches.state(), "balance": self._balance.state()}
         path = self._folder / f"generators-{self._processes.rank}.pt"
         # A program that is killed between the two files goes on from the checkpoint before.
         now = {"step": self._step, **own}
@@ -501,7 +491,7 @@ class Trainer:
     def _load(self) -> None:
         content = torch.load(self.checkpoint_path, map_location="cpu")
         own = torch.load(self._folder / f"generators-{self._processes.rank}.pt", map_location="cpu")
-        same_config = config_from_dict(content["config"], self.checkpoint_path, type(self._config)) == self._config
+        same_config = config_of_run(content["config"], self.checkpoint_path, type(self._config)) == self._config
         if not same_config or content["labels"] != list(self._store.labels):
             raise InputError(
                 f"{self.checkpoint_path} belongs to another configuration: choose another --out, or delete the folder"
@@ -564,7 +554,7 @@ def load_trained(folder: Path) -> tuple[TrainingConfig, list[str], HaptoFlowMode
             f"{folder}: interrupted at step {content['step']} of {planned}; go on with `haptoflow-training train --out "
             f"{folder}` and its configuration first"
         )
-    config = config_from_dict(content["config"], folder / "checkpoint.pt")
+    config = config_of_run(content["config"], folder / "checkpoint.pt")
     weights = content["average"]["module"]
     specimens = weights["embedding.pieces"].shape[1] if "embedding.pieces" in weights else 0
     model = build_model(config, [()] * len(content["labels"]), specimens)

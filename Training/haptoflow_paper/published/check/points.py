@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from haptoflow_benchmark.engine.engine_library import EngineLibrary
-from haptoflow_benchmark.metrics.waveform_metrics import log_spectral_distance_db, rms
+from haptoflow_benchmark.engine_library import EngineLibrary
+from haptoflow_benchmark.waveform_metrics import log_spectral_distance_db, rms
 from haptoflow_paper.published.check.lines import Line, inapplicable, judged
 from haptoflow_paper.rows.engine_generator import SOLVED_KINDS, EngineGenerator
 from haptoflow_paper.rows.timing import Milliseconds, TimedSource, time_sources

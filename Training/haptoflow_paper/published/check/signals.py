@@ -11,7 +11,7 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
-from haptoflow_benchmark.metrics.waveform_metrics import log_spectral_distance_db, power_spectrum
+from haptoflow_benchmark.waveform_metrics import log_spectral_distance_db, power_spectrum
 from haptoflow_paper.published.check.lines import Line, inapplicable, judged
 from haptoflow_paper.published.level_measurement import band_rms, reference_motions, render_waves
 from haptoflow_paper.published.published_file import REFERENCE_LEVEL_MPS2

@@ -2,18 +2,11 @@
 
 from haptoflow_training.recordings.synthetic.materials import Material, load_materials
 from haptoflow_training.recordings.synthetic.protocols import (
-    hand_conditions,
-    machine_conditions,
-    record_condition_of,
-    record_hand_condition,
-    record_machine_condition,
+    hand_conditions, machine_conditions, record_condition_of, record_hand_condition, record_machine_condition
 )
 from haptoflow_training.recordings.synthetic.recorder import record_condition
 from haptoflow_training.recordings.synthetic.specimens import (
-    FURTHER_SPECIMENS,
-    HELD_OUT_SPECIMEN,
-    TRAINING_SPECIMENS,
-    training_specimen,
+    FURTHER_SPECIMENS, HELD_OUT_SPECIMEN, TRAINING_SPECIMENS, training_specimen
 )
 
 __all__ = [

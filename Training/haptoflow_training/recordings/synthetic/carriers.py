@@ -13,7 +13,7 @@ from scipy.signal import sosfilt
 from haptoflow_training.recordings.synthetic import filters
 from haptoflow_training.recordings.synthetic.contact import SIMULATION_RATE_HZ
 from haptoflow_training.recordings.synthetic.surface import TipPath
-from haptoflow_training.strokes.hand_stroke import force_profile, random_planar_stroke, tremor
+from haptoflow_training.hand_stroke import force_profile, random_planar_stroke, tremor
 
 SCAN_CENTRE_MM = 45.0
 PASS_LENGTH_MM = 90.0
@@ -69,11 +69,7 @@ def machine_pass(
 
 
 def hand_ride(
-    rng: np.random.Generator,
-    *,
-    duration_seconds: float,
-    median_speed_mmps: float,
-    median_force_newtons: float,
+    rng: np.random.Generator, *, duration_seconds: float, median_speed_mmps: float, median_force_newtons: float
 ) -> Ride:
     """A free stroke with rests at both ends.
 
@@ -109,11 +105,7 @@ def hand_ride(
 
 
 def guided_ride(
-    rng: np.random.Generator,
-    *,
-    duration_seconds: float,
-    median_speed_mmps: float,
-    median_force_newtons: float,
+    rng: np.random.Generator, *, duration_seconds: float, median_speed_mmps: float, median_force_newtons: float
 ) -> Ride:
     """A hand that rests on a moving surface, such as a turntable: speed, direction and force are held for 0.5 to 1.5 s,
     then change, with speeds of 0.6 to 3.3 times `median_speed_mmps`.

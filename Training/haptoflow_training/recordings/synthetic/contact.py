@@ -11,14 +11,10 @@ from scipy.signal import sosfilt
 
 from haptoflow_training.recordings.synthetic import filters
 from haptoflow_training.recordings.synthetic.features import (
-    impact_acceleration,
-    rib_wander_turns,
-    ruling_height,
-    slip_acceleration,
-    slips_of,
+    impact_acceleration, rib_wander_turns, ruling_height, slip_acceleration, slips_of
 )
 from haptoflow_training.recordings.synthetic.materials import MAXIMUM_RULINGS, Material
-from haptoflow_training.recordings.synthetic.spread import character_of, surface_gain
+from haptoflow_training.recordings.synthetic.specimens import character_of, surface_gain
 from haptoflow_training.recordings.synthetic.surface import TipPath, random_height
 
 SIMULATION_RATE_HZ = 8000.0
@@ -106,9 +102,7 @@ def _shared_sections(material: Material, tilt_db_per_octave: float, rate_hz: flo
     return np.concatenate(sections)
 
 
-def resonance_steps(
-    speed_mmps: NDArray[np.float64], force_newtons: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def resonance_steps(speed_mmps: NDArray[np.float64], force_newtons: NDArray[np.float64]) -> NDArray[np.float64]:
     """By how many factors of _RESONANCE_STEP the contact's resonance exceeds that at 100 mm/s and 1 N.
 
     The contact is Hertzian: it is stiffer when pressed harder. Surface, grip and skin are viscoelastic: they are

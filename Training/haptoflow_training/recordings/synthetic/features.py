@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from haptoflow_training.recordings.synthetic.materials import Material, Ruling
-from haptoflow_training.recordings.synthetic.random_field import RandomField, field_key, place_fractions
-from haptoflow_training.recordings.synthetic.surface import TipPath, octave_height, upper_weight
+from haptoflow_training.recordings.synthetic.surface import (
+    RandomField, TipPath, field_key, octave_height, place_fractions, upper_weight
+)
 
 # Numbers of the features' random fields, beyond the octaves' 0 to 13.
 _RULING_JITTER, _SLIP_WANDER, _ASPERITY_SIZE, _ASPERITY_PLACE = 100, 200, 300, 301
@@ -62,9 +63,7 @@ def ruling_height(
     return unit * ruling.relative_height * profile
 
 
-def impact_acceleration(
-    material: Material, path: TipPath, rate_hz: float, *, specimen: int
-) -> NDArray[np.float64]:
+def impact_acceleration(material: Material, path: TipPath, rate_hz: float, *, specimen: int) -> NDArray[np.float64]:
     """Impulses [n] in m/s^2, one where the tip meets the asperity of a cell of the surface that holds one.
 
     Their rate is proportional to speed; the velocity that each gives the tip grows so that the overall level follows

@@ -55,9 +55,7 @@ def hand_conditions(material: Material, *, seed: int, recordings: int) -> list[R
         press = (order[repeat] + rng.random()) / recordings
         speed = MINIMUM_HAND_SPEED_MMPS * (MAXIMUM_HAND_SPEED_MMPS / MINIMUM_HAND_SPEED_MMPS) ** share
         force = LIGHTEST_HAND_NEWTONS * (HEAVIEST_HAND_NEWTONS / LIGHTEST_HAND_NEWTONS) ** press
-        identities.append(
-            RecordingIdentity(material.texture_id, None, round(speed), round(1e3 * force), repeat)
-        )
+        identities.append(RecordingIdentity(material.texture_id, None, round(speed), round(1e3 * force), repeat))
     return identities
 
 

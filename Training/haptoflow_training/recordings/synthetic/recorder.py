@@ -2,15 +2,107 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from scipy.ndimage import map_coordinates, spline_filter1d
+from scipy.signal import sosfilt
 
-from haptoflow_training.recordings.recording import Recording, RecordingIdentity
+from haptoflow_training.recordings.recording import STANDARD_GRAVITY_MPS2, Recording, RecordingIdentity, Wander
+from haptoflow_training.recordings.synthetic import filters
 from haptoflow_training.recordings.synthetic.carriers import Ride, path_from_velocity
 from haptoflow_training.recordings.synthetic.contact import SIMULATION_RATE_HZ, tool_vibration
 from haptoflow_training.recordings.synthetic.materials import Material
-from haptoflow_training.recordings.synthetic.sensors import sense
 from haptoflow_training.recordings.synthetic.specimens import HELD_OUT_SPECIMEN
+
+_FULL_SCALE_G = 16.0
+_STEP_G = 1e-3
+_NOISE_G_PER_ROOT_HZ = 75e-6
+_MINIMUM_STEP_SECONDS, _MAXIMUM_STEP_SECONDS = 130e-6, 210e-6
+_MOUNT_RESONANCE = (1400.0, 4.0, 2.0)
+_LOAD_CELL_HZ, _LOAD_CELL_UPDATES_HZ, _LOAD_CELL_STEP_NEWTONS = 6000.0, 80.0, 0.01
+_LOAD_CELL_ACCURACY_NEWTONS = 0.05
+_POSITION_HZ, _POSITION_STEP_MM = 100.0, 0.01
+# Every so many samples of the simulation: fast ribs jitter too quickly for the position's clock.
+_WANDER_EVERY = 4
+
+
+def sense(
+    identity: RecordingIdentity,
+    label: str,
+    rng: np.random.Generator,
+    *,
+    rate_hz: float,
+    acceleration_mps2: NDArray[np.float64],
+    force_newtons: NDArray[np.float64],
+    position_mm: NDArray[np.float64],
+    wander_turns: NDArray[np.float64],
+    accelerometer_noise: bool = True,
+    motion_noise: bool = True,
+    specimen: int | None = None,
+) -> Recording:
+    """A Recording of the simulated quantities on a uniform clock: acceleration [n, 3], force [n], position [n, 2].
+    wander_turns [n, 3] is no sensor's and stays exact.
+
+    Without `accelerometer_noise`, the acceleration has neither noise nor quantisation; without `motion_noise`, force and
+    position have neither, nor offsets. Clocks and ranges stay, and so does everything about the other sensors.
+    """
+    duration = len(force_newtons) / rate_hz
+    stamps = _irregular_stamps(rng, duration - 2.0 / rate_hz)
+    mounted = sosfilt(filters.peak(*_MOUNT_RESONANCE, rate_hz), acceleration_mps2, axis=0)
+    sensed = np.empty((len(stamps), 3))
+    cells = (stamps * rate_hz)[None, :]
+    for axis in range(3):
+        coefficients = spline_filter1d(mounted[:, axis] / STANDARD_GRAVITY_MPS2, mode="nearest")
+        sensed[:, axis] = map_coordinates(coefficients, cells, order=3, mode="nearest", prefilter=False)
+    sensed[:, 2] -= 1.0
+    # Drawn before the accelerometer's noise, so that the force is the same without it.
+    force_time, force = _load_cell(rng, rate_hz, force_newtons, motion_noise)
+    if accelerometer_noise:
+        bandwidth_hz = 0.5 * len(stamps) / duration
+        sensed += _NOISE_G_PER_ROOT_HZ * math.sqrt(bandwidth_hz) * rng.standard_normal(sensed.shape)
+    sensed = soft_limit(sensed, _FULL_SCALE_G)
+    if accelerometer_noise:
+        sensed = np.round(sensed / _STEP_G) * _STEP_G
+
+    position_time = np.arange(int(duration * _POSITION_HZ)) / _POSITION_HZ
+    position = position_mm[np.minimum(np.round(position_time * rate_hz).astype(int), len(position_mm) - 1)]
+    if motion_noise:
+        position = np.round(position / _POSITION_STEP_MM) * _POSITION_STEP_MM
+    wander = Wander(np.arange(0, len(force_newtons), _WANDER_EVERY) / rate_hz, wander_turns[::_WANDER_EVERY])
+    return Recording(
+        identity, label, stamps, sensed, force_time, force, position_time, position, specimen, wander=wander
+    )  # fmt: skip
+
+
+def soft_limit(values: NDArray[np.float64], limit: float) -> NDArray[np.float64]:
+    """Values that approach +-limit smoothly; up to 0.6 of it they change by less than 1 %."""
+    ratio = (values / limit) ** 2
+    return values / (1.0 + ratio**4) ** 0.125
+
+
+def _irregular_stamps(rng: np.random.Generator, duration_seconds: float) -> NDArray[np.float64]:
+    count = int(duration_seconds / _MINIMUM_STEP_SECONDS) + 1
+    spread = rng.beta(1.2, 2.5, size=count)
+    steps = _MINIMUM_STEP_SECONDS + (_MAXIMUM_STEP_SECONDS - _MINIMUM_STEP_SECONDS) * spread
+    stamps = np.round(np.concatenate([[0.0], np.cumsum(steps)]), 6)
+    return stamps[: np.searchsorted(stamps, duration_seconds)]
+
+
+def _load_cell(
+    rng: np.random.Generator, rate_hz: float, force_newtons: NDArray[np.float64], noise: bool
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    count = int(len(force_newtons) / rate_hz * _LOAD_CELL_HZ)
+    time = np.arange(count) / _LOAD_CELL_HZ
+    if not noise:
+        return time, np.interp(time, np.arange(len(force_newtons)) / rate_hz, force_newtons)
+    update = np.floor(time * _LOAD_CELL_UPDATES_HZ).astype(int)
+    at = (np.arange(update[-1] + 1) / _LOAD_CELL_UPDATES_HZ * rate_hz).astype(int)
+    at = np.minimum(at, len(force_newtons) - 1)
+    error = rng.uniform(-0.03, 0.03) + np.clip(0.006 * rng.standard_normal(len(at)), -0.02, 0.02)
+    held = force_newtons[at] + np.clip(error, -_LOAD_CELL_ACCURACY_NEWTONS, _LOAD_CELL_ACCURACY_NEWTONS)
+    return time, (np.round(held / _LOAD_CELL_STEP_NEWTONS) * _LOAD_CELL_STEP_NEWTONS)[update]
 
 
 def record_ride(

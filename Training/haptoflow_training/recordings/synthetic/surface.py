@@ -9,12 +9,151 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.ndimage import map_coordinates
 
 from haptoflow_training.recordings.synthetic.materials import Material
-from haptoflow_training.recordings.synthetic.random_field import RandomField
+
+TILE_CELLS = 512
+CELLS_PER_WAVELENGTH = 6.0
+# Squares as wide as 27 wavelengths, cross-faded over more than three.
+_PATCH_CELLS, _FADE_CELLS = 160.0, 20.0
+_TILES_KEPT = 12
+
+_Integers = NDArray[np.uint64]
+_Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class RandomField:
+    """One field of a specimen, identified by `number`: RMS 1, wavelengths within about 0.65 octaves of
+    `wavelength_mm`."""
+
+    surface_seed: int
+    specimen: int
+    number: int
+    wavelength_mm: float
+
+    def at(self, position_mm: _Floats) -> _Floats:
+        """The field at each position [n, 2] in millimetres; the same position always gives the same value."""
+        x, y = (_squares(place) for place in self._cells(position_mm))
+        total = x.own_weight * y.own_weight * self._patch(x.cells, y.cells, x.own, y.own)
+        beside, above = np.flatnonzero(x.faded), np.flatnonzero(y.faded)
+        corner = beside[y.faded[beside]]
+        for rows, i, j, weight in (
+            (beside, x.neighbour, y.own, x.neighbour_weight[beside] * y.own_weight[beside]),
+            (above, x.own, y.neighbour, x.own_weight[above] * y.neighbour_weight[above]),
+            (corner, x.neighbour, y.neighbour, x.neighbour_weight[corner] * y.neighbour_weight[corner]),
+        ):
+            if rows.size:
+                total[rows] += weight * self._patch(x.cells[rows], y.cells[rows], i[rows], j[rows])
+        return total
+
+    def _cells(self, position_mm: _Floats) -> tuple[_Floats, _Floats]:
+        """Positions in cells of the tile, rotated and shifted by a hash, so that squares of two fields do not align."""
+        here = np.zeros(1, np.int64)
+        turn, shift_x, shift_y, _ = (float(each[0]) for each in place_fractions(self._key, here, here))
+        scale = CELLS_PER_WAVELENGTH / self.wavelength_mm
+        cosine, sine = scale * math.cos(2.0 * math.pi * turn), scale * math.sin(2.0 * math.pi * turn)
+        x, y = position_mm[:, 0], position_mm[:, 1]
+        return cosine * x - sine * y + _PATCH_CELLS * shift_x, sine * x + cosine * y + _PATCH_CELLS * shift_y
+
+    @property
+    def _key(self) -> int:
+        return field_key(self.surface_seed, self.specimen, self.number)
+
+    def _patch(self, x: _Floats, y: _Floats, i: NDArray[np.int64], j: NDArray[np.int64]) -> _Floats:
+        """The content of the squares (i, j) [n] at the cells (x, y) [n]; a run of one square is hashed once."""
+        starts = np.flatnonzero(np.concatenate([[True], (i[1:] != i[:-1]) | (j[1:] != j[:-1])]))
+        lengths = np.diff(np.append(starts, len(i)))
+        turns, offset_x, offset_y, _ = place_fractions(self._key, i[starts], j[starts])
+        cosine, sine = np.cos(2.0 * math.pi * turns), np.sin(2.0 * math.pi * turns)
+        centre_x, centre_y = _PATCH_CELLS * (i[starts] + 0.5), _PATCH_CELLS * (j[starts] + 0.5)
+        # Tile coordinates = rotation (cells - centre) + offset, with the terms that are constant along a run combined.
+        constant_x = TILE_CELLS * offset_x - cosine * centre_x + sine * centre_y
+        constant_y = TILE_CELLS * offset_y - sine * centre_x - cosine * centre_y
+        cosine, sine, constant_x, constant_y = (
+            np.repeat(each, lengths) for each in (cosine, sine, constant_x, constant_y)
+        )
+        read = np.empty((2, len(x)))
+        read[0] = cosine * x - sine * y + constant_x
+        read[1] = sine * x + cosine * y + constant_y
+        tile = _tile(self.surface_seed, self.specimen)
+        return map_coordinates(tile, read, output=np.float64, order=3, mode="grid-wrap", prefilter=False)
+
+
+@dataclass(frozen=True)
+class _Squares:
+    """Along one axis, for each cell coordinate [n]: its square and, where `faded`, the neighbour it is cross-faded
+    with."""
+
+    cells: _Floats
+    own: NDArray[np.int64]
+    own_weight: _Floats
+    faded: NDArray[np.bool_]
+    neighbour: NDArray[np.int64]
+    neighbour_weight: _Floats
+
+
+def _squares(cells: _Floats) -> _Squares:
+    squares = cells / _PATCH_CELLS
+    own = np.floor(squares)
+    off_edge = squares - np.rint(squares)
+    faded = np.abs(off_edge) < 0.5 * _FADE_CELLS / _PATCH_CELLS
+    # From 0 on the edge to 1 half a fade away from it: the powers of a square and its neighbour add up to 1.
+    reach = np.abs(off_edge[faded]) * (2.0 * _PATCH_CELLS / _FADE_CELLS)
+    turn = 0.25 * math.pi * (1.0 + reach * (15.0 - 10.0 * reach**2 + 3.0 * reach**4) / 8.0)
+    own_weight, neighbour_weight = np.ones(len(cells)), np.zeros(len(cells))
+    own_weight[faded], neighbour_weight[faded] = np.sin(turn), np.cos(turn)
+    neighbour = np.where(off_edge >= 0.0, own - 1.0, own + 1.0)
+    return _Squares(cells, own.astype(np.int64), own_weight, faded, neighbour.astype(np.int64), neighbour_weight)
+
+
+def field_key(surface_seed: int, specimen: int, number: int) -> int:
+    """The key that identifies one field of one specimen of one surface in the hashes."""
+    return (surface_seed * 1_000_003 + specimen) * 1_009 + number
+
+
+def place_fractions(key: int, i: NDArray[np.int64], j: NDArray[np.int64]) -> tuple[_Floats, _Floats, _Floats, _Floats]:
+    """Four independent numbers in [0, 1) for each place (i, j) [n] of the lattice of `key`: a hash without period."""
+    place = _mixed(_mixed(_mixed(np.full(1, key, np.uint64)) + i.astype(np.uint64)) + j.astype(np.uint64))
+    second = _mixed(place)
+    low = np.uint64(0xFFFFFFFF)
+    halves = (place >> np.uint64(32), place & low, second >> np.uint64(32), second & low)
+    first, other, third, fourth = (half.astype(np.float64) / 2.0**32 for half in halves)
+    return first, other, third, fourth
+
+
+def _mixed(values: _Integers) -> _Integers:
+    """SplitMix64 (Steele, Lea and Flood 2014): every bit of the result depends on every bit of the value."""
+    values = values + np.uint64(0x9E3779B97F4A7C15)
+    values = (values ^ (values >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
+    values = (values ^ (values >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)
+    return values ^ (values >> np.uint64(31))
+
+
+@lru_cache(maxsize=1)
+def _ring() -> tuple[_Floats, _Floats]:
+    """Spectral amplitude of a tile in rfft2's layout, divided by the cubic B-spline's response."""
+    rows, columns = np.fft.fftfreq(TILE_CELLS), np.fft.rfftfreq(TILE_CELLS)
+    radius = np.maximum(np.hypot(rows[:, None], columns[None, :]), 1e-9)
+    octaves_off = np.abs(np.log2(radius * CELLS_PER_WAVELENGTH))
+    ring = np.cos(0.5 * math.pi * np.clip((octaves_off - 0.35) / 0.3, 0.0, 1.0)) / radius
+    return ring, np.maximum((np.sinc(rows)[:, None] * np.sinc(columns)[None, :]) ** 4, 0.05)
+
+
+@lru_cache(maxsize=_TILES_KEPT)
+def _tile(surface_seed: int, specimen: int) -> NDArray[np.float32]:
+    """Cubic B-spline coefficients of a periodic field of RMS 1, with CELLS_PER_WAVELENGTH cells to its wavelength."""
+    rng = np.random.default_rng([surface_seed, specimen, 60])
+    ring, spline = _ring()
+    spectrum = np.fft.rfft2(rng.standard_normal((TILE_CELLS, TILE_CELLS))) * ring
+    field = np.fft.irfft2(spectrum)
+    return (np.fft.irfft2(spectrum / spline) / np.std(field)).astype(np.float32)
+
 
 # Centre wavelengths of the octaves in millimetres: 0.0075, 0.015 ... 61. At 10 mm/s the finest corresponds to 1.3 kHz.
 OCTAVE_WAVELENGTHS_MM = tuple(0.0075 * 2.0**index for index in range(14))

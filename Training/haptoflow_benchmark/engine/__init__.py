@@ -1,1 +1,0 @@
-"""The native engine from Python: its C interface and whole renders."""

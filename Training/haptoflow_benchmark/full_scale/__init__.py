@@ -1,1 +1,0 @@
-"""Which acceleration should be full scale, from recorded strokes."""

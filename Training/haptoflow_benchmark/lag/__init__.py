@@ -1,1 +1,0 @@
-"""How late the vibration follows the stylus."""

@@ -1,1 +1,0 @@
-"""Measures of a generated waveform beside a recorded one."""

@@ -1,1 +1,0 @@
-"""Training objectives of rows: mean flow and reflow."""

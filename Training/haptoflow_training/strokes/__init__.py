@@ -1,1 +1,0 @@
-"""Hand-like movement: the sigma-lognormal model and strokes built from it."""
