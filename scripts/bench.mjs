@@ -68,7 +68,7 @@ const help = `usage: ./run bench [--quick] [--only NAMES] [--events N] [--model 
 Measures callback, latencies, inference, memory and contact into out/bench.json.
 
   --quick      fewer events and devices: a first look
-  --only       some measurements: callback, events, effects, blends, outputs, latency, inference, voices, idle, contact
+  --only       some measurements: callback, effects, latency, inference, voices, idle, contact
   --events     events behind each latency
   --model      another model file than the shipped one
   --no-paper   without the comparison with the paper's architecture

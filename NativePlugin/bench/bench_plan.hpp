@@ -51,8 +51,6 @@ struct BenchPlan {
     [[nodiscard]] std::size_t batchRuns() const noexcept { return std::max<std::size_t>(2, events / 5); }
     [[nodiscard]] double idleSeconds() const noexcept { return 0.02 * static_cast<double>(events); }
     [[nodiscard]] std::size_t loads() const noexcept { return std::max<std::size_t>(2, events / 10); }
-    [[nodiscard]] std::size_t outputFrames() const noexcept { return 20 * events; }
-    [[nodiscard]] std::size_t blendUpdates() const noexcept { return 4 * events; }
     [[nodiscard]] std::size_t contactUpdates() const noexcept { return 20 * events; }
 };
 

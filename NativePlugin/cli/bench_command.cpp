@@ -90,10 +90,8 @@ void addBenchCommand(CLI::App& app, CommandOutcome& outcome) {
         ->type_name("FILE");
     command->add_flag("--quick", options->quick, "Fewer events and devices: half a minute for a first look");
     command
-        ->add_option(
-            "--only", options->only,
-            "Only these measurements: callback, events, effects, blends, outputs, latency, inference, voices, idle, "
-            "contact")
+        ->add_option("--only", options->only,
+                     "Only these measurements: callback, effects, latency, inference, voices, idle, contact")
         ->delimiter(',')
         ->check(
             CLI::IsMember(std::vector<std::string>(bench::measurementNames.begin(), bench::measurementNames.end())));

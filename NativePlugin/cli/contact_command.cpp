@@ -33,7 +33,6 @@ struct ContactOptions {
     std::vector<std::string> materials;
     std::optional<double> defaultStiffnessNewtonsPerMetre;
     bool asRecorded = false;
-    headless::ContactSettings settings;
 };
 
 /// Writes twelve significant digits with a decimal point, in every locale; never "-0".
@@ -66,7 +65,7 @@ void runContact(const ContactOptions& options) {
     headless::Scene scene = readSceneFile(options.scenePath);
     const Stroke stroke = readStrokeFile(options.strokePath);
     noteLateKeyframes(scene, stroke, options.scenePath);
-    headless::ContactSettings settings = options.settings;
+    headless::ContactSettings settings;
     std::optional<model::ModelFile> model;
     std::optional<SceneMaterials> materials;
     if (options.defaultStiffnessNewtonsPerMetre) {
@@ -154,11 +153,6 @@ void addContactCommand(CLI::App& app, CommandOutcome& outcome) {
         ->check(decimalBetween(1e-3, 1e7, "N/m"))
         ->excludes(model)
         ->excludes(material);
-    command
-        ->add_option("--maximum-force", options->settings.maximumForceNewtons,
-                     "Limit in newtons of spring force and measured force")
-        ->check(decimalBetween(1e-3, 1e3, "N"))
-        ->capture_default_str();
     command->footer(
         "One line per frame of the scene's update_rate (90 Hz by default): time, the touched surface (empty without\n"
         "touch), the number of touch-downs so far, the contact point, the outward normal of the surface, the\n"

@@ -285,14 +285,6 @@ std::optional<MeshCrossing> TriangleMesh::firstCrossing(const glm::dvec3& from, 
     return first;
 }
 
-MeshPoint TriangleMesh::closestPointOfAll(const glm::dvec3& point) const {
-    Nearest nearest;
-    for (std::uint32_t triangle = 0; triangle < triangles_.size(); ++triangle) {
-        improve(nearest, triangle, point);
-    }
-    return describe(nearest, point);
-}
-
 glm::dvec3 TriangleMesh::boundsCentre() const noexcept {
     return 0.5 * (bounds_.lowest + bounds_.highest);
 }
