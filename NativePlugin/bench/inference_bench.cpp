@@ -1,7 +1,7 @@
 #include "bench/measurements.hpp"
 
 #include "bench/distribution.hpp"
-#include "bench/random_requests.hpp"
+#include "inference/random_requests.hpp"
 #include "dsp/denormals.hpp"
 
 #include <algorithm>

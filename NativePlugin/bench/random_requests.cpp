@@ -1,4 +1,4 @@
-#include "bench/random_requests.hpp"
+#include "inference/random_requests.hpp"
 
 #include "inference/gaussian_noise.hpp"
 #include "skeleton/rib_rates.hpp"

@@ -5,7 +5,7 @@
 #include "effects/compensation.hpp"
 #include "exit_codes.hpp"
 #include "exponential_sweep.hpp"
-#include "input_file.hpp"
+#include "headless/scenes/input_file.hpp"
 #include "messages.hpp"
 #include "model/plain_text.hpp"
 #include "model_location.hpp"

@@ -1,6 +1,6 @@
 #include "bench/bench.hpp"
 
-#include "command_files.hpp"
+#include "headless/scenes/command_files.hpp"
 #include "commands.hpp"
 #include "exit_codes.hpp"
 #include "inference/onnx_runtime.hpp"

@@ -6,9 +6,9 @@
 #include "model_location.hpp"
 #include "option_values.hpp"
 #include "output_file.hpp"
-#include "scene_file.hpp"
-#include "scene_materials.hpp"
-#include "stroke_file.hpp"
+#include "headless/scenes/scene_file.hpp"
+#include "headless/scenes/scene_materials.hpp"
+#include "headless/scenes/stroke_file.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "headless/contact_tracker.hpp"
-#include "stroke_file.hpp"
+#include "headless/scenes/stroke_file.hpp"
 
 #include <iosfwd>
 #include <string>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "input_file.hpp"
+#include "headless/scenes/input_file.hpp"
 
 #include <stdexcept>
 #include <string>

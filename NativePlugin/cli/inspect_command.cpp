@@ -1,6 +1,6 @@
 #include "commands.hpp"
 #include "exit_codes.hpp"
-#include "input_file.hpp"
+#include "headless/scenes/input_file.hpp"
 #include "model/material_file.hpp"
 #include "model/plain_text.hpp"
 #include "model_location.hpp"

@@ -1,4 +1,4 @@
-#include "command_files.hpp"
+#include "headless/scenes/command_files.hpp"
 #include "commands.hpp"
 #include "decimal_text.hpp"
 #include "exit_codes.hpp"

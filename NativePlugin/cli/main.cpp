@@ -1,7 +1,7 @@
 #include "commands.hpp"
 #include "exit_codes.hpp"
 #include "messages.hpp"
-#include "near_words.hpp"
+#include "headless/scenes/near_words.hpp"
 
 #include "inference/inference_error.hpp"
 #include "model/model_error.hpp"

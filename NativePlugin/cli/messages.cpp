@@ -1,10 +1,10 @@
 #include "messages.hpp"
 
-#include "command_files.hpp"
+#include "headless/scenes/command_files.hpp"
 #include "headless/scene.hpp"
 #include "model/plain_text.hpp"
 #include "recordings/recording.hpp"
-#include "stroke_file.hpp"
+#include "headless/scenes/stroke_file.hpp"
 
 #include <algorithm>
 #include <iostream>

@@ -1,6 +1,6 @@
 #include "model_location.hpp"
 
-#include "command_files.hpp"
+#include "headless/scenes/command_files.hpp"
 #include "exit_codes.hpp"
 #include "inference/inference_error.hpp"
 

@@ -2,7 +2,7 @@
 
 #include "dsp/sample_rates.hpp"
 #include "exit_codes.hpp"
-#include "input_file.hpp"
+#include "headless/scenes/input_file.hpp"
 #include "model/plain_text.hpp"
 #include "recordings/decimal_number.hpp"
 

@@ -1,6 +1,6 @@
 #include "output_file.hpp"
 
-#include "command_files.hpp"
+#include "headless/scenes/command_files.hpp"
 #include "exit_codes.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "wav_file.hpp"
 
-#include "command_files.hpp"
+#include "headless/scenes/command_files.hpp"
 #include "dsp/sample_rates.hpp"
 #include "exit_codes.hpp"
 

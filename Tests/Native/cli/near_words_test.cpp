@@ -1,4 +1,4 @@
-#include "near_words.hpp"
+#include "headless/scenes/near_words.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "scene_file.hpp"
+#include "headless/scenes/scene_file.hpp"
 
 #include "exit_codes.hpp"
 

@@ -1,4 +1,4 @@
-#include "stroke_file.hpp"
+#include "headless/scenes/stroke_file.hpp"
 
 #include "exit_codes.hpp"
 

@@ -1,6 +1,6 @@
 #include "contact_golden.hpp"
 
-#include "scene_file.hpp"
+#include "headless/scenes/scene_file.hpp"
 
 #include <cmath>
 #include <limits>

@@ -1,5 +1,5 @@
 #include "contact_golden.hpp"
-#include "scene_file.hpp"
+#include "headless/scenes/scene_file.hpp"
 #include "test_scenes.hpp"
 
 #include <limits>

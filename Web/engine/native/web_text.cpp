@@ -1,7 +1,7 @@
 #include "web_text.hpp"
 
 #include "haptoflow/haptoflow.h"
-#include "input_file.hpp"
+#include "headless/scenes/input_file.hpp"
 #include "web_imports.hpp"
 
 #include <algorithm>

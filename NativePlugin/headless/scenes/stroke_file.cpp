@@ -1,11 +1,11 @@
-#include "stroke_file.hpp"
+#include "headless/scenes/stroke_file.hpp"
 
 #include "decimal_text.hpp"
 #include "exit_codes.hpp"
-#include "input_file.hpp"
+#include "headless/scenes/input_file.hpp"
 #include "recordings/recording.hpp"
 #include "recordings/table_rows.hpp"
-#include "time_unit.hpp"
+#include "headless/scenes/time_unit.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,10 +1,10 @@
-#include "scene_file.hpp"
+#include "headless/scenes/scene_file.hpp"
 
 #include "exit_codes.hpp"
-#include "input_file.hpp"
+#include "headless/scenes/input_file.hpp"
 #include "model/plain_text.hpp"
-#include "near_words.hpp"
-#include "time_unit.hpp"
+#include "headless/scenes/near_words.hpp"
+#include "headless/scenes/time_unit.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "time_unit.hpp"
+#include "headless/scenes/time_unit.hpp"
 
 #include "recordings/recording.hpp"
 #include "recordings/track.hpp"

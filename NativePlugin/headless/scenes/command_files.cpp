@@ -1,4 +1,4 @@
-#include "command_files.hpp"
+#include "headless/scenes/command_files.hpp"
 
 #include "exit_codes.hpp"
 

@@ -1,10 +1,10 @@
-#include "scene_materials.hpp"
+#include "headless/scenes/scene_materials.hpp"
 
-#include "command_files.hpp"
+#include "headless/scenes/command_files.hpp"
 #include "engine/material_library.hpp"
 #include "exit_codes.hpp"
 #include "model/label_key.hpp"
-#include "scene_file.hpp"
+#include "headless/scenes/scene_file.hpp"
 
 #include <algorithm>
 #include <optional>

@@ -1,6 +1,6 @@
-#include "input_file.hpp"
+#include "headless/scenes/input_file.hpp"
 
-#include "command_files.hpp"
+#include "headless/scenes/command_files.hpp"
 #include "recordings/recording.hpp"
 #include "recordings/recording_files.hpp"
 

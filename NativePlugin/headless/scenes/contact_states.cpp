@@ -1,6 +1,6 @@
-#include "contact_states.hpp"
+#include "headless/scenes/contact_states.hpp"
 
-#include "input_file.hpp"
+#include "headless/scenes/input_file.hpp"
 
 #include <array>
 
