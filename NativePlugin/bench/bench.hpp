@@ -1,7 +1,7 @@
 #pragma once
 
 #include "bench/bench_plan.hpp"
-#include "bench/load_bench.hpp"
+#include "bench/subjects.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -1,8 +1,8 @@
 #include "bench/measurements.hpp"
 
 #include "bench/distribution.hpp"
-#include "inference/random_requests.hpp"
 #include "dsp/denormals.hpp"
+#include "inference/random_requests.hpp"
 
 #include <algorithm>
 #include <array>
@@ -21,7 +21,7 @@ struct Contender {
     std::string name;
     const model::Tier& tier;
     std::unique_ptr<inference::TierGenerator> generator;
-    RandomRequests requests;
+    inference::RandomRequests requests;
     std::array<float, inference::segmentSamples> segment{};
     std::vector<double> hotSeconds{};
     std::vector<double> pacedSeconds{};
@@ -111,7 +111,7 @@ nlohmann::ordered_json voiceRows(const Subjects& subjects, const model::Tier& ti
     const std::size_t most = *std::ranges::max_element(plan.batchVoices);
     const auto batched = subjects.generator(*subjects.model, tier, most);
     const auto single = subjects.generator(*subjects.model, tier, 1);
-    RandomRequests source(*subjects.model, most, subjects.seed);
+    inference::RandomRequests source(*subjects.model, most, subjects.seed);
     std::vector<float> segments(most * inference::segmentSamples);
     std::mt19937_64 random(subjects.seed);
     nlohmann::ordered_json rows = nlohmann::ordered_json::array();
@@ -150,7 +150,7 @@ nlohmann::ordered_json measureInference(const Subjects& subjects, const BenchPla
         contenders.push_back({.name = name,
                               .tier = tier,
                               .generator = subjects.generator(file, tier, 1),
-                              .requests = RandomRequests(file, requestCount, subjects.seed)});
+                              .requests = inference::RandomRequests(file, inference::requestCount, subjects.seed)});
     };
     for (const model::Tier& tier : subjects.model->header().tiers) {
         enter(tier.name, *subjects.model, tier);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "bench/bench_clock.hpp"
 #include "bench/bench_plan.hpp"
 #include "bench/subjects.hpp"
 

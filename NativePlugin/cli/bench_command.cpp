@@ -1,14 +1,12 @@
 #include "bench/bench.hpp"
 
-#include "headless/scenes/command_files.hpp"
 #include "commands.hpp"
-#include "exit_codes.hpp"
+#include "headless/scenes/command_files.hpp"
 #include "inference/onnx_runtime.hpp"
 #include "messages.hpp"
 #include "model_location.hpp"
 #include "option_values.hpp"
 #include "output_file.hpp"
-#include "progress_bar.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -35,7 +33,7 @@ struct BenchCommandOptions {
 
 bench::SubjectFiles filesOf(const BenchCommandOptions& options) {
     if (!options.paperModelPath.empty()) {
-        claimInput("--paper-model", options.paperModelPath);
+        headless::claimInput("--paper-model", options.paperModelPath);
     }
     return {.runtimeLibrary = findOnnxRuntime(),
             .model = findModel(options.modelPath),

@@ -1,8 +1,8 @@
 #include "model_location.hpp"
 
 #include "headless/scenes/command_files.hpp"
-#include "exit_codes.hpp"
 #include "inference/inference_error.hpp"
+#include "messages.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -97,7 +97,7 @@ fs::path findModel(const std::string& given) {
                    {folder / "default.haptoflow",
                     folder / "../../Packages/com.haptoflow.runtime/Runtime/Models/default.haptoflow"},
                    "Name a model with --model, or run the program that `npm run build` makes inside a checkout.");
-    claimInput("the model", model);
+    headless::claimInput("the model", model);
     return model;
 }
 
@@ -108,7 +108,7 @@ fs::path findOnnxRuntime() {
         find("ONNX Runtime's library", "HAPTOFLOW_ONNXRUNTIME",
              {folder / runtimeFile, package / runtimeFolder / runtimeFile},
              "Run `npm ci` and `npm run build` in the repository's root, or set the variable to the library.");
-    claimInput("ONNX Runtime", library);
+    headless::claimInput("ONNX Runtime", library);
     return library;
 }
 

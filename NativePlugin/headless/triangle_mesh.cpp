@@ -1,6 +1,6 @@
 #include "headless/triangle_mesh.hpp"
 
-#include "headless/vectors.hpp"
+#include "headless/pose.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,12 +1,13 @@
 #include "headless/scenes/command_files.hpp"
 
-#include "exit_codes.hpp"
+#include "recordings/recording.hpp"
+#include "recordings/recording_files.hpp"
 
 #include <algorithm>
 #include <system_error>
 #include <vector>
 
-namespace haptoflow::cli {
+namespace haptoflow::headless {
 namespace {
 
 namespace fs = std::filesystem;
@@ -112,4 +113,13 @@ fs::path followLinks(const fs::path& path) {
     return target;
 }
 
-}  // namespace haptoflow::cli
+std::string readInputFile(const std::string& role, const std::string& path, const std::string& expected) {
+    claimInput(role, path);
+    try {
+        return recordings::readWholeFile(path, expected);
+    } catch (const recordings::RecordingUnusable& error) {
+        throw InputError(error.what());
+    }
+}
+
+}  // namespace haptoflow::headless

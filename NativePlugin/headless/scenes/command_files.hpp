@@ -1,9 +1,22 @@
 #pragma once
 
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 
-namespace haptoflow::cli {
+namespace haptoflow::headless {
+
+/// An input file is wrong. The message names the file, the line or key, and the expected content.
+class InputError : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+/// The words of the command line contradict each other, or an output is a file that it reads.
+class UsageError : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
 
 /// The one rule for the files of a command: an output is neither a file that the command reads, or looks for, nor
 /// another output. Other spellings, links and hard links are the same file; devices and pipes are exempt. The order of
@@ -40,4 +53,9 @@ void releaseOutput(const std::filesystem::path& path) noexcept;
 /// The final target of a chain of links, whether it exists or not. Throws InputError for a cycle.
 [[nodiscard]] std::filesystem::path followLinks(const std::filesystem::path& path);
 
-}  // namespace haptoflow::cli
+/// Reads a whole file or pipe, up to 1 GiB. `role` is the file's part in the command, "the scene", `expected` its kind,
+/// for errors. Throws InputError that names the path if the file is missing, a folder, unreadable or too large, and
+/// UsageError if it is an output (command_files.hpp).
+[[nodiscard]] std::string readInputFile(const std::string& role, const std::string& path, const std::string& expected);
+
+}  // namespace haptoflow::headless

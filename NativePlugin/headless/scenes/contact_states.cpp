@@ -1,10 +1,10 @@
 #include "headless/scenes/contact_states.hpp"
 
-#include "headless/scenes/input_file.hpp"
+#include "headless/scenes/command_files.hpp"
 
 #include <array>
 
-namespace haptoflow::cli {
+namespace haptoflow::headless {
 namespace {
 
 std::array<float, 3> toFloats(const glm::dvec3& vector) {
@@ -13,10 +13,10 @@ std::array<float, 3> toFloats(const glm::dvec3& vector) {
 
 }  // namespace
 
-std::vector<engine::ContactState> propertiesOf(const headless::Scene& scene, const IndexOfMaterial& indexOf,
+std::vector<engine::ContactState> propertiesOf(const Scene& scene, const IndexOfMaterial& indexOf,
                                                const std::string& sceneName) {
     std::vector<engine::ContactState> surfaces;
-    for (const headless::SceneSurface& surface : scene.surfaces) {
+    for (const SceneSurface& surface : scene.surfaces) {
         if (surface.material.size() > engine::MaterialBlend::capacity) {
             throw InputError(sceneName + ": surface '" + surface.name + "' blends " +
                              std::to_string(surface.material.size()) + " labels; expected at most " +
@@ -34,8 +34,8 @@ std::vector<engine::ContactState> propertiesOf(const headless::Scene& scene, con
     return surfaces;
 }
 
-engine::TimedContactState stateOf(const headless::ContactReading& reading,
-                                  std::span<const engine::ContactState> surfaces, effects::EffectMask effects) {
+engine::TimedContactState stateOf(const ContactReading& reading, std::span<const engine::ContactState> surfaces,
+                                  effects::EffectMask effects) {
     engine::TimedContactState state;
     if (reading.surfaceIndex >= 0) {
         state = {surfaces[static_cast<std::size_t>(reading.surfaceIndex)]};
@@ -58,4 +58,4 @@ engine::TimedContactState stateOf(const headless::ContactReading& reading,
     return state;
 }
 
-}  // namespace haptoflow::cli
+}  // namespace haptoflow::headless

@@ -12,20 +12,19 @@
 #include <string>
 #include <vector>
 
-namespace haptoflow::cli {
+namespace haptoflow::headless {
 
 /// The index by which contact states refer to a label or material.
 using IndexOfMaterial = std::function<std::uint32_t(const std::string& name)>;
 
 /// A state with the material, feature scale, tone and variation of each surface, in the scene's order. Throws
 /// InputError for a blend of too many labels.
-[[nodiscard]] std::vector<engine::ContactState> propertiesOf(const headless::Scene& scene,
-                                                             const IndexOfMaterial& indexOf,
+[[nodiscard]] std::vector<engine::ContactState> propertiesOf(const Scene& scene, const IndexOfMaterial& indexOf,
                                                              const std::string& sceneName);
 
 /// What a voice is told of a contact: the touched surface's properties, and the reading.
-[[nodiscard]] engine::TimedContactState stateOf(const headless::ContactReading& reading,
+[[nodiscard]] engine::TimedContactState stateOf(const ContactReading& reading,
                                                 std::span<const engine::ContactState> surfaces,
                                                 effects::EffectMask effects);
 
-}  // namespace haptoflow::cli
+}  // namespace haptoflow::headless

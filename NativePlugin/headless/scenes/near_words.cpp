@@ -5,7 +5,7 @@
 #include <tuple>
 #include <utility>
 
-namespace haptoflow::cli {
+namespace haptoflow::headless {
 namespace {
 
 std::string plain(std::string_view word) {
@@ -79,4 +79,4 @@ std::string likelyWord(std::string_view word, std::span<const std::string> candi
     return isNear ? nearest.front() : std::string();
 }
 
-}  // namespace haptoflow::cli
+}  // namespace haptoflow::headless

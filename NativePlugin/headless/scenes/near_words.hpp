@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace haptoflow::cli {
+namespace haptoflow::headless {
 
 /// Edit distance: the number of letters to add, remove, change or swap with their neighbour to turn one word into the
 /// other (Damerau-Levenshtein). Case is ignored; `_` and `-` count as a space. Home-made: CLI11 has no suggestions.
@@ -22,4 +22,4 @@ namespace haptoflow::cli {
 /// The candidate that a misspelt word probably stands for; empty if none is near enough.
 [[nodiscard]] std::string likelyWord(std::string_view word, std::span<const std::string> candidates);
 
-}  // namespace haptoflow::cli
+}  // namespace haptoflow::headless

@@ -1,10 +1,9 @@
 #include "headless/scenes/scene_file.hpp"
 
-#include "exit_codes.hpp"
-#include "headless/scenes/input_file.hpp"
-#include "model/plain_text.hpp"
+#include "headless/scenes/command_files.hpp"
 #include "headless/scenes/near_words.hpp"
-#include "headless/scenes/time_unit.hpp"
+#include "headless/scenes/stroke_file.hpp"
+#include "model/plain_text.hpp"
 
 #include <algorithm>
 #include <array>
@@ -22,7 +21,7 @@
 #include <utility>
 #include <vector>
 
-namespace haptoflow::cli {
+namespace haptoflow::headless {
 namespace {
 
 using nlohmann::json;
@@ -132,8 +131,8 @@ private:
     std::string path_;
 };
 
-headless::Pose readPose(const Node& node) {
-    headless::Pose pose;
+Pose readPose(const Node& node) {
+    Pose pose;
     if (node.has("position")) {
         pose.positionMetres = node.at("position").vector("[x, y, z] in metres");
     }
@@ -149,12 +148,12 @@ headless::Pose readPose(const Node& node) {
     return pose;
 }
 
-void requireSeconds(const Node& node, const std::vector<headless::Keyframe>& keyframes) {
+void requireSeconds(const Node& node, const std::vector<Keyframe>& keyframes) {
     std::vector<double> steps;
     double metres = 0.0;
     for (std::size_t i = 1; i < keyframes.size(); ++i) {
-        const headless::Pose& from = keyframes[i - 1].pose;
-        const headless::Pose& to = keyframes[i].pose;
+        const Pose& from = keyframes[i - 1].pose;
+        const Pose& to = keyframes[i].pose;
         steps.push_back(keyframes[i].timeSeconds - keyframes[i - 1].timeSeconds);
         // A turn moves a surface's points by about a decimetre for each radian.
         constexpr double metresPerRadian = 0.1;
@@ -167,9 +166,9 @@ void requireSeconds(const Node& node, const std::vector<headless::Keyframe>& key
     }
 }
 
-headless::Motion readMotion(const Node& node) {
+Motion readMotion(const Node& node) {
     node.requireObject({"keyframes", "loop"});
-    std::vector<headless::Keyframe> keyframes;
+    std::vector<Keyframe> keyframes;
     for (const Node& element : node.at("keyframes").elements(2, "an array of two or more keyframes")) {
         element.requireObject({"t", "position", "rotation"});
         const double time = element.at("t").number(-maximumMetres, maximumMetres, "seconds within +-1e9");
@@ -189,16 +188,16 @@ headless::Motion readMotion(const Node& node) {
     return {std::move(keyframes), loop};
 }
 
-headless::Shape readMesh(const Node& node) {
+Shape readMesh(const Node& node) {
     node.requireObject({"vertices", "triangles"});
     std::vector<glm::dvec3> vertices;
     for (const Node& element : node.at("vertices").elements(3, "an array of three or more vertices [x, y, z]")) {
         vertices.push_back(element.vector("a vertex [x, y, z] in metres"));
     }
-    std::vector<headless::TriangleMesh::Triangle> triangles;
+    std::vector<TriangleMesh::Triangle> triangles;
     const std::string expected = "three vertex indices [a, b, c] from 0 to " + std::to_string(vertices.size() - 1);
     for (const Node& element : node.at("triangles").elements(1, "an array of one or more triangles [a, b, c]")) {
-        headless::TriangleMesh::Triangle corners{};
+        TriangleMesh::Triangle corners{};
         if (!element.raw().is_array() || element.raw().size() != corners.size()) {
             element.fail(expected);
         }
@@ -213,13 +212,13 @@ headless::Shape readMesh(const Node& node) {
         triangles.push_back(corners);
     }
     try {
-        return std::make_shared<const headless::TriangleMesh>(std::move(vertices), triangles);
+        return std::make_shared<const TriangleMesh>(std::move(vertices), triangles);
     } catch (const std::invalid_argument& error) {
         node.failWith(error.what());
     }
 }
 
-headless::Shape readShape(const Node& node) {
+Shape readShape(const Node& node) {
     node.requireObject({"box", "sphere", "capsule", "plane", "mesh"});
     if (node.raw().size() != 1) {
         node.fail("an object with one key: box, sphere, capsule, plane or mesh");
@@ -233,15 +232,15 @@ headless::Shape readShape(const Node& node) {
         if (!(size.x >= 1e-9 && size.y >= 1e-9 && size.z >= 1e-9)) {
             shape.at("size").failWith("expected " + expected + ", found " + shape.at("size").raw().dump());
         }
-        return headless::Box{size};
+        return Box{size};
     }
     if (kind == "sphere") {
         shape.requireObject({"radius"});
-        return headless::Sphere{shape.at("radius").positiveMetres()};
+        return Sphere{shape.at("radius").positiveMetres()};
     }
     if (kind == "capsule") {
         shape.requireObject({"radius", "height"});
-        const headless::Capsule capsule{shape.at("radius").positiveMetres(), shape.at("height").positiveMetres()};
+        const Capsule capsule{shape.at("radius").positiveMetres(), shape.at("height").positiveMetres()};
         if (capsule.heightMetres < 2.0 * capsule.radiusMetres) {
             shape.at("height").fail("a height that includes both caps, so at least twice the radius");
         }
@@ -249,7 +248,7 @@ headless::Shape readShape(const Node& node) {
     }
     if (kind == "plane") {
         shape.requireObject({});
-        return headless::Plane{};
+        return Plane{};
     }
     return readMesh(shape);
 }
@@ -289,10 +288,10 @@ std::uint32_t hashOf(std::string_view text) {
     return hash;
 }
 
-headless::SceneSurface readSurface(const Node& node) {
+SceneSurface readSurface(const Node& node) {
     node.requireObject({"name", "shape", "position", "rotation", "motion", "material", "stiffness", "grain",
                         "spatial_scale", "tone_db_per_octave", "variation", "seed"});
-    headless::SceneSurface surface;
+    SceneSurface surface;
     surface.name = node.at("name").text("a name");
     surface.shape = readShape(node.at("shape"));
     surface.pose = readPose(node);
@@ -366,10 +365,10 @@ std::string lineAndColumn(const std::string& text, std::size_t byte) {
 
 }  // namespace
 
-headless::Scene parseScene(const json& document, const std::string& fileName) {
+Scene parseScene(const json& document, const std::string& fileName) {
     const Node root(document, fileName, "");
     root.requireObject({"surfaces", "stylus", "update_rate"});
-    headless::Scene scene;
+    Scene scene;
     std::set<std::string> names;
     for (const Node& element : root.at("surfaces").elements(1, "an array of one or more surfaces")) {
         scene.surfaces.push_back(readSurface(element));
@@ -388,11 +387,11 @@ headless::Scene parseScene(const json& document, const std::string& fileName) {
     return scene;
 }
 
-headless::Scene readSceneFile(const std::string& path) {
+Scene readSceneFile(const std::string& path) {
     return parseSceneText(readInputFile("the scene", path, "a scene file (JSON)"), path);
 }
 
-headless::Scene parseSceneText(const std::string& text, const std::string& fileName) {
+Scene parseSceneText(const std::string& text, const std::string& fileName) {
     try {
         DuplicateKeys duplicates(fileName);
         return parseScene(json::parse(text, std::ref(duplicates)), fileName);
@@ -412,4 +411,4 @@ std::string unknownMaterial(const std::string& fileName, const std::string& surf
            didYouMean(nearestWords(material, known, namedLabels));
 }
 
-}  // namespace haptoflow::cli
+}  // namespace haptoflow::headless

@@ -1,16 +1,15 @@
 #include "headless/scenes/scene_materials.hpp"
 
-#include "headless/scenes/command_files.hpp"
 #include "engine/material_library.hpp"
-#include "exit_codes.hpp"
-#include "model/label_key.hpp"
+#include "headless/scenes/command_files.hpp"
 #include "headless/scenes/scene_file.hpp"
+#include "model/label_key.hpp"
 
 #include <algorithm>
 #include <optional>
 #include <utility>
 
-namespace haptoflow::cli {
+namespace haptoflow::headless {
 namespace {
 
 constexpr std::string_view materialSuffix = ".haptomaterial";
@@ -52,8 +51,8 @@ void SceneMaterials::add(const std::string& path) {
     }
 }
 
-void SceneMaterials::require(headless::Scene& scene) {
-    for (headless::SceneSurface& surface : scene.surfaces) {
+void SceneMaterials::require(Scene& scene) {
+    for (SceneSurface& surface : scene.surfaces) {
         for (auto& [name, weight] : surface.material) {
             name = known(name, surface.name);
         }
@@ -100,11 +99,11 @@ const model::Label* SceneMaterials::find(std::string_view name) const {
     return found->second < labels.size() ? &labels[found->second] : &files_[found->second - labels.size()].label;
 }
 
-void useStiffnessOfMaterials(headless::ContactSettings& settings, const SceneMaterials& materials) {
+void useStiffnessOfMaterials(ContactSettings& settings, const SceneMaterials& materials) {
     settings.stiffnessOfLabel = [&materials](std::string_view name) -> std::optional<double> {
         const model::Label* label = materials.find(name);
         return label == nullptr ? std::nullopt : std::optional(label->stiffnessNewtonsPerMetre);
     };
 }
 
-}  // namespace haptoflow::cli
+}  // namespace haptoflow::headless

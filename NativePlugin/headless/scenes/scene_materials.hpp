@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-namespace haptoflow::cli {
+namespace haptoflow::headless {
 
 /// Resolves the material names of a scene: a label of the model, the name of a material file given on the command line,
 /// or the path of one, relative to the scene file.
@@ -27,7 +27,7 @@ public:
     /// Reads the material files that the scene names. Throws InputError for an invalid file, and for an unknown name
     /// with the scene, the surface and the three nearest names.
     /// Spells the names in the scene as model and material files do: case and the form of accents do not matter.
-    void require(headless::Scene& scene);
+    void require(Scene& scene);
 
     /// The label or material of this name; null if there is none.
     [[nodiscard]] const model::Label* find(std::string_view name) const;
@@ -50,6 +50,6 @@ private:
 };
 
 /// Sets the stiffness of labels and materials for surfaces without their own; `materials` must outlive the settings.
-void useStiffnessOfMaterials(headless::ContactSettings& settings, const SceneMaterials& materials);
+void useStiffnessOfMaterials(ContactSettings& settings, const SceneMaterials& materials);
 
-}  // namespace haptoflow::cli
+}  // namespace haptoflow::headless

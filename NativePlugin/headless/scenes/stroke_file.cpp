@@ -1,20 +1,22 @@
 #include "headless/scenes/stroke_file.hpp"
 
-#include "decimal_text.hpp"
-#include "exit_codes.hpp"
-#include "headless/scenes/input_file.hpp"
+#include "headless/scenes/command_files.hpp"
+#include "recordings/decimal_number.hpp"
 #include "recordings/recording.hpp"
 #include "recordings/table_rows.hpp"
-#include "headless/scenes/time_unit.hpp"
+#include "recordings/track.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <numeric>
 #include <optional>
+#include <utility>
 
-namespace haptoflow::cli {
+namespace haptoflow::headless {
 namespace {
 
 constexpr double maximumValue = 1e9;
@@ -33,6 +35,35 @@ struct Layout {
         return columnNames[column >= 4 && !force ? column + 1 : column];
     }
 };
+
+struct Parts {
+    double whole = 0.0;
+    double fraction = 0.0;
+};
+
+/// A decimal before and after its point; a number with an exponent is its whole part.
+std::optional<Parts> partsOf(std::string_view text) {
+    const std::optional<double> value = recordings::decimalNumber(text);
+    const std::size_t point = text.find('.');
+    if (!value || point == std::string_view::npos || text.find_first_of("eE") != std::string_view::npos) {
+        return value ? std::optional(Parts{.whole = *value}) : std::nullopt;
+    }
+    // Not the truncated value, which may have been rounded up.
+    const std::optional<double> whole = recordings::decimalNumber(text.substr(0, point));
+    const std::optional<double> fraction = recordings::decimalNumber(std::string("0").append(text.substr(point)));
+    return Parts{.whole = whole.value_or(0.0), .fraction = std::copysign(fraction.value_or(0.0), *value)};
+}
+
+/// The difference of two decimals, such as seconds since 1970, with the digits that their own rounding to a double
+/// would lose. Empty if one of them is no number.
+std::optional<double> decimalDifference(std::string_view text, std::string_view origin) {
+    const std::optional<Parts> number = partsOf(text);
+    const std::optional<Parts> start = partsOf(origin);
+    if (!number || !start) {
+        return std::nullopt;
+    }
+    return (number->whole - start->whole) + (number->fraction - start->fraction);
+}
 
 /// Reads the text row by row and knows the position for errors.
 class StrokeReader {
@@ -140,7 +171,7 @@ private:
         return seconds;
     }
 
-    headless::TipSample readSample() {
+    TipSample readSample() {
         const std::vector<std::string_view>& cells = rows_.cells();
         const bool hasMore =
             std::any_of(cells.begin() + static_cast<std::ptrdiff_t>(std::min(cells.size(), layout_.columns())),
@@ -150,7 +181,7 @@ private:
                                        " values as in the header, found " + std::to_string(cells.size()) +
                                        " (decimals need a point, not a comma)");
         }
-        headless::TipSample sample;
+        TipSample sample;
         sample.timeSeconds = time();
         sample.positionMetres = {number(1), number(2), number(3)};
         std::size_t column = 4;
@@ -224,19 +255,18 @@ Stroke readStrokeFile(const std::string& path) {
     return parseStroke(readInputFile("the stroke", path, "a stroke file (CSV)"), path);
 }
 
-headless::TipSample sampleStroke(const Stroke& stroke, double timeSeconds) {
+TipSample sampleStroke(const Stroke& stroke, double timeSeconds) {
     const auto& samples = stroke.samples;
-    const auto after =
-        std::upper_bound(samples.begin(), samples.end(), timeSeconds,
-                         [](double time, const headless::TipSample& sample) { return time < sample.timeSeconds; });
-    headless::TipSample result;
+    const auto after = std::upper_bound(samples.begin(), samples.end(), timeSeconds,
+                                        [](double time, const TipSample& sample) { return time < sample.timeSeconds; });
+    TipSample result;
     if (after == samples.begin()) {
         result = samples.front();
     } else if (after == samples.end()) {
         result = samples.back();
     } else {
-        const headless::TipSample& a = *(after - 1);
-        const headless::TipSample& b = *after;
+        const TipSample& a = *(after - 1);
+        const TipSample& b = *after;
         const double u = (timeSeconds - a.timeSeconds) / (b.timeSeconds - a.timeSeconds);
         result.positionMetres = glm::mix(a.positionMetres, b.positionMetres, u);
         result.forceNewtons = u < 0.5 ? a.forceNewtons : b.forceNewtons;
@@ -262,8 +292,47 @@ std::size_t frameCount(const Stroke& stroke, double updateRateHz, const std::str
     return static_cast<std::size_t>(frames);
 }
 
-headless::TipSample frameAt(const Stroke& stroke, double updateRateHz, std::size_t index) {
+TipSample frameAt(const Stroke& stroke, double updateRateHz, std::size_t index) {
     return sampleStroke(stroke, stroke.samples.front().timeSeconds + static_cast<double>(index) / updateRateHz);
 }
 
-}  // namespace haptoflow::cli
+namespace {
+
+/// Trackers, scenes and hands have shorter steps, and waypoints fewer of them or more speed.
+constexpr double longStepSeconds = 0.5;
+constexpr double longestWaypointSeconds = 300.0;
+constexpr std::size_t fewSteps = 3;
+constexpr std::size_t manySteps = 30;
+constexpr double longestTrackedSeconds = 2.0;
+/// No hand is slower for long, and none is faster.
+constexpr double slowestMps = 0.002;
+constexpr double fastestMps = 10.0;
+constexpr double longestReadableSeconds = 0.5;
+
+}  // namespace
+
+std::string unitOfTimes(std::span<const double> steps, double metres) {
+    if (steps.empty()) {
+        return {};
+    }
+    constexpr std::array<std::pair<const char*, double>, 3> units{
+        {{"milliseconds", 1e3}, {"microseconds", 1e6}, {"nanoseconds", 1e9}}};
+    const double step = recordings::medianOfSteps({steps.begin(), steps.end()});
+    const double seconds = std::accumulate(steps.begin(), steps.end(), 0.0);
+    const double speedMps = seconds > 0.0 ? metres / seconds : 0.0;
+    for (const auto& [name, perSecond] : units) {
+        const bool isPlausible =
+            speedMps < slowestMps && speedMps * perSecond >= slowestMps && speedMps * perSecond <= fastestMps;
+        const bool isLong = steps.size() >= fewSteps ? step >= longStepSeconds : step >= longestWaypointSeconds;
+        const bool isTracked =
+            steps.size() >= manySteps && step >= longestTrackedSeconds && step / perSecond <= longestReadableSeconds;
+        if ((isLong && isPlausible) || isTracked) {
+            return "rises by " + recordings::plainNumber(step) + " s a row in the median, with a speed of " +
+                   recordings::plainNumber(1e3 * speedMps) + " mm/s; expected seconds: are these " + name +
+                   "? Divide them by " + recordings::plainNumber(perSecond);
+        }
+    }
+    return {};
+}
+
+}  // namespace haptoflow::headless

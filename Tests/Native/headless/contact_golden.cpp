@@ -86,7 +86,7 @@ std::string rows(const json& array, const std::string& indent) {
 
 std::string caseText(const Case& testCase) {
     const Outcome outcome = play(testCase);
-    const Scene scene = cli::parseScene(testCase.scene, testCase.name);
+    const Scene scene = parseScene(testCase.scene, testCase.name);
     json samples = json::array();
     for (const TipSample& sample : testCase.samples) {
         samples.push_back(sampleToJson(sample));
@@ -120,7 +120,7 @@ json settingsToJson(const ContactSettings& settings) {
 }
 
 Outcome play(const Case& testCase) {
-    ContactTracker tracker(cli::parseScene(testCase.scene, testCase.name), settingsOf(testCase));
+    ContactTracker tracker(parseScene(testCase.scene, testCase.name), settingsOf(testCase));
     Outcome outcome;
     for (const TipSample& sample : testCase.samples) {
         outcome.readings.push_back(tracker.update(sample));
@@ -129,65 +129,49 @@ Outcome play(const Case& testCase) {
     return outcome;
 }
 
-const std::vector<std::string>& readingColumns() {
-    static const std::vector<std::string> columns{"t",
-                                                  "surface_index",
-                                                  "touching",
-                                                  "touch_counter",
-                                                  "px",
-                                                  "py",
-                                                  "pz",
-                                                  "nx",
-                                                  "ny",
-                                                  "nz",
-                                                  "penetration_m",
-                                                  "vx_mps",
-                                                  "vy_mps",
-                                                  "approach_mps",
-                                                  "force_n",
-                                                  "landing_counter",
-                                                  "edge_counter",
-                                                  "edge_height_m",
-                                                  "place_x",
-                                                  "place_y",
-                                                  "place_z",
-                                                  "first_x",
-                                                  "first_y",
-                                                  "first_z",
-                                                  "second_x",
-                                                  "second_y",
-                                                  "second_z"};
+namespace {
+
+/// Every number of a reading with the name of its column.
+std::vector<std::pair<std::string, double>> fieldsOf(const ContactReading& reading) {
+    std::vector<std::pair<std::string, double>> fields{{"t", reading.timeSeconds},
+                                                       {"surface_index", static_cast<double>(reading.surfaceIndex)},
+                                                       {"touching", reading.touching ? 1.0 : 0.0},
+                                                       {"touch_counter", static_cast<double>(reading.touchCounter)}};
+    const auto addVector = [&fields](const std::string& name, const glm::dvec3& vector) {
+        fields.insert(fields.end(), {{name + "x", vector.x}, {name + "y", vector.y}, {name + "z", vector.z}});
+    };
+    addVector("p", reading.pointMetres);
+    addVector("n", reading.normal);
+    fields.insert(fields.end(), {{"penetration_m", reading.penetrationMetres},
+                                 {"vx_mps", reading.tangentialVelocityMps.x},
+                                 {"vy_mps", reading.tangentialVelocityMps.y},
+                                 {"approach_mps", reading.approachSpeedMps},
+                                 {"force_n", reading.forceNewtons},
+                                 {"landing_counter", static_cast<double>(reading.landingCounter)},
+                                 {"edge_counter", static_cast<double>(reading.edgeCounter)},
+                                 {"edge_height_m", reading.edgeHeightMetres}});
+    addVector("place_", reading.placeMetres);
+    addVector("first_", reading.firstAxis);
+    addVector("second_", reading.secondAxis);
+    return fields;
+}
+
+}  // namespace
+
+std::vector<std::string> readingColumns() {
+    std::vector<std::string> columns;
+    for (const auto& [name, unused] : fieldsOf({})) {
+        columns.push_back(name);
+    }
     return columns;
 }
 
 std::vector<double> rowOf(const ContactReading& reading) {
-    return {reading.timeSeconds,
-            static_cast<double>(reading.surfaceIndex),
-            reading.touching ? 1.0 : 0.0,
-            static_cast<double>(reading.touchCounter),
-            reading.pointMetres.x,
-            reading.pointMetres.y,
-            reading.pointMetres.z,
-            reading.normal.x,
-            reading.normal.y,
-            reading.normal.z,
-            reading.penetrationMetres,
-            reading.tangentialVelocityMps.x,
-            reading.tangentialVelocityMps.y,
-            reading.approachSpeedMps,
-            reading.forceNewtons,
-            static_cast<double>(reading.landingCounter),
-            static_cast<double>(reading.edgeCounter),
-            reading.edgeHeightMetres,
-            reading.placeMetres.x,
-            reading.placeMetres.y,
-            reading.placeMetres.z,
-            reading.firstAxis.x,
-            reading.firstAxis.y,
-            reading.firstAxis.z,
-            reading.secondAxis.x,
-            reading.secondAxis.y,
-            reading.secondAxis.z};
+    std::vector<double> row;
+    for (const auto& [unused, value] : fieldsOf(reading)) {
+        row.push_back(value);
+    }
+    return row;
 }
 
 json statisticsToJson(const ContactStatistics& statistics) {

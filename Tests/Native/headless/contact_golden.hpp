@@ -36,12 +36,12 @@ struct Outcome {
 [[nodiscard]] Outcome play(const Case& testCase);
 
 /// A reading as one row, in the order of `readingColumns`.
-[[nodiscard]] const std::vector<std::string>& readingColumns();
+[[nodiscard]] std::vector<std::string> readingColumns();
 [[nodiscard]] std::vector<double> rowOf(const ContactReading& reading);
 
 [[nodiscard]] nlohmann::json statisticsToJson(const ContactStatistics& statistics);
 
-/// Reads a case of the file. Throws nlohmann::json::exception or cli::InputError if the file is invalid.
+/// Reads a case of the file. Throws nlohmann::json::exception or InputError if the file is invalid.
 [[nodiscard]] Case caseFromJson(const nlohmann::json& document);
 
 /// The whole file: every case with its readings, one sample or reading per line.

@@ -2,6 +2,9 @@
 #include "headless/scenes/scene_file.hpp"
 #include "test_scenes.hpp"
 
+#include <exception>
+#include <fstream>
+#include <iostream>
 #include <limits>
 #include <numbers>
 #include <random>
@@ -205,7 +208,7 @@ Case trayInAVehicle() {
     }
     json tray = surfaceWith("tray", {{"box", {{"size", {0.4, 0.02, 0.3}}}}});
     tray["motion"] = {{"loop", false}, {"keyframes", keyframes}};
-    const Scene scene = cli::parseScene(sceneWith({tray}, 0.002), "tray");
+    const Scene scene = parseScene(sceneWith({tray}, 0.002), "tray");
     return caseOf("down onto a tray in a vehicle, and a stroke on it", sceneWith({tray}, 0.002),
                   sampledPath(1.5, frameRateHz, [&](double time) {
                       const double height = std::max(0.0112, 0.03 - 0.1 * time);
@@ -224,7 +227,7 @@ Case heldInALift() {
                         {{"t", 0.7}, {"position", {0.0, 2.1, 0.0}}},
                         {{"t", 0.75}, {"position", {0.0, 2.2, 0.0}}},
                         {{"t", 1.5}, {"position", {0.3, 2.2, 0.0}}}}}};
-    const Scene scene = cli::parseScene(sceneWith({lift}, 0.002), "lift");
+    const Scene scene = parseScene(sceneWith({lift}, 0.002), "lift");
     return caseOf("a slow tracker carried by a lift, then held in the world", sceneWith({lift}, 0.002),
                   sampledPath(1.5, frameRateHz, [&](double time) {
                       const double tick = std::floor(60.0 * time + 0.2) / 60.0;
@@ -344,3 +347,23 @@ std::vector<Case> goldenCases() {
 }
 
 }  // namespace haptoflow::headless::golden
+
+int main(int argc, char** argv) {
+    if (argc != 3 || std::string(argv[1]) != "--write-golden") {
+        std::cerr << "usage: haptoflow_contact_golden --write-golden Tests/Golden/contact/contact-states.json\n";
+        return 2;
+    }
+    try {
+        std::ofstream file(argv[2], std::ios::binary);
+        file << haptoflow::headless::golden::fileText(haptoflow::headless::golden::goldenCases());
+        file.close();
+        if (!file) {
+            std::cerr << argv[2] << ": cannot be written; expected a path in a folder that exists\n";
+            return 3;
+        }
+    } catch (const std::exception& error) {
+        std::cerr << error.what() << '\n';
+        return 4;
+    }
+    return 0;
+}

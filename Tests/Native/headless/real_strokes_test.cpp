@@ -1,5 +1,5 @@
 #include "headless/contact_tracker.hpp"
-#include "headless/relative_velocity.hpp"
+#include "headless/tip_path.hpp"
 
 #include "test_scenes.hpp"
 
@@ -11,7 +11,6 @@
 #include <fstream>
 #include <glm/matrix.hpp>
 #include <map>
-#include <random>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -146,73 +145,6 @@ TEST(RealStrokesTest, SpeedsOfRealStrokesAreWithinTenPercentOfANonCausalReferenc
         EXPECT_NEAR(medianOf(speeds), medianOf(references), 0.1 * medianOf(references));
         EXPECT_LT(medianOf(errors), 0.07);
         EXPECT_EQ(tracker.statistics().teleports, 0U);
-    }
-}
-
-/// The path through the tracker's distinct positions, which it measured evenly: Catmull-Rom splines, with the velocity.
-class EvenPath {
-public:
-    explicit EvenPath(const std::vector<TipSample>& samples) {
-        for (const TipSample& sample : samples) {
-            if (ticks_.empty() || ticks_.back() != sample.positionMetres) {
-                ticks_.push_back(sample.positionMetres);
-            }
-        }
-        tickSeconds_ =
-            (samples.back().timeSeconds - samples.front().timeSeconds) / static_cast<double>(ticks_.size() - 1);
-    }
-
-    /// From the second position to the last but one.
-    [[nodiscard]] double seconds() const { return tickSeconds_ * static_cast<double>(ticks_.size() - 3); }
-
-    /// Position and velocity; before 0 the beginning turned about the first point, so that the velocity has no jump.
-    [[nodiscard]] std::pair<glm::dvec3, glm::dvec3> at(double timeSeconds) const {
-        const double tick = 1.0 + std::abs(timeSeconds) / tickSeconds_;
-        const auto index = std::clamp<std::size_t>(static_cast<std::size_t>(tick), 1, ticks_.size() - 3);
-        const double u = tick - static_cast<double>(index);
-        const glm::dvec3& a = ticks_[index - 1];
-        const glm::dvec3& b = ticks_[index];
-        const glm::dvec3& c = ticks_[index + 1];
-        const glm::dvec3& d = ticks_[index + 2];
-        const glm::dvec3 linear = 0.5 * (c - a);
-        const glm::dvec3 square = a - 2.5 * b + 2.0 * c - 0.5 * d;
-        const glm::dvec3 cube = 0.5 * (d - a) + 1.5 * (b - c);
-        const glm::dvec3 velocity = (linear + u * (2.0 * square + 3.0 * u * cube)) / tickSeconds_;
-        const glm::dvec3 place = b + u * (linear + u * (square + u * cube));
-        return {timeSeconds < 0.0 ? 2.0 * ticks_[1] - place : place, velocity};
-    }
-
-private:
-    std::vector<glm::dvec3> ticks_;
-    double tickSeconds_ = 0.0;
-};
-
-TEST(RealStrokesTest, TheVelocityOfNowIsNearerToTheTrueOneThanTheMeanOver35MillisecondsTheMoreSoTheFasterTheFrames) {
-    if (!std::filesystem::exists(strokesPath())) {
-        GTEST_SKIP() << strokesPath() << " is missing: the repository does not contain real strokes";
-    }
-    const SceneSurface table = testing::surfaceOf(Plane{});
-    std::mt19937 random(8);
-    std::normal_distribution<double> noise(0.0, 2e-5);
-    for (const auto& [rate, share] : {std::pair(72.0, 0.9), {90.0, 0.7}, {120.0, 0.5}}) {
-        double ofNow = 0.0;
-        double ofMean = 0.0;
-        for (const auto& [name, samples] : readStrokes()) {
-            const EvenPath path(samples);
-            TipPath tip{VelocitySettings{}};
-            for (double time = -0.5; time < path.seconds(); time += 1.0 / rate) {
-                const auto [place, truth] = path.at(time);
-                const glm::dvec3 measured = place + glm::dvec3{noise(random), noise(random), noise(random)};
-                tip.add(time, measured, measured);
-                const RelativeVelocity found = relativeVelocity(tip);
-                ASSERT_LT(glm::length(found.nowMps), 4.0) << name << " at " << time;
-                if (time > 0.0) {
-                    ofNow += glm::dot(found.nowMps - truth, found.nowMps - truth);
-                    ofMean += glm::dot(found.approachMps - truth, found.approachMps - truth);
-                }
-            }
-        }
-        EXPECT_LT(std::sqrt(ofNow), share * std::sqrt(ofMean)) << rate << " Hz";
     }
 }
 

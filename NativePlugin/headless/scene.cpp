@@ -1,6 +1,6 @@
-#include "headless/motion.hpp"
+#include "headless/scene.hpp"
 
-#include "headless/vectors.hpp"
+#include "headless/pose.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,19 +1,16 @@
 #include "headless/scenes/stroke_file.hpp"
 
-#include "exit_codes.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <clocale>
 #include <cmath>
-#include <fstream>
 #include <glm/geometric.hpp>
 #include <locale>
 #include <numbers>
 #include <sstream>
 
-namespace haptoflow::cli {
+namespace haptoflow::headless {
 namespace {
 
 using ::testing::AllOf;
@@ -139,6 +136,7 @@ TEST(StrokeFileTest, ErrorsNameFileLineAndColumn) {
     EXPECT_THAT(complaintAbout("\xFF\xFEt\0,\0x\0"), HasSubstr("stroke.csv:1: is text in UTF-16; expected UTF-8"));
     EXPECT_THAT(complaintAbout("t,x,y,z,qx\n"), HasSubstr("expected the header"));
     EXPECT_THAT(complaintAbout("t,x,y,z\n"), HasSubstr("stroke.csv:1: expected one or more samples"));
+    EXPECT_THAT(complaintAbout("t,x,y,z\n0,0,0,0\n1,0,0,0\n0.5,0,0,0\n"), HasSubstr("stroke.csv:4: column t"));
     EXPECT_THAT(complaintAbout("t,x,y,z\n0,0,zero,0\n"),
                 AllOf(HasSubstr("stroke.csv:2: column y: "), HasSubstr("found \"zero\"")));
     EXPECT_THAT(complaintAbout("t,x,y,z\n0,0,0,0\n1,0,0\n"), HasSubstr("stroke.csv:3: expected 4 values"));
@@ -153,12 +151,6 @@ TEST(StrokeFileTest, ErrorsNameFileLineAndColumn) {
     EXPECT_THAT(complaintAbout("t,x,y,z,force\n0,0,0,0,-1\n"), HasSubstr("stroke.csv:2: column force"));
     EXPECT_THAT(complaintAbout("t,x,y,z,qx,qy,qz,qw\n0,0,0,0,0,0,0,0\n"), HasSubstr("stroke.csv:2: column qx"));
     EXPECT_THROW(static_cast<void>(readStrokeFile("no/such/stroke.csv")), InputError);
-}
-
-TEST(StrokeFileTest, TimesMayRepeatButNotGoBack) {
-    EXPECT_EQ(parseStroke("t,x,y,z\n0,0,0,0\n0,1,0,0\n", "s").samples.size(), 2U);
-    EXPECT_THAT(complaintAbout("t,x,y,z\n0,0,0,0\n1,0,0,0\n0.5,0,0,0\n"),
-                AllOf(HasSubstr("stroke.csv:4: column t"), HasSubstr("not before")));
 }
 
 class CommaDecimals : public std::numpunct<char> {
@@ -182,7 +174,7 @@ TEST(StrokeFileTest, TheTipBetweenSamplesIsOnAStraightLineAndTurnsTheShorterWay)
         "1,0,0,0,1,0,0,0,1\n"
         "2,4,0,0,3,0,-1,0,0\n",
         "s");
-    const headless::TipSample tip = sampleStroke(stroke, 1.25);
+    const TipSample tip = sampleStroke(stroke, 1.25);
     EXPECT_DOUBLE_EQ(tip.timeSeconds, 1.25);
     EXPECT_DOUBLE_EQ(tip.positionMetres.x, 1.0);
     EXPECT_DOUBLE_EQ(tip.forceNewtons.value_or(0.0), 1.5);
@@ -193,7 +185,7 @@ TEST(StrokeFileTest, TheTipBetweenSamplesIsOnAStraightLineAndTurnsTheShorterWay)
     EXPECT_DOUBLE_EQ(sampleStroke(stroke, 9.0).timeSeconds, 9.0);
 }
 
-TEST(StrokeFileTest, TheLastOfSeveralSamplesAtTheSameTimeIsUsed) {
+TEST(StrokeFileTest, OfSeveralSamplesAtTheSameTimeTheLastIsUsed) {
     const Stroke stroke = parseStroke("t,x,y,z\n0,0,0,0\n1,1,0,0\n1,5,0,0\n2,6,0,0\n", "s");
     EXPECT_DOUBLE_EQ(sampleStroke(stroke, 1.0).positionMetres.x, 5.0);
     EXPECT_NEAR(sampleStroke(stroke, 0.999999).positionMetres.x, 1.0, 1e-5);
@@ -210,16 +202,5 @@ TEST(StrokeFileTest, FramesRunFromTheFirstSampleToTheLast) {
                  InputError);
 }
 
-TEST(StrokeFileTest, TheStrokeOfTheDocumentationIsRead) {
-    std::ifstream file(std::string(HAPTOFLOW_TEST_DOCUMENTATION_DIR) + "/scene-and-stroke.md");
-    std::ostringstream page;
-    page << file.rdbuf();
-    const std::string text = page.str();
-    const std::size_t begin = text.find("```csv\n");
-    ASSERT_NE(begin, std::string::npos);
-    const std::size_t end = text.find("```", begin + 7);
-    EXPECT_GE(parseStroke(text.substr(begin + 7, end - begin - 7), "scene-and-stroke.md").samples.size(), 2U);
-}
-
 }  // namespace
-}  // namespace haptoflow::cli
+}  // namespace haptoflow::headless
