@@ -58,25 +58,9 @@ std::ostream& resultStream() {
 
 }  // namespace haptoflow::cli
 
-#if defined(_WIN32)
-#include <io.h>
-#else
 #include <unistd.h>
-#endif
 
 namespace haptoflow::cli {
-namespace {
-
-bool standardErrorIsTerminal() {
-#if defined(_WIN32)
-    return _isatty(_fileno(stderr)) != 0;
-#else
-    return isatty(STDERR_FILENO) != 0;
-#endif
-}
-
-}  // namespace
-
 ProgressBar progressLines(std::string_view command, std::function<double()> clockSeconds,
                           std::function<void(const std::string&)> say) {
     constexpr double betweenLinesSeconds = 10.0;
@@ -95,7 +79,7 @@ ProgressBar progressBar(std::string_view command, bool quiet) {
     if (quiet) {
         return [](double, std::string_view) {};
     }
-    if (!standardErrorIsTerminal()) {
+    if (isatty(STDERR_FILENO) == 0) {
         const auto clockSeconds = [] {
             return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
         };

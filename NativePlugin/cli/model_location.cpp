@@ -10,9 +10,7 @@
 #include <system_error>
 #include <vector>
 
-#if defined(_WIN32)
-#include <windows.h>
-#elif defined(__APPLE__)
+#if defined(__APPLE__)
 #include <mach-o/dyld.h>
 #endif
 
@@ -21,14 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-#if defined(_WIN32)
-constexpr const char* runtimeFile = "onnxruntime.dll";
-#if defined(_M_ARM64) || defined(__aarch64__)
-constexpr const char* runtimeFolder = "Windows/arm64";
-#else
-constexpr const char* runtimeFolder = "Windows/x64";
-#endif
-#elif defined(__APPLE__)
+#if defined(__APPLE__)
 constexpr const char* runtimeFile = "libonnxruntime.dylib";
 constexpr const char* runtimeFolder = "macOS/arm64";
 #else
@@ -37,11 +28,7 @@ constexpr const char* runtimeFolder = "Linux/x64";
 #endif
 
 fs::path executableFolder() {
-#if defined(_WIN32)
-    std::vector<wchar_t> name(32'768);
-    const DWORD length = GetModuleFileNameW(nullptr, name.data(), static_cast<DWORD>(name.size()));
-    return fs::path(std::wstring(name.data(), length)).parent_path();
-#elif defined(__APPLE__)
+#if defined(__APPLE__)
     std::vector<char> name(32'768);
     auto size = static_cast<std::uint32_t>(name.size());
     if (_NSGetExecutablePath(name.data(), &size) != 0) {

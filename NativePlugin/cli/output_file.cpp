@@ -13,11 +13,6 @@
 #include <iostream>
 #include <system_error>
 
-#ifdef _WIN32
-#include <fcntl.h>
-#include <io.h>
-#endif
-
 namespace haptoflow::cli {
 namespace {
 
@@ -94,9 +89,6 @@ void forgetUnfinished(const fs::path& partial) {
 }
 
 void copyToStandardOutput(const fs::path& partial) {
-#ifdef _WIN32
-    _setmode(_fileno(stdout), _O_BINARY);
-#endif
     std::ifstream from(partial, std::ios::binary);
     if (from.peek() != std::ifstream::traits_type::eof()) {
         std::cout << from.rdbuf();

@@ -12,12 +12,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <numeric>
-#include <random>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -176,22 +173,6 @@ TEST(BenchCommandTest, LatenciesHaveARowForEachDeviceWithItsGoalAfterTheDefaultB
         const Json& step = report["contact_to_sound_ms"]["rows"][device];
         EXPECT_NEAR(step["filter_delay"], 1.2, 0.1);
         EXPECT_NEAR(step["goal"], period + step["filter_delay"].get<double>() + 1.5, 1e-2);
-    }
-}
-
-TEST(BenchCommandTest, AStrokeWithLabelChangesIsPublishedAtTheUpdateRateWhileItTouches) {
-    const bench::Hand hand(model::ModelFile::read(HAPTOFLOW_TEST_DEFAULT_MODEL));
-    std::mt19937_64 random(5);
-    for (const bench::DeviceShape& shape : bench::BenchPlan::full().devices) {
-        const bench::StepScript script = bench::stepScript(hand, shape, 40, 1, random);
-        ASSERT_GE(script.steps.size(), 40U);
-        for (std::size_t i = 1; i < script.states.size(); ++i) {
-            const bench::TimedState& before = script.states[i - 1];
-            if (before.state.touching && script.states[i].state.touching) {
-                ASSERT_NEAR(script.states[i].seconds - before.seconds, 1.0 / bench::updateRateHz, 1e-9)
-                    << "state " << i;
-            }
-        }
     }
 }
 
