@@ -3,7 +3,6 @@
 #include "effects/effect.hpp"
 #include "engine/offline_renderer.hpp"
 #include "headless/contact_tracker.hpp"
-#include "headless/scenes/contact_states.hpp"
 #include "headless/scenes/near_words.hpp"
 #include "headless/scenes/scene_file.hpp"
 #include "headless/scenes/scene_materials.hpp"

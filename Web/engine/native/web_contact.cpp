@@ -1,6 +1,6 @@
 #include "headless/scenes/command_files.hpp"
-#include "headless/scenes/contact_states.hpp"
 #include "headless/scenes/scene_file.hpp"
+#include "headless/scenes/scene_materials.hpp"
 #include "model/label_key.hpp"
 #include "web_imports.hpp"
 #include "web_scene.hpp"

@@ -3,7 +3,7 @@
 #include "effects/effect.hpp"
 #include "engine/offline_renderer.hpp"
 #include "headless/contact_tracker.hpp"
-#include "headless/scenes/contact_states.hpp"
+#include "headless/scenes/scene_materials.hpp"
 #include "headless/scenes/stroke_file.hpp"
 #include "inference/random_requests.hpp"
 #include "inference/tier_generator.hpp"
