@@ -18,12 +18,12 @@ namespace {
 using testing::sampledPath;
 using testing::surfaceOf;
 
-const SceneSurface table = surfaceOf(Plane{});
+const SceneSurface atRest = surfaceOf(Plane{});
 
 /// The path of a tip over a surface, sample by sample.
 class PathOn {
 public:
-    explicit PathOn(const SceneSurface& surface = table) : surface_(surface) {}
+    explicit PathOn(const SceneSurface& surface = atRest) : surface_(surface) {}
 
     TipStep add(double timeSeconds, const glm::dvec3& tip) {
         pose_ = surface_.poseAt(timeSeconds);
@@ -42,7 +42,7 @@ private:
 };
 
 /// The speed after each sample.
-std::vector<double> speedsOf(const std::vector<TipSample>& samples, const SceneSurface& surface = table) {
+std::vector<double> speedsOf(const std::vector<TipSample>& samples, const SceneSurface& surface = atRest) {
     PathOn history(surface);
     std::vector<double> speeds;
     for (const TipSample& sample : samples) {
