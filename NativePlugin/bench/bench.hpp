@@ -1,7 +1,7 @@
 #pragma once
 
 #include "bench/bench_plan.hpp"
-#include "bench/load_bench.hpp"
+#include "bench/subjects.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -16,8 +16,8 @@
 namespace haptoflow::bench {
 
 /// Measurements that can be run alone. Loading and memory are always measured, because all others need the open model.
-inline constexpr std::array<std::string_view, 10> measurementNames{
-    "callback", "events", "effects", "blends", "outputs", "latency", "inference", "voices", "idle", "contact"};
+inline constexpr std::array<std::string_view, 7> measurementNames{"callback", "effects", "latency", "inference",
+                                                                  "voices",   "idle",    "contact"};
 
 struct BenchOptions {
     SubjectFiles files;
