@@ -1,17 +1,10 @@
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
-import { readFileSync } from 'node:fs';
 import test from 'node:test';
 import { spread, timeOf, webTables } from '../../scripts/lib/web_bench.mjs';
 import { inRepository } from '../../scripts/lib/process.mjs';
 
-const page = readFileSync(inRepository('Training', 'results', 'benchmarks.md'), 'utf8');
 const run = (script, ...words) => spawnSync(process.execPath, [inRepository('scripts', script), ...words], { encoding: 'utf8' });
-
-test('the page explains every key that bench.json promises', () => {
-  const promised = ['callback_us', 'onset_ms', 'contact_to_sound_ms', 'stop_ms', 'inference_ms', 'speedup_vs_paper_architecture', 'voices', 'idle', 'memory_mib', 'load_ms', 'contact'];
-  for (const key of promised) assert.match(page, new RegExp(`^\\| \`${key}\` \\| \\S`, 'm'), key);
-});
 
 test('an option that does not exist ends with 2 before anything is set up or built', () => {
   const { status, stdout, stderr } = run('bench.mjs', '--qiuck');
