@@ -6,15 +6,11 @@
  * - Every function that can fail returns a haptoflow_status. After a status other than HAPTOFLOW_OK,
  *   haptoflow_last_message() describes the error, on the thread that made the call. A call that fails leaves its
  *   outputs unchanged, unless its comment says otherwise.
- * - Every descriptor begins with struct_size, which the caller sets to sizeof the struct it was compiled with. If the
- *   caller's struct is shorter (an older caller), the missing fields take their defaults, zero; if it is longer (a
- *   newer caller), the library ignores the fields that it does not know. A struct that the library fills is filled up
- *   to the smaller of the two sizes, and struct_size then holds the number of bytes that were filled. Set struct_size
- *   before each call.
- * - That is all that two versions promise each other before 1.0: structs may grow at their end, but functions, values
- *   of enums and meanings may still change or go. Where the library could be of another version than this header,
- *   compare haptoflow_version() with HAPTOFLOW_VERSION_TEXT. The Unity package's C# does, and refuses a library of any
- *   other version, or with a struct of another size.
+ * - Every descriptor begins with struct_size, which the caller sets to sizeof the struct before each call; any other
+ *   size is refused.
+ * - Before 1.0 no two versions are compatible. A caller that could meet a library of another version than this header
+ *   compares haptoflow_version() with HAPTOFLOW_VERSION_TEXT; one that declares the structs itself, in another language,
+ *   also compares its sizes with haptoflow_struct_size.
  * - Handles are opaque and never reused. A call with a closed handle, or with anything else that is not an open handle
  *   of that kind, returns HAPTOFLOW_INVALID_ARGUMENT. An open handle keeps alive the objects that it was created from.
  * - Text is UTF-8 and ends with a zero byte. Text that the library returns belongs to the library.
@@ -155,11 +151,6 @@ enum {
     /* The voice's strength or ceiling is 0. */
     HAPTOFLOW_SILENCE_TURNED_DOWN = 9
 };
-
-/* Returns a reason's name, for example "HAPTOFLOW_SILENCE_STALE", or "HAPTOFLOW_UNKNOWN_SILENCE" for any other number.
- * The text is valid as long as the process runs. Never fails.
- * [any-thread] Never blocks. */
-HAPTOFLOW_API const char* haptoflow_silence_name(haptoflow_silence silence);
 
 /* Returns the message of the last call on this thread that failed; "" if none has failed. The text is valid until the
  * next call on this thread fails or the thread ends. Never fails.
@@ -402,17 +393,13 @@ typedef struct haptoflow_generator haptoflow_generator;
 
 typedef struct haptoflow_generator_options {
     uint32_t struct_size;
-    /* HAPTOFLOW_SOLVER_OF_TIER, or a solver with `steps`. */
-    haptoflow_solver solver;
+    /* Requests that one run of a graph computes, up to HAPTOFLOW_MAXIMUM_BATCH; 0 for 8. Larger batches are split. */
+    uint32_t maximum_batch;
     /* Null for a tier of kind "skeleton", which needs none. */
     const haptoflow_runtime* runtime;
     const haptoflow_model* model;
     /* Name of the tier; null for the model's default. */
     const char* tier;
-    /* 1 to 16; must be 0 with HAPTOFLOW_SOLVER_OF_TIER. */
-    int32_t steps;
-    /* Requests that one run of a graph computes, up to HAPTOFLOW_MAXIMUM_BATCH; 0 for 8. Larger batches are split. */
-    uint32_t maximum_batch;
     /* Cancels the creation; null for none. */
     const haptoflow_cancellation* cancellation;
     /* Time limit of a trial run of each graph, for each 8 requests of maximum_batch, above 0 to 3600000 ms; 0 for
@@ -430,14 +417,14 @@ typedef struct haptoflow_batch {
     /* count * HAPTOFLOW_MOTION_SIZE numbers: vx and vy along the surface in m/s and the force in N, inside the trained
      * range. */
     const float* motions;
-    /* count * HAPTOFLOW_SEGMENT_SAMPLES samples in m/s^2 that precede each segment. Not needed for levels. */
+    /* count * HAPTOFLOW_SEGMENT_SAMPLES samples in m/s^2 that precede each segment. */
     const float* previous_mps2;
-    /* count * HAPTOFLOW_SEGMENT_SAMPLES standard normal numbers. Not needed for levels. */
+    /* count * HAPTOFLOW_SEGMENT_SAMPLES standard normal numbers. */
     const float* noise;
     /* count * HAPTOFLOW_PHASES numbers: for the ribs along each of the embedding's two wave vectors and for stick-slip,
      * the phase at the segment's first sample in cycles from 0 to below 1, then its signed rate in Hz for each; null
-     * for phases of zero and the rates at which the motion crosses the wave vectors. Not needed for levels. Used by
-     * tiers of the kinds "skeleton" and "refine", and by graphs that have the input "phases". */
+     * for phases of zero and the rates at which the motion crosses the wave vectors. Used by tiers of the kinds
+     * "skeleton" and "refine", and by graphs that have the input "phases". */
     const float* phases;
     /* count levels above 0, RMS in m/s^2, that replace those of the level graph; null to use the level graph. */
     const float* own_levels_mps2;
@@ -471,13 +458,6 @@ HAPTOFLOW_API haptoflow_status haptoflow_generator_set_solver(haptoflow_generato
 HAPTOFLOW_API haptoflow_status haptoflow_generator_generate(haptoflow_generator* generator,
                                                             const haptoflow_batch* batch, float* segments_mps2);
 
-/* Writes the level that the model predicts for each request into levels_mps2: count numbers, RMS in m/s^2. Reads
- * embeddings and motions only. If the call fails, the content of levels_mps2 is unspecified.
- * Errors: INVALID_ARGUMENT, INFERENCE_FAILED, OUT_OF_MEMORY.
- * [worker-thread] Blocks while another thread uses this generator and while the graphs run. */
-HAPTOFLOW_API haptoflow_status haptoflow_generator_levels(haptoflow_generator* generator, const haptoflow_batch* batch,
-                                                          float* levels_mps2);
-
 /* ------------------------------------------------------------------------------------------------------- engines */
 
 /* All voices of one model, with one worker thread that generates for them. The thread sleeps while no tip slides. */
@@ -493,14 +473,12 @@ enum {
     HAPTOFLOW_QUALITY_DRAFT = 1,
     /* The tier "standard", or the model's default tier if it has no such tier. */
     HAPTOFLOW_QUALITY_STANDARD = 2,
-    /* The tier "sketch", which plays without a network, or the model's first tier if it has no such tier. (3 belonged
-     * to an earlier quality and is refused.) */
+    /* The tier "sketch", which plays without a network, or the model's first tier if it has no such tier. */
     HAPTOFLOW_QUALITY_SKETCH = 4
 };
 
 typedef struct haptoflow_engine_options {
     uint32_t struct_size;
-    /* Only the tier of this quality is loaded. HAPTOFLOW_QUALITY_AUTO loads every tier of the model. */
     haptoflow_quality quality;
     /* Null where there is no ONNX Runtime: then only tiers of kind "skeleton" can be used, and HAPTOFLOW_QUALITY_AUTO
      * uses the most accurate of those. */
@@ -535,8 +513,7 @@ typedef struct haptoflow_tier_times {
     uint32_t struct_size;
     /* 1 for the tier that generates at present, 0 otherwise. */
     uint32_t is_current;
-    /* Number of runs that the figures are based on, the last 128 at most; 0 if the tier is not loaded or was neither
-     * used nor measured. */
+    /* Number of runs that the figures are based on, the last 128 at most; 0 if the tier was neither used nor measured. */
     uint64_t runs;
     double median_ms;
     double percentile_99_ms;
@@ -567,7 +544,7 @@ typedef struct haptoflow_engine_statistics {
     uint32_t priority_was_refused;
 } haptoflow_engine_statistics;
 
-/* Loads the tiers that the quality uses and starts the worker. Close it with haptoflow_engine_close.
+/* Loads every tier of the model that the runtime can run and starts the worker. Close it with haptoflow_engine_close.
  * Errors: INVALID_ARGUMENT, MODEL_INCONSISTENT, INFERENCE_FAILED, TIER_TOO_SLOW, CANCELLED, OUT_OF_MEMORY.
  * [loader-thread] Blocks while ONNX Runtime optimises the graphs and while the levels of all labels are computed. */
 HAPTOFLOW_API haptoflow_status haptoflow_engine_create(const haptoflow_engine_options* options,
@@ -578,11 +555,9 @@ HAPTOFLOW_API haptoflow_status haptoflow_engine_create(const haptoflow_engine_op
  * [loader-thread] Blocks for the present round of inference. */
 HAPTOFLOW_API haptoflow_status haptoflow_engine_close(haptoflow_engine** engine);
 
-/* Sets the quality from the next segment on. The calling thread first loads the tiers that this quality uses and that
- * are not loaded yet, while the engine continues with its present tier; loaded tiers stay loaded. If loading fails, the
- * quality does not change. Errors: INVALID_ARGUMENT, MODEL_INCONSISTENT, TIER_TOO_SLOW, OUT_OF_MEMORY.
- * [loader-thread] Blocks while ONNX Runtime optimises the graphs of such tiers; takes microseconds if all are
- * loaded. */
+/* Sets the quality from the next segment on. Errors: INVALID_ARGUMENT, also for a tier that needs the ONNX Runtime that
+ * the engine was created without; the quality then does not change. [any-thread] Blocks while another thread opens or
+ * closes a handle; takes microseconds. */
 HAPTOFLOW_API haptoflow_status haptoflow_engine_set_quality(haptoflow_engine* engine, haptoflow_quality quality);
 
 /* Maximum number of materials that one engine holds besides its model's labels. */
@@ -1020,14 +995,6 @@ HAPTOFLOW_API haptoflow_status haptoflow_wave_features_process(haptoflow_wave_fe
                                                                const float* wave_mps2, uint64_t sample_count,
                                                                haptoflow_wave_frame* frames, uint64_t capacity,
                                                                uint64_t* frame_count);
-
-/* -------------------------------------------------------------------------------------------------------- noise */
-
-/* Fills noise with count standard normal numbers that depend only on seed, voice and segment and have the same bytes on
- * every platform. count is at most 2^32. Errors: INVALID_ARGUMENT.
- * [any-thread] Never blocks; allocates only to report an error. */
-HAPTOFLOW_API haptoflow_status haptoflow_noise_fill(uint64_t seed, uint32_t voice, uint64_t segment, float* noise,
-                                                    uint64_t count);
 
 /* --------------------------------------------------------------------------------------------------- recordings */
 

@@ -47,38 +47,27 @@ template <typename Type>
     return static_cast<std::size_t>(given);
 }
 
-/// No descriptor will be larger; a larger struct_size is uninitialised memory.
-inline constexpr std::size_t maximumDescriptor = 4096;
-
-inline void checkStructSize(std::size_t found, std::size_t minimum, const char* name) {
-    if (found < minimum || found > maximumDescriptor) {
-        throw std::invalid_argument(std::string(name) + ": struct_size is " + std::to_string(found) +
-                                    "; set it to sizeof the struct");
+/// Throws std::invalid_argument unless the caller's struct has the library's size.
+template <typename Descriptor>
+void checkStructSize(const Descriptor* descriptor, const char* name) {
+    const std::size_t size = require(descriptor, name)->struct_size;
+    if (size != sizeof(Descriptor)) {
+        throw std::invalid_argument(std::string(name) + ": struct_size is " + std::to_string(size) + "; expected " +
+                                    std::to_string(sizeof(Descriptor)) + ", the size of the struct in this version");
     }
 }
 
-/// Copies a caller's descriptor of any version; fields that the caller's version does not have are zero. `minimum` is
-/// the size of the first version's mandatory fields. A size that ends within a field belongs to no version; it is
-/// rounded down, because copying part of a pointer would make an invalid address. Throws std::invalid_argument.
 template <typename Descriptor>
-[[nodiscard]] Descriptor readDescriptor(const Descriptor* descriptor, std::size_t minimum, const char* name) {
-    const std::size_t size = require(descriptor, name)->struct_size;
-    checkStructSize(size, minimum, name);
-    const std::size_t whole = std::max(minimum, size - size % alignof(Descriptor));
-    Descriptor copy{};
-    std::memcpy(&copy, descriptor, std::min(whole, sizeof(Descriptor)));
-    return copy;
+[[nodiscard]] Descriptor readDescriptor(const Descriptor* descriptor, const char* name) {
+    checkStructSize(descriptor, name);
+    return *descriptor;
 }
 
-/// Fills a caller's descriptor of any version up to its size and sets its struct_size to the number of bytes filled.
-/// Throws std::invalid_argument.
 template <typename Descriptor>
 void writeDescriptor(Descriptor* target, Descriptor content, const char* name) {
-    const std::size_t size = require(target, name)->struct_size;
-    checkStructSize(size, sizeof(content.struct_size), name);
-    const std::size_t filled = std::min(size, sizeof(Descriptor));
-    content.struct_size = static_cast<decltype(content.struct_size)>(filled);
-    std::memcpy(target, &content, filled);
+    checkStructSize(target, name);
+    content.struct_size = sizeof(Descriptor);
+    *target = content;
 }
 
 /// A caller's path, which is UTF-8 on every platform.

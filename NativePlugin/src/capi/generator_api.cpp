@@ -3,7 +3,6 @@
 #include "skeleton/rib_rates.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -21,10 +20,6 @@ namespace {
 constexpr uint32_t defaultBatch = 8;
 constexpr std::size_t motionSize = HAPTOFLOW_MOTION_SIZE;
 
-// The fields that the first version required; steps and maximum_batch have defaults.
-constexpr std::size_t mandatoryOptions = offsetof(haptoflow_generator_options, steps);
-constexpr std::size_t mandatoryForLevels = offsetof(haptoflow_batch, previous_mps2);
-constexpr std::size_t mandatoryForSegments = offsetof(haptoflow_batch, phases);
 
 float requireLevel(float levelMps2) {
     if (!(levelMps2 > 0.0F && levelMps2 <= 1e6F)) {
@@ -53,27 +48,18 @@ inference::SolverSettings solverSettings(haptoflow_solver solver, int32_t steps,
     }
 }
 
-/// The previous waveform of requests that need none.
-constexpr std::array<float, inference::segmentSamples> silence{};
-
 std::span<const float, inference::segmentSamples> waveformAt(const float* waveforms, std::size_t index) {
-    if (waveforms == nullptr) {
-        return silence;
-    }
     return std::span<const float, inference::segmentSamples>(waveforms + index * inference::segmentSamples,
                                                              inference::segmentSamples);
 }
 
-std::vector<inference::SegmentRequest> requestsOf(const haptoflow_batch* batch, bool withWaveforms,
-                                                  std::size_t latentSize) {
-    const auto given = readDescriptor(batch, withWaveforms ? mandatoryForSegments : mandatoryForLevels, "batch");
+std::vector<inference::SegmentRequest> requestsOf(const haptoflow_batch* batch, std::size_t latentSize) {
+    const auto given = readDescriptor(batch, "batch");
     (void)require(given.embeddings, "batch: embeddings");
     (void)require(given.motions, "batch: motions");
-    if (withWaveforms) {
-        (void)require(given.previous_mps2, "batch: previous_mps2");
-        (void)require(given.noise, "batch: noise");
-    }
-    if (withWaveforms && given.latent_noise != nullptr && latentSize == 0) {
+    (void)require(given.previous_mps2, "batch: previous_mps2");
+    (void)require(given.noise, "batch: noise");
+    if (given.latent_noise != nullptr && latentSize == 0) {
         throw std::invalid_argument(
             "batch: latent_noise is given, but the tier's representation is not latent; expected "
             "null");
@@ -81,22 +67,17 @@ std::vector<inference::SegmentRequest> requestsOf(const haptoflow_batch* batch, 
     std::vector<inference::SegmentRequest> requests;
     requests.reserve(given.count);
     for (std::size_t index = 0; index < given.count; ++index) {
-        inference::SegmentRequest request{{},
-                                          {},
-                                          waveformAt(withWaveforms ? given.previous_mps2 : nullptr, index),
-                                          waveformAt(withWaveforms ? given.noise : nullptr, index)};
+        inference::SegmentRequest request{
+            {}, {}, waveformAt(given.previous_mps2, index), waveformAt(given.noise, index)};
         std::copy_n(given.embeddings + index * inference::embeddingSize, inference::embeddingSize,
                     request.embedding.begin());
         std::copy_n(given.motions + index * motionSize, motionSize, request.motion.begin());
-        if (withWaveforms) {
-            request.phases = skeleton::phasesOf(request.embedding, request.motion, {});
-            if (given.phases != nullptr) {
-                std::copy_n(given.phases + index * request.phases.size(), request.phases.size(),
-                            request.phases.begin());
-            }
-            if (given.latent_noise != nullptr) {
-                request.latentNoise = {given.latent_noise + index * latentSize, latentSize};
-            }
+        request.phases = skeleton::phasesOf(request.embedding, request.motion, {});
+        if (given.phases != nullptr) {
+            std::copy_n(given.phases + index * request.phases.size(), request.phases.size(), request.phases.begin());
+        }
+        if (given.latent_noise != nullptr) {
+            request.latentNoise = {given.latent_noise + index * latentSize, latentSize};
         }
         if (given.own_levels_mps2 != nullptr) {
             request.levelMps2 = requireLevel(given.own_levels_mps2[index]);
@@ -111,16 +92,15 @@ std::vector<inference::SegmentRequest> requestsOf(const haptoflow_batch* batch, 
 haptoflow_status haptoflow_generator_create(const haptoflow_generator_options* options,
                                             haptoflow_generator** generator) {
     return guarded([&] {
-        const auto given = readDescriptor(options, mandatoryOptions, "options");
+        const auto given = readDescriptor(options, "options");
         (void)require(generator, "generator");
         const auto runtime = runtimeOf(given.runtime);
         const auto open = models().get(given.model);
         const model::Tier& tier = tierNamed(open->model, given.tier);
         const auto tierSolver = inference::defaultSolver(tier);
         const uint32_t batch = given.maximum_batch != 0 ? given.maximum_batch : defaultBatch;
-        auto loaded =
-            inference::makeGenerator(runtime, open->model, tier, solverSettings(given.solver, given.steps, tierSolver),
-                                     batch, loadLimits(given.cancellation, given.probe_limit_ms), open->native);
+        auto loaded = inference::makeGenerator(runtime, open->model, tier, tierSolver, batch,
+                                               loadLimits(given.cancellation, given.probe_limit_ms), open->native);
         const bool isLatent = tier.representation == model::TierRepresentation::latent;
         *generator = generators().open(std::shared_ptr<OpenGenerator>(
             new OpenGenerator{{}, tierSolver, std::move(loaded), isLatent ? inference::pointSize(tier) : 0}));
@@ -144,21 +124,10 @@ haptoflow_status haptoflow_generator_generate(haptoflow_generator* generator, co
                                               float* segments_mps2) {
     return guarded([&] {
         const auto open = generators().get(generator);
-        const auto requests = requestsOf(batch, true, open->latentSize);
+        const auto requests = requestsOf(batch, open->latentSize);
         const std::span<float> segments(require(segments_mps2, "segments_mps2"),
                                         requests.size() * inference::segmentSamples);
         const std::lock_guard lock(open->mutex);
         open->generator->generate(requests, segments);
-    });
-}
-
-haptoflow_status haptoflow_generator_levels(haptoflow_generator* generator, const haptoflow_batch* batch,
-                                            float* levels_mps2) {
-    return guarded([&] {
-        const auto open = generators().get(generator);
-        const auto requests = requestsOf(batch, false, 0);
-        const std::span<float> levels(require(levels_mps2, "levels_mps2"), requests.size());
-        const std::lock_guard lock(open->mutex);
-        open->generator->levels(requests, levels);
     });
 }

@@ -5,7 +5,6 @@
 #include "engine/live_engine.hpp"
 #include "haptoflow/haptoflow.h"
 #include "inference/load_limits.hpp"
-#include "inference/shared_sessions.hpp"
 #include "inference/tier_generator.hpp"
 #include "model/material_file.hpp"
 #include "model/model_file.hpp"
@@ -42,36 +41,23 @@ struct OpenGenerator {
     std::size_t latentSize = 0;
 };
 
-/// Loads the tiers of one engine, when it is created or when a later quality uses them.
-struct TierLoader {
-    /// Null if the caller has none.
-    std::shared_ptr<const inference::Runtime> runtime;
-    std::shared_ptr<const OpenModel> model;
-    std::size_t batch;
-    /// Of all tiers, because one thread at a time runs them. Whoever calls `load` holds `loading`, or creates the
-    /// engine.
-    std::shared_ptr<inference::SharedSessions> sessions = std::make_shared<inference::SharedSessions>();
-
-    /// Throws what inference::makeGenerator throws.
-    [[nodiscard]] std::unique_ptr<inference::SegmentGenerator> load(std::size_t tier,
-                                                                    const inference::LoadLimits& limits) const;
-    /// Loads only what the tier's levels need. Throws what inference::makeLevelEstimator throws.
-    [[nodiscard]] std::unique_ptr<inference::LevelEstimator> loadLevels(std::size_t tier,
-                                                                        const inference::LoadLimits& limits) const;
-};
-
 struct OpenEngine {
-    OpenEngine(std::shared_ptr<engine::LiveEngine> live, bool worker, TierLoader tierLoader, double limitMs)
-        : engine(std::move(live)), hasWorker(worker), loader(std::move(tierLoader)), probeLimitMs(limitMs) {}
+    OpenEngine(std::shared_ptr<engine::LiveEngine> live, bool worker, std::shared_ptr<const inference::Runtime> given,
+               std::shared_ptr<const OpenModel> opened, double limitMs)
+        : engine(std::move(live)),
+          hasWorker(worker),
+          runtime(std::move(given)),
+          model(std::move(opened)),
+          probeLimitMs(limitMs) {}
 
     std::shared_ptr<engine::LiveEngine> engine;
     bool hasWorker;
+    /// Null if the caller has none.
+    const std::shared_ptr<const inference::Runtime> runtime;
+    const std::shared_ptr<const OpenModel> model;
+    const double probeLimitMs;
     /// Serialises calls of haptoflow_engine_step.
     std::mutex stepping;
-    /// Serialises changes of quality, which may load tiers.
-    std::mutex loading;
-    const TierLoader loader;
-    const double probeLimitMs;
     /// Serialises registrations, which share a level graph that the first one that needs it loads.
     std::mutex registering;
     std::unique_ptr<inference::LevelEstimator> levels;

@@ -82,7 +82,7 @@ haptoflow_tier_info describe(const model::Tier& tier, bool isDefault) {
 
 haptoflow_status haptoflow_model_open(const haptoflow_model_options* options, haptoflow_model** model) {
     return guarded([&] {
-        const auto given = readDescriptor(options, sizeof(haptoflow_model_options), "options");
+        const auto given = readDescriptor(options, "options");
         (void)require(model, "model");
         *model = models().open(std::make_shared<OpenModel>(openModel(given)));
     });

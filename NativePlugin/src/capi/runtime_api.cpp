@@ -7,14 +7,12 @@ using namespace haptoflow::capi;
 
 namespace {
 
-// The fields of the first version of the options.
-constexpr std::size_t mandatoryOptions = offsetof(haptoflow_runtime_options, log);
 
 }  // namespace
 
 haptoflow_status haptoflow_runtime_open(const haptoflow_runtime_options* options, haptoflow_runtime** runtime) {
     return guarded([&] {
-        const auto given = readDescriptor(options, mandatoryOptions, "options");
+        const auto given = readDescriptor(options, "options");
         (void)require(runtime, "runtime");
         if ((given.ort_api_base == nullptr) == (given.library_path == nullptr)) {
             throw std::invalid_argument("options: exactly one of ort_api_base and library_path must be set");

@@ -28,7 +28,6 @@ struct OpenWaveFeatures {
 
 namespace {
 
-constexpr std::size_t mandatoryOptions = sizeof(haptoflow_wave_features_options);
 
 effects::WaveFeatureOptions featureOptions(const haptoflow_wave_features_options& given) {
     effects::WaveFeatureOptions options;
@@ -66,7 +65,7 @@ haptoflow_wave_frame frameOf(const effects::WaveFrame& frame) {
 haptoflow_status haptoflow_wave_features_create(const haptoflow_wave_features_options* options,
                                                 haptoflow_wave_features** features) {
     return guarded([&] {
-        const auto given = readDescriptor(options, mandatoryOptions, "options");
+        const auto given = readDescriptor(options, "options");
         (void)require(features, "features");
         *features = waveFeatures().open(
             std::make_shared<OpenWaveFeatures>(featureOptions(given), decimationOf(given.sample_rate_hz)));

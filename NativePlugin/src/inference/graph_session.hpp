@@ -47,8 +47,8 @@ protected:
     // NOLINTEND(cppcoreguidelines-non-private-member-variables-in-classes,readability-identifier-naming)
 };
 
-/// Loads a graph whose operators were checked, compares it with `signature` and runs it with maximumBatch requests and
-/// with one. The linker takes one of two implementations: onnx_graph_session.cpp for the library ONNX Runtime, that of
+/// Loads a graph whose operators were checked, compares it with `signature` and runs it once with maximumBatch
+/// requests. The linker takes one of two implementations: onnx_graph_session.cpp for the library ONNX Runtime, that of
 /// Web/engine for ONNX Runtime for the web. Throws model::ModelError (inconsistent), whose message begins with `name`;
 /// TierTooSlow; LoadCancelled.
 [[nodiscard]] std::unique_ptr<GraphSession> loadGraphSession(std::shared_ptr<const Runtime> runtime,

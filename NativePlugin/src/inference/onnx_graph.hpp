@@ -17,8 +17,8 @@ namespace haptoflow::inference {
 /// stay at the same addresses. Used by one thread at a time; ONNX Runtime allocates in `run`.
 class OnnxGraph {
 public:
-    /// Checks the graph's operators, loads it, compares it with `signature` and runs it with maximumBatch requests and
-    /// with one. Throws model::ModelError (inconsistent), whose message begins with `name`, if the graph does not match
+    /// Checks the graph's operators, loads it, compares it with `signature` and runs it once with maximumBatch
+    /// requests. Throws model::ModelError (inconsistent), whose message begins with `name`, if the graph does not match
     /// the format; TierTooSlow; LoadCancelled.
     OnnxGraph(std::shared_ptr<const Runtime> runtime, std::span<const std::byte> graph, std::string name,
               GraphSignature signature, std::size_t maximumBatch, const LoadLimits& limits);

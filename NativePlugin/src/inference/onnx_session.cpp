@@ -20,7 +20,7 @@ void ORT_API_CALL writeLog(void* sink, OrtLoggingLevel severity, const char* cat
     static_cast<LogSink*>(sink)->write(static_cast<LogSeverity>(severity), category, message);
 }
 
-OrtHandle<OrtSessionOptions> createOptions(const Runtime& runtime, Optimisation optimisation, bool usesSharedArena) {
+OrtHandle<OrtSessionOptions> createOptions(const Runtime& runtime, bool usesSharedArena) {
     const OrtApi& api = runtime.api();
     OrtSessionOptions* created = nullptr;
     runtime.check(api.CreateSessionOptions(&created), "session options");
@@ -36,9 +36,7 @@ OrtHandle<OrtSessionOptions> createOptions(const Runtime& runtime, Optimisation 
     // Accept only ONNX, which was checked before, and not the runtime's own format.
     configure("session.load_model_format", "ONNX");
     configure("session.use_env_allocators", usesSharedArena ? "1" : "0");
-    runtime.check(api.SetSessionGraphOptimizationLevel(
-                      created, optimisation == Optimisation::all ? ORT_ENABLE_ALL : ORT_DISABLE_ALL),
-                  "session options");
+    runtime.check(api.SetSessionGraphOptimizationLevel(created, ORT_ENABLE_ALL), "session options");
     if (runtime.log() != nullptr && runtime.apiVersion() >= apiWithSessionLog) {
         runtime.check(api.SetUserLoggingFunction(created, writeLog, runtime.log()), "session options");
         runtime.check(api.SetSessionLogSeverityLevel(created, ORT_LOGGING_LEVEL_WARNING), "session options");
@@ -108,12 +106,12 @@ OrtHandle<OrtIoBinding> createBinding(const Runtime& runtime, OrtSession& sessio
     return {binding, runtime.api().ReleaseIoBinding};
 }
 
-OrtHandle<OrtSession> createSession(const Runtime& runtime, std::span<const std::byte> graph, Optimisation optimisation,
+OrtHandle<OrtSession> createSession(const Runtime& runtime, std::span<const std::byte> graph,
                                     std::size_t memoryBytes, const LoadLimits& limits) {
     limits.check();
     const OrtApi& api = runtime.api();
     const LimitedArena arena(runtime, memoryBytes, limits);
-    const auto options = createOptions(runtime, optimisation, arena.isRegistered());
+    const auto options = createOptions(runtime, arena.isRegistered());
     const CancellationAction stop(limits.cancellation.get(), [&] {
         if (runtime.apiVersion() >= apiWithLoadCancellation) {
             if (OrtStatus* status = api.SessionOptionsSetLoadCancellationFlag(options.get(), true)) {

@@ -16,20 +16,12 @@ namespace haptoflow::inference {
 template <typename Type>
 using OrtHandle = std::unique_ptr<Type, void (*)(Type*)>;
 
-enum class Optimisation {
-    /// Runs the graph unchanged; nothing is computed while it loads.
-    none,
-    /// Folds constants and fuses operators.
-    all,
-};
-
 [[nodiscard]] OrtHandle<OrtMemoryInfo> createMemoryInfo(const Runtime& runtime);
 [[nodiscard]] OrtHandle<OrtIoBinding> createBinding(const Runtime& runtime, OrtSession& session);
 
 /// A session with one thread whose tensors, weights included, take at most `memoryBytes`. A graph that needs more fails
 /// while loading or running. Throws InferenceError, LoadCancelled.
 [[nodiscard]] OrtHandle<OrtSession> createSession(const Runtime& runtime, std::span<const std::byte> graph,
-                                                  Optimisation optimisation, std::size_t memoryBytes,
-                                                  const LoadLimits& limits);
+                                                  std::size_t memoryBytes, const LoadLimits& limits);
 
 }  // namespace haptoflow::inference

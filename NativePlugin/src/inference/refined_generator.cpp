@@ -1,7 +1,6 @@
 #include "inference/refined_generator.hpp"
 
 #include "inference/generator_checks.hpp"
-#include "inference/solver.hpp"
 #include "inference/tier_graphs.hpp"
 #include "skeleton/condition.hpp"
 #include "skeleton/skeleton_tensors.hpp"
@@ -18,20 +17,14 @@ constexpr std::size_t enteringSize = skeleton::Skeleton::enteringChannels * segm
 }  // namespace
 
 RefinedGenerator::RefinedGenerator(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model,
-                                   skeleton::NativeParts native, const model::Tier& tier, SolverSettings solver,
+                                   skeleton::NativeParts native, const model::Tier& tier,
                                    std::size_t maximumBatch, const LoadLimits& limits)
     : maximumBatch_(requireBatch(maximumBatch)),
       level_(std::move(native.level)),
       skeleton_(std::move(native.skeleton)),
       conditioning_(skeleton::readConditioning(model, tier.name)),
       graph_(loadRefinement(std::move(runtime), model, tier, conditioning_.outputs(), maximumBatch, limits)),
-      levelsMps2_(maximumBatch) {
-    setSolver(solver);
-}
-
-void RefinedGenerator::setSolver(SolverSettings solver) {
-    checkSolverSettings(solver);
-}
+      levelsMps2_(maximumBatch) {}
 
 void RefinedGenerator::levels(std::span<const SegmentRequest> requests, std::span<float> levelsMps2) {
     level_.levels(requests, levelsMps2);

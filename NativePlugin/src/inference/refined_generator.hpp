@@ -19,10 +19,9 @@ class RefinedGenerator final : public TierGenerator {
 public:
     /// Throws what makeGenerator throws.
     RefinedGenerator(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model,
-                     skeleton::NativeParts native, const model::Tier& tier, SolverSettings solver,
-                     std::size_t maximumBatch, const LoadLimits& limits = {});
+                     skeleton::NativeParts native, const model::Tier& tier, std::size_t maximumBatch,
+                     const LoadLimits& limits = {});
 
-    void setSolver(SolverSettings solver) override;
     void generate(std::span<const SegmentRequest> requests, std::span<float> segments) override;
     void generateFromSketches(std::span<const SegmentRequest> requests, std::span<float> segments,
                               const Sketched& sketched) override;

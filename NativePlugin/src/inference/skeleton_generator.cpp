@@ -2,7 +2,6 @@
 
 #include "inference/generator_checks.hpp"
 #include "inference/level_rules.hpp"
-#include "inference/solver.hpp"
 #include "skeleton/condition.hpp"
 #include "skeleton/unit_scale.hpp"
 
@@ -35,15 +34,9 @@ skeleton::Moment momentOf(const SegmentRequest& request, float levelMps2,
             .impulseGain = request.impulseGain};
 }
 
-SkeletonGenerator::SkeletonGenerator(skeleton::NativeParts native, SolverSettings solver, std::size_t maximumBatch,
-                                     const LoadLimits& limits)
+SkeletonGenerator::SkeletonGenerator(skeleton::NativeParts native, std::size_t maximumBatch, const LoadLimits& limits)
     : level_(std::move(native.level)), skeleton_(std::move(native.skeleton)), levelsMps2_(requireBatch(maximumBatch)) {
     limits.check();
-    setSolver(solver);
-}
-
-void SkeletonGenerator::setSolver(SolverSettings solver) {
-    checkSolverSettings(solver);
 }
 
 void SkeletonGenerator::levels(std::span<const SegmentRequest> requests, std::span<float> levelsMps2) {

@@ -33,10 +33,8 @@ private:
 class SkeletonGenerator final : public TierGenerator {
 public:
     /// Throws what makeGenerator throws.
-    SkeletonGenerator(skeleton::NativeParts native, SolverSettings solver, std::size_t maximumBatch,
-                      const LoadLimits& limits = {});
+    SkeletonGenerator(skeleton::NativeParts native, std::size_t maximumBatch, const LoadLimits& limits = {});
 
-    void setSolver(SolverSettings solver) override;
     /// Allocates for the largest number of requests so far.
     void generate(std::span<const SegmentRequest> requests, std::span<float> segments) override;
     void generateFromSketches(std::span<const SegmentRequest> requests, std::span<float> segments,

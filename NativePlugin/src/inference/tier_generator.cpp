@@ -4,6 +4,7 @@
 #include "inference/onnx_segment_generator.hpp"
 #include "inference/refined_generator.hpp"
 #include "inference/skeleton_generator.hpp"
+#include "inference/solver.hpp"
 
 #include <stdexcept>
 #include <string>
@@ -22,17 +23,21 @@ std::shared_ptr<const Runtime> requireRuntime(std::shared_ptr<const Runtime> run
 
 }  // namespace
 
+void TierGenerator::setSolver(SolverSettings solver) {
+    checkSolverSettings(solver);
+}
+
 std::unique_ptr<TierGenerator> makeGenerator(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model,
                                              const model::Tier& tier, SolverSettings solver, std::size_t maximumBatch,
                                              const LoadLimits& limits, const skeleton::NativeParts& native,
                                              SharedSessions* sessions) {
+    checkSolverSettings(solver);
     switch (tier.kind) {
         case model::TierKind::skeleton:
-            return std::make_unique<SkeletonGenerator>(skeleton::sharedOrRead(native, model), solver, maximumBatch,
-                                                       limits);
+            return std::make_unique<SkeletonGenerator>(skeleton::sharedOrRead(native, model), maximumBatch, limits);
         case model::TierKind::refine:
             return std::make_unique<RefinedGenerator>(requireRuntime(std::move(runtime), tier), model,
-                                                      skeleton::sharedOrRead(native, model), tier, solver, maximumBatch,
+                                                      skeleton::sharedOrRead(native, model), tier, maximumBatch,
                                                       limits);
         default:
             return std::make_unique<OnnxSegmentGenerator>(requireRuntime(std::move(runtime), tier), model, tier.name,

@@ -19,7 +19,7 @@ class TierGenerator : public SegmentGenerator {
 public:
     /// Takes effect with the next batch; without effect on tiers that are not solved. Throws std::invalid_argument for
     /// settings out of range.
-    virtual void setSolver(SolverSettings solver) = 0;
+    virtual void setSolver(SolverSettings solver);
 };
 
 /// Loads, checks and runs a tier of any kind. `runtime` may be null for a tier that needs no ONNX Runtime. The model

@@ -91,15 +91,6 @@ protected:
     std::vector<haptoflow_engine*> engines_;
 };
 
-TEST_F(LoadingApiTest, AnEngineWithAFixedQualityLoadsOnlyItsTier) {
-    openModel({{"flow_field", model::testing::loopingLevel()}});
-    EXPECT_EQ(tierOf(open(engineOptions(HAPTOFLOW_QUALITY_DRAFT))), draftTier);
-    for (const haptoflow_quality quality : {HAPTOFLOW_QUALITY_AUTO, HAPTOFLOW_QUALITY_STANDARD}) {
-        expectRefused(engineOptions(quality), HAPTOFLOW_MODEL_INCONSISTENT,
-                      "tier \"standard\", graph \"flow_field\": uses the operator \"Loop\"");
-    }
-}
-
 TEST_F(LoadingApiTest, AQualityWithoutATierOfItsNameUsesTheFirstOrTheDefaultTier) {
     const auto keepTiers = [this](const std::vector<std::string>& names) {
         openModel({}, [&](nlohmann::json& header) {
@@ -147,83 +138,6 @@ TEST_F(LoadingApiTest, AutomaticQualityUsesTheMostAccurateTierByItsFiguresAndNot
         ASSERT_EQ(haptoflow_engine_get_statistics(engine, &statistics), HAPTOFLOW_OK);
     } while (statistics.is_measuring != 0);
     EXPECT_EQ(statistics.tier, standardTier);
-}
-
-TEST_F(LoadingApiTest, AnotherQualityIsLoadedOnRequestAndKeepsTheModelsIndex) {
-    haptoflow_engine* engine = open(engineOptions(HAPTOFLOW_QUALITY_DRAFT));
-    haptoflow_voice voice = 0;
-    ASSERT_EQ(haptoflow_voice_create(engine, 48000.0, &voice), HAPTOFLOW_OK);
-    slide(engine, voice, 1);
-    ASSERT_EQ(haptoflow_engine_set_quality(engine, HAPTOFLOW_QUALITY_STANDARD), HAPTOFLOW_OK) << message();
-    slide(engine, voice, 1);
-    EXPECT_EQ(tierOf(engine), standardTier);
-    slide(engine, voice, 1);
-    EXPECT_EQ(runsOf(engine, draftTier), 1U);
-    EXPECT_EQ(runsOf(engine, standardTier), 2U);
-    ASSERT_EQ(haptoflow_engine_set_quality(engine, HAPTOFLOW_QUALITY_DRAFT), HAPTOFLOW_OK) << message();
-    slide(engine, voice, 1);
-    EXPECT_EQ(runsOf(engine, draftTier), 2U);
-}
-
-TEST_F(LoadingApiTest, AQualityThatCannotBeLoadedLeavesThePresentOneInPlace) {
-    openModel({{"flow_field", model::testing::loopingLevel()}});
-    haptoflow_engine* engine = open(engineOptions(HAPTOFLOW_QUALITY_DRAFT));
-    haptoflow_voice voice = 0;
-    ASSERT_EQ(haptoflow_voice_create(engine, 48000.0, &voice), HAPTOFLOW_OK);
-    EXPECT_EQ(haptoflow_engine_set_quality(engine, HAPTOFLOW_QUALITY_STANDARD), HAPTOFLOW_MODEL_INCONSISTENT);
-    EXPECT_THAT(message(), ::testing::HasSubstr("tier \"standard\""));
-    slide(engine, voice, 1);
-    EXPECT_EQ(tierOf(engine), draftTier);
-    EXPECT_EQ(runsOf(engine, draftTier), 1U);
-    haptoflow_engine_options withWorker = engineOptions(HAPTOFLOW_QUALITY_DRAFT);
-    withWorker.without_worker = 0;
-    haptoflow_engine* other = open(withWorker);
-    EXPECT_EQ(haptoflow_engine_set_quality(other, HAPTOFLOW_QUALITY_AUTO), HAPTOFLOW_MODEL_INCONSISTENT);
-    EXPECT_EQ(tierOf(other), draftTier);
-}
-
-TEST_F(LoadingApiTest, AutomaticQualityAfterOneTierMeasuresThemAll) {
-    haptoflow_engine_options options = engineOptions(HAPTOFLOW_QUALITY_DRAFT);
-    options.without_worker = 0;
-    options.update_rate_hz = 10000.0;
-    haptoflow_engine* engine = open(options);
-    ASSERT_EQ(haptoflow_engine_set_quality(engine, HAPTOFLOW_QUALITY_AUTO), HAPTOFLOW_OK) << message();
-    uint32_t count = 0;
-    ASSERT_EQ(haptoflow_model_tier_count(model_, &count), HAPTOFLOW_OK);
-    for (uint32_t tier = 0; tier < count; ++tier) {
-        for (int wait = 0; wait < 10'000 && runsOf(engine, tier) == 0; ++wait) {
-            std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        }
-        EXPECT_GT(runsOf(engine, tier), 0U) << tier;
-    }
-}
-
-TEST_F(LoadingApiTest, QualitiesRequestedByTwoThreadsWhileTheWorkerGeneratesAreLoadedOnce) {
-    haptoflow_engine_options options = engineOptions(HAPTOFLOW_QUALITY_DRAFT);
-    options.without_worker = 0;
-    haptoflow_engine* engine = open(options);
-    haptoflow_voice voice = 0;
-    ASSERT_EQ(haptoflow_voice_create(engine, 48000.0, &voice), HAPTOFLOW_OK);
-    std::vector<std::thread> askers;
-    for (const haptoflow_quality quality : {HAPTOFLOW_QUALITY_STANDARD, HAPTOFLOW_QUALITY_AUTO}) {
-        askers.emplace_back([engine, quality] {
-            for (int ask = 0; ask < 20; ++ask) {
-                EXPECT_EQ(haptoflow_engine_set_quality(engine, quality), HAPTOFLOW_OK) << message();
-            }
-        });
-    }
-    std::vector<float> block(256);
-    for (int update = 0; update < 200; ++update) {
-        const haptoflow_contact_state state = slidingState();
-        EXPECT_EQ(haptoflow_voice_publish(voice, &state), HAPTOFLOW_OK);
-        EXPECT_EQ(haptoflow_voice_render(voice, block.data(), 256, 1, 0, 48000.0), HAPTOFLOW_OK);
-        EXPECT_TRUE(allFinite(block));
-    }
-    for (std::thread& asker : askers) {
-        asker.join();
-    }
-    ASSERT_EQ(haptoflow_engine_set_quality(engine, HAPTOFLOW_QUALITY_STANDARD), HAPTOFLOW_OK) << message();
-    EXPECT_EQ(tierOf(engine), standardTier);
 }
 
 TEST_F(LoadingApiTest, AModelWithALoopIsRefusedAtOnceByGeneratorAndEngine) {
@@ -345,14 +259,6 @@ TEST_F(LoadingApiTest, MessagesOfOnnxRuntimeReachTheLogUntilTheRuntimeIsClosed) 
     const std::size_t before = lines.texts.size();
     EXPECT_EQ(haptoflow_engine_set_quality(engine, HAPTOFLOW_QUALITY_STANDARD), HAPTOFLOW_OK) << message();
     EXPECT_EQ(lines.texts.size(), before);
-}
-
-TEST(VersionMacrosTest, TheHeadersVersionIsThatOfPackageJson) {
-    EXPECT_STREQ(HAPTOFLOW_VERSION_TEXT, HAPTOFLOW_TEST_VERSION);
-    EXPECT_STREQ(haptoflow_version(), HAPTOFLOW_VERSION_TEXT);
-    EXPECT_EQ(std::to_string(HAPTOFLOW_VERSION_MAJOR) + '.' + std::to_string(HAPTOFLOW_VERSION_MINOR) + '.' +
-                  std::to_string(HAPTOFLOW_VERSION_PATCH),
-              HAPTOFLOW_TEST_VERSION);
 }
 
 }  // namespace

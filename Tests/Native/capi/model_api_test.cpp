@@ -140,30 +140,5 @@ TEST_F(OpenModelTest, TheTiersAreListed) {
     EXPECT_EQ(info.is_default, 1U);
 }
 
-TEST_F(OpenModelTest, AnOlderStructIsFilledOnlyUpToItsSize) {
-    haptoflow_label_info info{};
-    std::memset(static_cast<void*>(&info), 0x55, sizeof(info));
-    info.struct_size = offsetof(haptoflow_label_info, friction_coefficient);
-    ASSERT_EQ(haptoflow_model_label(model_, 0, &info), HAPTOFLOW_OK);
-    EXPECT_STREQ(info.name, "plain");
-    EXPECT_DOUBLE_EQ(info.stiffness_newtons_per_metre, 600.0);
-    EXPECT_EQ(info.struct_size, offsetof(haptoflow_label_info, friction_coefficient));
-    const std::array<unsigned char, sizeof(double)> untouched{0x55, 0x55, 0x55, 0x55, 0x55, 0x55, 0x55, 0x55};
-    EXPECT_EQ(std::memcmp(&info.friction_coefficient, untouched.data(), untouched.size()), 0);
-}
-
-TEST_F(OpenModelTest, ANewerStructIsFilledUpToTheLibrarysSize) {
-    struct {
-        haptoflow_tier_info known;
-        std::array<unsigned char, 32> later;
-    } info{};
-    info.later.fill(0x55);
-    info.known.struct_size = sizeof(info);
-    ASSERT_EQ(haptoflow_model_tier(model_, 1, &info.known), HAPTOFLOW_OK);
-    EXPECT_STREQ(info.known.name, "standard");
-    EXPECT_EQ(info.known.struct_size, sizeof(info.known)) << "the number of bytes that were filled";
-    EXPECT_THAT(info.later, ::testing::Each(0x55));
-}
-
 }  // namespace
 }  // namespace haptoflow::capi::testing

@@ -42,13 +42,11 @@ protected:
     }
 
     /// Slides over a label for half a second; returns the sound after the first tenth.
-    std::vector<float> slide(uint32_t label, float variation = 0.0F, uint32_t surfaceSeed = 0,
-                             uint32_t structSize = sizeof(haptoflow_contact_state)) {
+    std::vector<float> slide(uint32_t label, float variation = 0.0F, uint32_t surfaceSeed = 0) {
         haptoflow_voice voice = 0;
         EXPECT_EQ(haptoflow_voice_create(engine_, 48000.0, &voice), HAPTOFLOW_OK) << message();
         haptoflow_contact_state state = slidingState();
         state.labels[0] = label;
-        state.struct_size = structSize;
         state.surface_seed = surfaceSeed;
         state.variation = variation;
         std::vector<float> sound;
@@ -98,10 +96,10 @@ TEST_F(SkeletonApiTest, ASketchLoadsAndPlaysWithoutOnnxRuntime) {
 }
 
 TEST_F(SkeletonApiTest, AVariationMakesObjectsOfOneLabelDifferByTheirSeed) {
-    const auto sound = [this](float variation, uint32_t seed, uint32_t size = sizeof(haptoflow_contact_state)) {
+    const auto sound = [this](float variation, uint32_t seed) {
         // An engine of its own: the noise of a voice depends on the voices before it.
         EXPECT_EQ(createEngine(HAPTOFLOW_QUALITY_SKETCH), HAPTOFLOW_OK) << message();
-        std::vector<float> samples = slide(0, variation, seed, size);
+        std::vector<float> samples = slide(0, variation, seed);
         EXPECT_EQ(haptoflow_engine_close(&engine_), HAPTOFLOW_OK);
         return samples;
     };
@@ -112,8 +110,6 @@ TEST_F(SkeletonApiTest, AVariationMakesObjectsOfOneLabelDifferByTheirSeed) {
     EXPECT_EQ(sound(1.0F, 1), first);
     EXPECT_NE(first, mean);
     EXPECT_NE(sound(1.0F, 2), first);
-    // A caller that was built with an earlier header does not have the field, so it counts as 0.
-    EXPECT_EQ(sound(1.0F, 1, offsetof(haptoflow_contact_state, variation)), mean);
     EXPECT_EQ(sound(std::nanf(""), 1), mean);
     EXPECT_EQ(sanitised_, 36U);
 }
@@ -172,10 +168,6 @@ TEST_F(SkeletonApiTest, AGeneratorOfTheSketchReadsThePhasesOfABatch) {
     ASSERT_EQ(haptoflow_generator_generate(generator_, &batch, segments.data()), HAPTOFLOW_OK) << message();
     EXPECT_FALSE(std::equal(segments.begin(), segments.begin() + HAPTOFLOW_SEGMENT_SAMPLES,
                             segments.begin() + HAPTOFLOW_SEGMENT_SAMPLES));
-    std::array<float, 2> levels{};
-    ASSERT_EQ(haptoflow_generator_levels(generator_, &batch, levels.data()), HAPTOFLOW_OK) << message();
-    EXPECT_GT(levels[0], 0.0F);
-    EXPECT_EQ(levels[0], levels[1]);
     EXPECT_EQ(haptoflow_generator_set_solver(generator_, HAPTOFLOW_SOLVER_HEUN, 4), HAPTOFLOW_OK) << message();
 }
 

@@ -83,21 +83,6 @@ TEST_F(SignalTest, ASignalThatRestartsWhileItEndsContinuesInPhase) {
     }
 }
 
-TEST_F(SignalTest, ASignalStartsAtPhaseZeroFromSilence) {
-    Signal signal(rateHz);
-    signal.set({.frequencyHz = 250.0F, .amplitudeMps2 = 2.0F});
-    signal.begin();
-    const std::vector<float> first = play(signal, 777);
-    signal.end();
-    (void)play(signal, rampSamples);
-    signal.begin();
-    EXPECT_EQ(play(signal, 777), first);
-    signal.reset();
-    EXPECT_TRUE(signal.isIdle());
-    signal.begin();
-    EXPECT_EQ(play(signal, 777), first);
-}
-
 TEST_F(SignalTest, ChangesOfFrequencyAndAmplitudeMakeNoStep) {
     Signal signal(rateHz);
     std::vector<float> samples;
@@ -124,21 +109,6 @@ TEST_F(SignalTest, UnsetSettingsDoNotChangeASoundingSignal) {
     EXPECT_EQ(play(signal, 300), play(same, 300));
 }
 
-TEST_F(SignalTest, AfterAnHourTheAmplitudeAndTheFrequencyAreUnchanged) {
-    Signal signal(8000.0);
-    signal.set({.frequencyHz = 200.0F, .amplitudeMps2 = 1.0F});
-    signal.begin();
-    std::array<float, 64> block{};
-    for (std::size_t i = 0; i < 3600U * 8000U; i += block.size()) {
-        block.fill(0.0F);
-        signal.process(block);
-    }
-    const std::vector<float> samples = play(signal, 40);
-    for (std::size_t i = 0; i < samples.size(); ++i) {
-        ASSERT_NEAR(samples[i], sineAt(200.0, i, 8000.0), 1e-4) << i;
-    }
-}
-
 TEST_F(SignalTest, TheAudioThreadFunctionsAllocateNothing) {
     Signal signal(rateHz);
     std::array<float, 64> block{};
@@ -154,16 +124,6 @@ TEST_F(SignalTest, TheAudioThreadFunctionsAllocateNothing) {
     }
     signal.reset();
     EXPECT_EQ(haptoflow::testing::allocationCount(), before);
-}
-
-TEST_F(SignalTest, TheDeclarationNamesItsContactFieldsAndNoLatency) {
-    const Signal signal(rateHz);
-    const EffectDeclaration declaration = signal.declaration();
-    EXPECT_EQ(declaration.kind, EffectKind::signal);
-    EXPECT_EQ(declaration.reads, contact_field::touch | contact_field::velocity);
-    EXPECT_EQ(declaration.latencySeconds, 0.0);
-    EXPECT_EQ(declaration.tailSeconds, 0.002);
-    EXPECT_THROW(Signal(0.0), std::invalid_argument);
 }
 
 }  // namespace

@@ -91,17 +91,6 @@ TEST(StrikesTest, TheSourceIsIdleAfterABlowHasDecayed) {
     EXPECT_EQ(next(strikes, 256), std::vector<float>(256, 0.0F));
 }
 
-TEST(StrikesTest, NoBlowSoundsLongerThanTheDeclaredTail) {
-    for (const float decay : {0.0F, 10.0F, 500.0F}) {
-        ImpactResponse response = ringing(60.0F, decay, std::numeric_limits<float>::max());
-        response.restitution = 1.0F;
-        Strikes strikes(EffectKind::impact, 8000.0);
-        strikes.strike(1e9, response);
-        next(strikes, static_cast<std::size_t>((strikes.declaration().tailSeconds + 0.1) * 8000.0));
-        EXPECT_TRUE(strikes.isIdle()) << decay;
-    }
-}
-
 TEST(StrikesTest, ManyBlowsAtOnceAreBoundedAndTheLoudestAreKept) {
     Strikes strikes(EffectKind::impact, rateHz);
     strikes.strike(1.0, ringing(150.0F, 50.0F, 400.0F));
@@ -168,28 +157,6 @@ TEST(StrikesTest, NothingAllocates) {
     }
     strikes.reset();
     EXPECT_EQ(haptoflow::testing::allocationCount(), before);
-}
-
-TEST(StrikesTest, AWeakBlowDoesNotCancelTheReboundOfAStrongOne) {
-    ImpactResponse response;
-    response.modes[0] = {.frequencyHz = 200.0F, .decayPerSecond = 400.0F, .gainPerSecond = 100.0F};
-    response.restitution = 0.5F;
-    const auto play = [&response](bool hasWeakBlow) {
-        Strikes strikes(EffectKind::impact, 48000.0);
-        strikes.strike(0.5, response);
-        std::vector<float> samples(19200, 0.0F);
-        strikes.process(std::span(samples).first(480));
-        if (hasWeakBlow) {
-            strikes.strike(0.001, response);
-        }
-        strikes.process(std::span(samples).subspan(480));
-        return samples;
-    };
-    const std::vector<float> alone = play(false);
-    const std::vector<float> both = play(true);
-    for (std::size_t i = 0; i < alone.size(); ++i) {
-        ASSERT_NEAR(both[i], alone[i], 0.11F) << i;
-    }
 }
 
 }  // namespace

@@ -57,17 +57,6 @@ TEST_F(BlendRibsTest, TheHeaviestMaterialsWaveVectorsAreKeptIfSlotsAreMissing) {
     EXPECT_EQ(ribsOf({{1, 0.4F}, {2, 0.6F}}), (WaveVectors{fine, across}));
 }
 
-TEST_F(BlendRibsTest, ASingleMaterialKeepsItsOwnSlots) {
-    EXPECT_EQ(ribsOf({{1, 0.4F}}, {none, coarse}), (WaveVectors{coarse, none}));
-    EXPECT_EQ(ribsOf({{2, 1.0F}}, {across, coarse}), (WaveVectors{fine, across}));
-}
-
-TEST_F(BlendRibsTest, RemainingWaveVectorsKeepTheirSlot) {
-    const WaveVectors first = ribsOf({{1, 0.6F}, {2, 0.4F}});
-    EXPECT_EQ(ribsOf({{2, 0.6F}, {1, 0.4F}}, first), (WaveVectors{across, fine}))
-        << "the fine ribs keep the second slot, and the ribs across take the free one";
-}
-
 TEST_F(BlendRibsTest, APhaseFollowsItsWaveVectorToAnotherSlot) {
     const RibTurns phases{0.1, 0.6};
     EXPECT_EQ(phasesFor({fine, none}, {coarse, fine}, phases), (RibTurns{0.6, 0.6}));

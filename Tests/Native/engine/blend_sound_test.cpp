@@ -109,34 +109,5 @@ TEST_F(BlendSoundTest, ABlendOfWoodAndCorduroyHasWeakerRibsOfTheSamePitch) {
     EXPECT_GT(half, 3.0 * shareOfLine(blend, 30.0)) << "there are no ribs at half the pitch";
 }
 
-TEST_F(BlendSoundTest, ABlendOfTwoRuledLabelsHasBothPitches) {
-    // At 0.15 m/s, corduroy has 60 Hz and the mesh's first wave vector 125 Hz.
-    const std::array<float, 2> velocity{0.15F, 0.0F};
-    const std::vector<float> blend = played({part("corduroy", 0.55F), part("metal mesh", 0.45F)}, velocity, 4.0);
-    const double mean = 0.5 * (60.0 + 125.0);
-    EXPECT_GT(shareOfLine(blend, 60.0), 2.0 * shareOfLine(blend, mean));
-    EXPECT_GT(shareOfLine(blend, 125.0), shareOfLine(blend, mean));
-}
-
-TEST_F(BlendSoundTest, ASweepFromWoodToCorduroyDoesNotClick) {
-    const std::array<float, 2> velocity{0.15F, 0.0F};
-    std::vector<TimedContactState> states;
-    for (int update = 0; update <= 288; ++update) {
-        const float share = static_cast<float>(update) / 288.0F;
-        std::vector<testing::LabelWeight> blend;
-        if (share < 1.0F) {
-            blend.push_back(part("wood", 1.0F - share));
-        }
-        if (share > 0.0F) {
-            blend.push_back(part("corduroy", share));
-        }
-        states.push_back(stateOf(update, velocity, blend));
-    }
-    const std::vector<float> sweep = render(states);
-    // The steps between samples must not exceed those of the louder label.
-    const std::vector<float> corduroy = played({part("corduroy", 1.0F)}, velocity, 4.0);
-    EXPECT_LT(haptoflow::testing::largestStep(sweep), 1.3F * haptoflow::testing::largestStep(corduroy));
-}
-
 }  // namespace
 }  // namespace haptoflow::engine

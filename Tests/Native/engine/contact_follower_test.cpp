@@ -143,15 +143,5 @@ TEST(ContactFollowerPlaceTest, AReversalAtTheSpeedOfHandwritingIsOneStroke) {
     }
 }
 
-TEST(ContactFollowerPlaceTest, AnotherSurfaceOfTheSameTouchDoesNotInterruptTheStroke) {
-    ContactFollower follower;
-    ContactState state = sliding(0.1F);
-    state.hasPlace = 1;
-    EXPECT_EQ(follower.update(state, 0.0), ContactAction::onset);
-    state.surfaceSeed = 9;
-    state.placeMetres = {5.0F, 0.0F, 0.0F};
-    EXPECT_EQ(follower.update(state, 0.01), ContactAction::slide);
-}
-
 }  // namespace
 }  // namespace haptoflow::engine

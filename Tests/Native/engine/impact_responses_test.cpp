@@ -64,24 +64,6 @@ TEST(ImpactResponsesTest, EveryLabelOfTheShippedModelHasTheTapOfAPieceOfItsName)
     }
 }
 
-TEST(ImpactResponsesTest, ABlendsResponseLiesBetweenItsLabelsAndUnknownLabelsAreSkipped) {
-    model::testing::ModelBuilder builder;
-    for (const auto& [label, frequencyHz] : {std::pair{0, 100.0}, {1, 400.0}}) {
-        const nlohmann::json mode = {
-            {"frequency_hz", frequencyHz}, {"decay_per_second", 70.0}, {"gain_per_second", 100.0}};
-        builder.header["labels"][label]["impact"] = {{"modes", nlohmann::json::array({mode})}, {"restitution", 0.0}};
-    }
-    const testing::SmallLibrary small(model::ModelFile::parse(builder.build()));
-    const auto frequencyOf = [&small](std::initializer_list<testing::LabelWeight> entries) {
-        return impactResponse(small.ingredients(entries)).modes[0].frequencyHz;
-    };
-    EXPECT_FLOAT_EQ(frequencyOf({{0, 1.0F}, {1, 0.0F}}), 100.0F);
-    EXPECT_FLOAT_EQ(frequencyOf({{0, 0.0F}, {1, 0.7F}}), 400.0F);
-    EXPECT_NEAR(frequencyOf({{0, 0.5F}, {1, 0.5F}}), 200.0F, 1e-3F);
-    EXPECT_FLOAT_EQ(frequencyOf({{0, 0.5F}, {99, 0.5F}}), 100.0F);
-    EXPECT_FLOAT_EQ(frequencyOf({}), 100.0F) << "an empty blend is the first label";
-}
-
 TEST(ImpactResponsesTest, ABlendOfTwoPiecesLiesBetweenTheirTaps) {
     model::testing::ModelBuilder builder;
     builder.header["labels"][0]["category"] = "glass";
@@ -95,20 +77,6 @@ TEST(ImpactResponsesTest, ABlendOfTwoPiecesLiesBetweenTheirTaps) {
     const auto both = tap({{0, 0.5F}, {1, 0.5F}});
     EXPECT_NEAR(both.frequencyHz, std::sqrt(glass.frequencyHz * fur.frequencyHz), 0.01F);
     EXPECT_NEAR(both.gainPerSecond, 0.5F * (glass.gainPerSecond + fur.gainPerSecond), 0.01F);
-}
-
-TEST(ImpactResponsesTest, AModeThatOneLabelLacksIsWeakerInTheBlend) {
-    model::testing::ModelBuilder builder;
-    const nlohmann::json mode = {{"frequency_hz", 90.0}, {"decay_per_second", 70.0}, {"gain_per_second", 100.0}};
-    const nlohmann::json ring = {{"frequency_hz", 600.0}, {"decay_per_second", 500.0}, {"gain_per_second", 40.0}};
-    builder.header["labels"][0]["impact"] = {{"modes", {mode, ring}}, {"restitution", 0.2}};
-    builder.header["labels"][1]["impact"] = {{"modes", nlohmann::json::array({mode})}, {"restitution", 0.0}};
-    const testing::SmallLibrary small(model::ModelFile::parse(builder.build()));
-    const effects::ImpactResponse response = impactResponse(small.ingredients({{0, 0.25F}, {1, 0.75F}}));
-    EXPECT_FLOAT_EQ(response.modes[0].gainPerSecond, 100.0F);
-    EXPECT_FLOAT_EQ(response.modes[1].frequencyHz, 600.0F);
-    EXPECT_FLOAT_EQ(response.modes[1].gainPerSecond, 10.0F);
-    EXPECT_FLOAT_EQ(response.restitution, 0.05F);
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ protected:
         return state;
     }
     static std::vector<float> rendered(const model::ModelFile& model, std::uint32_t label) {
-        inference::SkeletonGenerator generator(skeleton::readNativeParts(model), {}, 4);
+        inference::SkeletonGenerator generator(skeleton::readNativeParts(model), 4);
         std::vector<TimedContactState> states(36);
         for (std::size_t update = 0; update < states.size(); ++update) {
             static_cast<ContactState&>(states[update]) = slidingOver(testing::blendOf({{label, 1.0F}}));
@@ -42,7 +42,7 @@ protected:
 
 TEST_F(ImpulseGainTest, ABlendHasTheMeanByWeightAndEachOfItsPartsItsOwn) {
     const model::ModelFile model = modelWith(0.5F, 3.0F);
-    inference::SkeletonGenerator generator(skeleton::readNativeParts(model), {}, 4);
+    inference::SkeletonGenerator generator(skeleton::readNativeParts(model), 4);
     SimulatedDevice device(model, generator);
     device.voice().publisher.publish(slidingOver(testing::blendOf({{0, 0.75F}, {1, 0.25F}})));
     ASSERT_TRUE(device.voice().channels.toWorker.fetch());
@@ -56,7 +56,7 @@ TEST_F(ImpulseGainTest, ABlendHasTheMeanByWeightAndEachOfItsPartsItsOwn) {
 TEST_F(ImpulseGainTest, TheCallbacksSketchHasItToo) {
     const auto rungsOf = [](float gain) {
         const model::ModelFile model = modelWith(gain, 1.0F);
-        inference::SkeletonGenerator generator(skeleton::readNativeParts(model), {}, 4);
+        inference::SkeletonGenerator generator(skeleton::readNativeParts(model), 4);
         SimulatedDevice device(model, generator);
         device.voice().publisher.publish(slidingOver(testing::blendOf({{0, 1.0F}})));
         EXPECT_TRUE(device.voice().channels.toAudio.fetch());

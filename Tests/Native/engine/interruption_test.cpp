@@ -128,29 +128,6 @@ TEST_P(InterruptionTest, AStrengthSetInSilenceAppliesFromTheFirstSample) {
     EXPECT_EQ(testing::peak(std::span<const float>(device.output).subspan(end)), 0.0F);
 }
 
-TEST_P(InterruptionTest, ACeilingSetInSilenceAppliesFromTheFirstSample) {
-    SimulatedDevice device(model_, generator_, {.fullScaleMps2 = 0.01F});
-    const std::size_t end = interrupt(device);
-    device.controls().ceiling = 0.1F;
-    device.run(0.2, [this](double) { return motion().after; });
-    const float loudest = testing::peak(std::span<const float>(device.output).subspan(end));
-    EXPECT_LT(loudest, 0.1F);
-    EXPECT_GT(loudest, 0.05F);
-}
-
-TEST_P(InterruptionTest, AfterAPanicInSilenceOnlyTheNextTouchSounds) {
-    SimulatedDevice device(model_, generator_);
-    const std::size_t end = interrupt(device);
-    device.voice().channels.panic();
-    device.run(0.2, [this](double) { return motion().after; });
-    EXPECT_EQ(testing::peak(std::span<const float>(device.output).subspan(end)), 0.0F);
-    ContactState next = motion().after;
-    next.touchCounter = 2;
-    const std::size_t again = device.output.size();
-    device.run(0.2, [&next](double) { return next; });
-    EXPECT_GT(testing::peak(std::span<const float>(device.output).subspan(again)), 1e-4F);
-}
-
 TEST_P(InterruptionTest, ResumptionsAreCountedSeparatelyFromTouches) {
     SimulatedDevice device(model_, generator_);
     (void)interrupt(device);
@@ -164,17 +141,6 @@ TEST_P(InterruptionTest, ResumptionsAreCountedSeparatelyFromTouches) {
 INSTANTIATE_TEST_SUITE_P(Of, InterruptionTest,
                          ::testing::Combine(::testing::ValuesIn(interruptions()), ::testing::ValuesIn(motions())),
                          [](const auto& test) { return std::get<0>(test.param).name + std::get<1>(test.param).name; });
-
-TEST(StrengthTest, AStrengthOfZeroBeforeTheFirstTouchSilencesIt) {
-    const model::ModelFile model = testing::smallModel();
-    MotionGenerator generator;
-    SimulatedDevice device(model, generator);
-    device.renderBlock();
-    device.controls().strength = 0.0F;
-    device.publish(moving(0.3F, 2.0F));
-    device.run(0.1, [](double) { return moving(0.3F, 2.0F); });
-    EXPECT_EQ(testing::peak(device.output), 0.0F);
-}
 
 TEST(StrengthTest, AChangeOfStrengthWhileSoundingDoesNotClick) {
     const model::ModelFile model = testing::smallModel();

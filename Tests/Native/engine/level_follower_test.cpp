@@ -55,17 +55,6 @@ TEST(LevelFollowerTest, WhereASegmentTakesOverLevelAndGainChangeTogether) {
     EXPECT_NEAR(found[19], 1.0F, 1e-5F);
 }
 
-TEST(LevelFollowerTest, ALaterSegmentForTheSameStartReplacesTheEarlierOne) {
-    LevelFollower follower;
-    follower.begin(0, 1.0F);
-    follower.setLevel(1.0F);
-    follower.takeOver(10, 2.0F);
-    follower.takeOver(10, 1.0F);
-    for (const float gain : gains(follower, 0, 20)) {
-        ASSERT_EQ(gain, 1.0F);
-    }
-}
-
 TEST(LevelFollowerTest, TheGainStaysWithinTwelveDecibelsUpAndFortyDown) {
     LevelFollower follower;
     follower.begin(0, 0.001F);
@@ -120,26 +109,6 @@ TEST(LevelFollowerTest, AHundredSegmentsAheadOfTheHeadAreKeptWithinTheRoom) {
     }
     const std::vector<float> found = gains(follower, 0, 1200);
     EXPECT_NEAR(found[1100], 0.5F, 1e-5F);
-}
-
-TEST(LevelOfNewestStateTest, AFasterStrokeIsLouderBeforeItsSegmentArrives) {
-    const model::ModelFile model = testing::smallModel();
-    testing::MotionGenerator tone;
-    testing::DeviceSettings settings;
-    settings.blockFrames = 64;
-    settings.updateHz = 20.0;
-    settings.fixedLeadSamples = 60;
-    testing::SimulatedDevice device(model, tone, settings);
-    device.run(0.999, [](double) { return testing::sliding(0.05F); });
-    const std::size_t before = device.waveform.samples.size();
-    // The state at 1 s; its segment follows 30 ms later.
-    device.run(0.02, [](double) { return testing::sliding(0.1F); });
-    const std::span<const float> played = device.waveform.samples;
-    const auto peakOf = [&](std::size_t first, std::size_t count) {
-        return testing::peak(played.subspan(first, count));
-    };
-    const float quiet = peakOf(before - 100, 80);
-    EXPECT_NEAR(peakOf(before + 15, 22) / quiet, 2.0F, 0.05F);
 }
 
 }  // namespace

@@ -221,24 +221,6 @@ TEST_F(LiveEngineTest, AutomaticQualityMeasuresEveryTierAtRestAndThenDecides) {
     }
 }
 
-TEST_F(LiveEngineTest, TwoRateChangesAtRestAreHandledBeforeTheNextTouch) {
-    const auto engine = this->engine(settings(true));
-    const auto voice = engine->addVoice(48000.0);
-    std::vector<float> block(256);
-    for (const double rateHz : {44100.0, 24000.0, 48000.0}) {
-        const std::uint64_t changes = voice->channels.counters.rateChanges;
-        for (int update = 0; update < 5000 && voice->channels.counters.rateChanges == changes; ++update) {
-            engine->publish(*voice, testing::lifted(0));
-            voice->renderer.render(block, rateHz);
-            std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        }
-        EXPECT_EQ(voice->channels.counters.rateChanges, changes + 1) << rateHz;
-    }
-    engine->publish(*voice, testing::sliding());
-    voice->renderer.render(block, 48000.0);
-    EXPECT_GT(testing::peak(block), 0.0F) << "the seed must sound in the next block";
-}
-
 TEST_F(LiveEngineTest, AVoiceWithAStoppedDeviceDoesNotBlockOtherVoices) {
     const auto engine = this->engine(settings(true));
     const auto stoppedVoice = engine->addVoice(48000.0);
@@ -358,13 +340,6 @@ TEST_F(LiveEngineTest, TheMessageOfTheNewestFailureIsKept) {
         voice->renderer.render(block, 48000.0);
     }
     EXPECT_EQ(engine.statistics().failedRounds, 2U);
-}
-
-TEST_F(LiveEngineTest, TheStatisticsShowWhetherTheWorkerRuns) {
-    const auto engine = this->engine(settings(true));
-    EXPECT_TRUE(engine->statistics().workerAlive);
-    engine->stop();
-    EXPECT_FALSE(engine->statistics().workerAlive);
 }
 
 TEST_F(LiveEngineTest, SettingsOutOfRangeAreRejected) {

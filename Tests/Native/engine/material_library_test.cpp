@@ -56,16 +56,6 @@ TEST(MaterialLibraryTest, ARegisteredMaterialHasAnIndexAfterTheLabels) {
     EXPECT_EQ(small.ingredients({{4, 1.0F}}).heaviest().index, 0U) << "no material is registered at that index yet";
 }
 
-TEST(MaterialLibraryTest, AMaterialOfAnotherModelIsRejectedAndTakesNoIndex) {
-    SmallLibrary small;
-    const auto foreign = [&] { return materialOf(small.model, [](json& text) { text["space"] = "00000000"; }); };
-    EXPECT_THROW((void)small.library.add(foreign(), small.levels()), model::MaterialMismatch);
-    EXPECT_EQ(small.library.registeredCount(), 0U);
-    (void)small.library.add(materialOf(small.model), small.levels());
-    EXPECT_THROW(small.library.replace(2, foreign(), small.levels()), model::MaterialMismatch);
-    EXPECT_EQ(nameOf(small.library, 2), "denim");
-}
-
 TEST(MaterialLibraryTest, AFullLibraryAndInvalidIndicesAreRejected) {
     SmallLibrary small;
     for (std::size_t count = 0; count < MaterialLibrary::maximumRegistered; ++count) {
@@ -76,14 +66,6 @@ TEST(MaterialLibraryTest, AFullLibraryAndInvalidIndicesAreRejected) {
         EXPECT_THROW(small.library.replace(index, materialOf(small.model), small.levels()), std::invalid_argument);
         EXPECT_THROW((void)nameOf(small.library, index), std::invalid_argument);
     }
-}
-
-TEST(MaterialLibraryTest, AReplacedMaterialIsUsedAtTheNextLookup) {
-    SmallLibrary small;
-    (void)small.library.add(materialOf(small.model), small.levels());
-    small.library.replace(2, materialOf(small.model, [](json& text) { text["embedding"][5] = -2.0; }), small.levels());
-    EXPECT_EQ(resolveMaterial(small.ingredients({{2, 1.0F}})).embedding[5], -2.0F);
-    EXPECT_EQ(small.library.registeredCount(), 1U);
 }
 
 TEST(MaterialLibraryTest, OnlyAMaterialWithoutItsOwnLevelUsesTheLevelGraph) {

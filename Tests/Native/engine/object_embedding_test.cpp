@@ -131,14 +131,6 @@ protected:
     testing::SmallLibrary small_{goldenModel()};
 };
 
-TEST_F(ObjectEmbeddingTest, WithoutVariationAnObjectIsItsLabelToTheBit) {
-    for (const std::uint32_t seed : {0U, 1U, 4'000'000'000U}) {
-        for (std::size_t label = 0; label < 2; ++label) {
-            EXPECT_TRUE(std::ranges::equal(embedding(label, {seed, 0.0F}), small_.model.embedding(label)));
-        }
-    }
-}
-
 TEST_F(ObjectEmbeddingTest, TwoSeedsDifferAndOneSeedNeverDoes) {
     const testing::SmallLibrary another(goldenModel());
     for (std::uint32_t seed = 0; seed < 200; ++seed) {
@@ -155,12 +147,6 @@ TEST_F(ObjectEmbeddingTest, ASeedMakesTheSameObjectOnEveryPlatform) {
     }
     // As first drawn, on Linux x64.
     EXPECT_EQ(model::crc32(model::testing::bytesOf(numbers)), 3'827'620'593U);
-}
-
-TEST_F(ObjectEmbeddingTest, TheWaveVectorsOfAnObjectAreThoseOfItsLabel) {
-    for (std::uint32_t seed = 0; seed < 20; ++seed) {
-        EXPECT_EQ(waveVectorsOf(embedding(1, {seed, 1.0F})), waveVectorsOf(small_.model.embedding(1)));
-    }
 }
 
 TEST_F(ObjectEmbeddingTest, ManyObjectsHaveTheMeanAndTheCovarianceOfTheRecordedPieces) {
@@ -202,26 +188,6 @@ TEST_F(ObjectEmbeddingTest, TheLevelOfObjectsIsSpreadAsThatOfTheRecordedPieces) 
     }
 }
 
-TEST_F(ObjectEmbeddingTest, TheSpectrumOfObjectsIsSpreadAsThatOfTheRecordedPieces) {
-    const auto skeleton = skeleton::readSkeleton(small_.model);
-    const skeleton::Motion motion{0.1F, 0.0F, 1.0F};
-    for (const double hz : {30.0, 100.0, 250.0, 600.0}) {
-        expectSpreadOfPieces([&](const Embedding& each) {
-            const skeleton::Phases phases{};
-            const auto filter =
-                skeleton
-                    ->parametersFor(skeleton::conditionOf(each, motion, phases), skeleton::Skeleton::familiesOf(phases))
-                    .filter;
-            std::complex<double> denominator = 1.0;
-            for (std::size_t delay = 0; delay < filter.coefficients.size(); ++delay) {
-                denominator += filter.coefficients[delay] *
-                               std::polar(1.0, -2.0 * std::numbers::pi * hz / 2000.0 * static_cast<double>(delay + 1));
-            }
-            return filter.logGain - std::log(std::abs(denominator));
-        });
-    }
-}
-
 TEST_F(ObjectEmbeddingTest, ABlendsIngredientsHaveTheirOwnOffsetsByTheirWeights) {
     const ObjectIdentity object{.surfaceSeed = 11, .variation = 0.8F};
     const Material mixed = resolveMaterial(small_.ingredients({{0, 3.0F}, {1, 1.0F}}), {}, object);
@@ -236,15 +202,6 @@ TEST_F(ObjectEmbeddingTest, ABlendsIngredientsHaveTheirOwnOffsetsByTheirWeights)
 TEST(ObjectWithoutPiecesTest, AModelWithoutRecordedPiecesHasNoVariation) {
     const testing::SmallLibrary small;
     EXPECT_TRUE(small.model.pieceOffsets(0).empty());
-    const Ingredients alone = small.ingredients({{1, 1.0F}});
-    EXPECT_TRUE(std::ranges::equal(embeddingOf(*alone.entries[0].material, {5, 1.0F}), small.model.embedding(1)));
-}
-
-TEST(ObjectWithoutPiecesTest, ASinglePieceTellsOfNoVariation) {
-    model::testing::ModelBuilder builder;
-    builder.blobs.push_back(
-        {"pieces", "float32", {2, 1, 60}, model::testing::bytesOf(std::vector<float>(2 * textureSize))});
-    const testing::SmallLibrary small(model::ModelFile::parse(builder.build()));
     const Ingredients alone = small.ingredients({{1, 1.0F}});
     EXPECT_TRUE(std::ranges::equal(embeddingOf(*alone.entries[0].material, {5, 1.0F}), small.model.embedding(1)));
 }

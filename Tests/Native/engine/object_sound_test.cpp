@@ -70,7 +70,7 @@ protected:
         return state;
     }
     static std::vector<float> rendered(const model::ModelFile& model, std::uint32_t seed, float variation) {
-        inference::SkeletonGenerator generator(skeleton::readNativeParts(model), {}, 4);
+        inference::SkeletonGenerator generator(skeleton::readNativeParts(model), 4);
         std::vector<TimedContactState> states;
         states.reserve(36);
         for (int update = 0; update < 36; ++update) {
@@ -92,7 +92,7 @@ protected:
 
     model::ModelFile model_ = skeleton::testing::read(modelOfPieces());
     skeleton::NativeParts native_ = skeleton::readNativeParts(model_);
-    inference::SkeletonGenerator skeleton_{native_, {}, 4};
+    inference::SkeletonGenerator skeleton_{native_, 4};
     MaterialLibrary library_{model_, skeleton_};
 };
 
@@ -146,29 +146,6 @@ TEST_F(ObjectSoundTest, ABlendHasItsIngredientsOffsetsAndTheLevelOfItsLabels) {
                     0.5F * (drawn.blend.parts[0].embedding[j] + drawn.blend.parts[1].embedding[j]), 1e-5F);
     }
     EXPECT_EQ(drawn.material.level.levelMps2, mean.material.level.levelMps2);
-}
-
-TEST_F(ObjectSoundTest, WithoutAPlaceTheObjectIsTheSame) {
-    ContactState state = slideAt(0.0, 7, 1.0F);
-    const auto placed = published(state).material.embedding;
-    state.hasPlace = 0;
-    EXPECT_EQ(published(state).material.embedding, placed);
-}
-
-TEST_F(ObjectSoundTest, AVariationThatIsNotANumberIsNoneAndIsCounted) {
-    SimulatedDevice device(model_, skeleton_);
-    device.voice().publisher.publish(slideAt(0.0, 7, std::numeric_limits<float>::quiet_NaN()));
-    EXPECT_EQ(device.counters().sanitised, 1U);
-    ASSERT_TRUE(device.voice().channels.toWorker.fetch());
-    EXPECT_TRUE(std::ranges::equal(device.voice().channels.toWorker.current().material.embedding, model_.embedding(0)));
-}
-
-TEST_F(ObjectSoundTest, ARegisteredMaterialHasNoVariation) {
-    testing::SmallLibrary small(skeleton::testing::read(modelOfPieces()));
-    const auto text = model::testing::validMaterial(model::spaceOf(model_.header())).dump();
-    const auto index = static_cast<std::uint32_t>(small.library.add(model::parseMaterial(text), small.levels()));
-    const PreparedMaterial& registered = *small.ingredients({{index, 1.0F}}).entries[0].material;
-    EXPECT_TRUE(std::ranges::equal(embeddingOf(registered, {7, 1.0F}), registered.embedding));
 }
 
 TEST_F(ObjectSoundTest, AChangeOfTheObjectWithinATouchMakesNoClick) {

@@ -101,22 +101,6 @@ TEST(OfflineRendererTest, AStreamedRenderArrivesPerUpdateAndHasTheSameStatistics
     EXPECT_EQ(streamed.seamStatistics.jumpRatio, whole.seamStatistics.jumpRatio);
 }
 
-TEST(OfflineRendererTest, TouchesWithoutASoundAreCounted) {
-    const model::ModelFile model = testing::smallModel();
-    FakeGenerator generator(whiteNoise);
-    std::vector<TimedContactState> states = slide(0.99);
-    for (std::size_t i = 0; i < states.size(); ++i) {
-        // Three touches of 20 states with gaps of 4 states; the tip rests in the second touch.
-        const std::size_t touch = i / 24;
-        states[i].touching = i % 24 < 20;
-        states[i].touchCounter = static_cast<std::uint32_t>(touch + 1);
-        states[i].velocityMps = {touch == 1 ? 0.0F : 0.1F, 0.0F};
-    }
-    const OfflineRender render = renderOffline(model, generator, states, {});
-    EXPECT_EQ(render.touches, 3U);
-    EXPECT_EQ(render.silentTouches, 1U);
-}
-
 TEST(OfflineRendererTest, EverySegmentContinuesTheCommittedSamples) {
     const model::ModelFile model = testing::smallModel();
     FakeGenerator generator(continueTone);
@@ -144,18 +128,6 @@ TEST(OfflineRendererTest, WithoutTouchNothingIsGeneratedAndTheOutputIsZero) {
     EXPECT_EQ(generator.generated, 0);
     EXPECT_EQ(render.peak, 0.0);
     EXPECT_TRUE(render.waveformMps2.empty());
-}
-
-TEST(OfflineRendererTest, ATipAtRestOnTheSurfaceNeedsNoInference) {
-    const model::ModelFile model = testing::smallModel();
-    FakeGenerator generator(whiteNoise);
-    std::vector<TimedContactState> states = slide(1.0);
-    for (ContactState& state : states) {
-        state.velocityMps = {0.0F, 0.0F};
-    }
-    const OfflineRender render = renderOffline(model, generator, states, {});
-    EXPECT_EQ(generator.generated, 0);
-    EXPECT_EQ(render.skipped, states.size());
 }
 
 TEST(OfflineRendererTest, AfterAFailedRunTheOutputFadesAndTheFailureIsCounted) {
@@ -206,19 +178,6 @@ TEST(OfflineRendererTest, InvalidStatesAreSanitisedAndCountedAndTheOutputIsFinit
     EXPECT_TRUE(std::ranges::all_of(render.samples, [](float sample) { return std::abs(sample) < 1.0F; }));
 }
 
-class UpdateRateTest : public ::testing::TestWithParam<double> {};
-
-TEST_P(UpdateRateTest, EveryUpdateOfASlideGivesOneSegmentAndNoUnderrun) {
-    const model::ModelFile model = testing::smallModel();
-    FakeGenerator generator(continueTone);
-    const std::vector<TimedContactState> states = slide(1.0, GetParam());
-    const OfflineRender render = renderOffline(model, generator, states, {});
-    EXPECT_EQ(generator.generated, static_cast<int>(states.size()));
-    EXPECT_EQ(render.underruns, 0U);
-}
-
-INSTANTIATE_TEST_SUITE_P(Hertz, UpdateRateTest, ::testing::Values(30.0, 45.0, 72.0, 90.0, 120.0, 500.0, 1000.0),
-                         [](const auto& rate) { return std::to_string(static_cast<int>(rate.param)); });
 
 TEST(OfflineRendererTest, ANewLabelIsAudibleAfterTheLead) {
     const model::ModelFile model = testing::smallModel();

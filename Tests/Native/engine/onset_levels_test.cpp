@@ -121,14 +121,6 @@ TEST_F(OnsetLevelsTest, BeyondTheRangeAndAtRestTheLevelIsThatOfTheEdge) {
     EXPECT_EQ(oak({0.01F, 0.0F, 0.1F}), oak({0.0F, 0.0F, 0.0F}));
 }
 
-TEST_F(OnsetLevelsTest, UnknownLabelsAreSkippedAndAnEmptyBlendIsTheFirstLabel) {
-    const std::array<float, 3> motion{0.1F, 0.0F, 1.0F};
-    const float first = levelOf({{.label = 0, .weight = 1.0F}}, motion);
-    EXPECT_EQ(levelOf({}, motion), first);
-    EXPECT_EQ(levelOf({{.label = 900, .weight = 1.0F}, {.label = 0, .weight = 0.1F}}, motion), first);
-    EXPECT_EQ(levelOf({{.label = 1, .weight = 0.0F}}, motion), first);
-}
-
 TEST(OnsetLevelsCostTest, TheGraphIsEvaluatedAt640PointsForEachEmbedding) {
     EXPECT_EQ(levelsAskedFor(2, 2), 2U * 640U);
     EXPECT_EQ(levelsAskedFor(64, 64), 64U * 640U);
@@ -137,21 +129,6 @@ TEST(OnsetLevelsCostTest, TheGraphIsEvaluatedAt640PointsForEachEmbedding) {
 
 TEST(OnsetLevelsCostTest, LabelsWithTheSameEmbeddingNeedNoFurtherEvaluations) {
     EXPECT_EQ(levelsAskedFor(4096, 16), 16U * 640U);
-}
-
-TEST(OnsetLevelsCostTest, LabelsWithTheSameEmbeddingHaveTheSameLevel) {
-    PowerLaw graph;
-    const model::ModelFile model = modelWithLabels(40, 8);
-    const OnsetLevels levels(model, graph);
-    const auto levelOf = [&levels](std::uint32_t label) {
-        return std::exp(levels.grid().at(levels.table(label), {0.1F, 0.0F, 1.0F}));
-    };
-    for (std::uint32_t label = 2; label < 40; ++label) {
-        const double found = levelOf(label);
-        const double truth = level(0.1, 0.0, 1.0, static_cast<double>(model.embedding(label)[3]));
-        EXPECT_LT(decibels(found / truth), 0.01) << label;
-        EXPECT_EQ(found, levelOf(label % 8)) << label;
-    }
 }
 
 TEST(OnsetLevelsCostTest, ACancellationEndsTheTabulationWithinOneBatch) {

@@ -44,26 +44,6 @@ TEST_F(PanicTest, ATouchAfterAPanicInSilenceSoundsInTheNextBlock) {
     }
 }
 
-TEST_F(PanicTest, APanicBeforeTheFirstStateSilencesNothing) {
-    for (const std::uint32_t number : {0U, 1U}) {
-        SimulatedDevice device(model_, tone_);
-        panic(device);
-        device.publish(touch(number));
-        device.renderBlock();
-        EXPECT_GT(testing::peak(device.output), audible) << "touch " << number;
-    }
-}
-
-TEST_F(PanicTest, AFirstTouchWithCounterZeroIsSilenced) {
-    SimulatedDevice device(model_, tone_);
-    device.run(0.3, [](double) { return touch(0); });
-    ASSERT_GT(testing::peak(device.output), audible);
-    panic(device);
-    const std::size_t begin = device.output.size();
-    device.run(0.3, [](double) { return touch(0); });
-    EXPECT_EQ(testing::peak(from(device, begin + 256)), 0.0F);
-}
-
 TEST_F(PanicTest, ANewTouchInTheSameBlockSoundsAfterTheOldOneIsSilent) {
     SimulatedDevice device(model_, tone_);
     device.run(0.3, [](double) { return touch(1); });
@@ -76,19 +56,6 @@ TEST_F(PanicTest, ANewTouchInTheSameBlockSoundsAfterTheOldOneIsSilent) {
     device.renderBlock();
     EXPECT_GT(testing::peak(from(device, begin + 256)), audible) << "the new touch must sound with the next block";
     EXPECT_LE(testing::largestStep(from(device, begin - 1)), 3.0F * ordinaryStep);
-}
-
-TEST_F(PanicTest, ATapAfterAPanicSounds) {
-    SimulatedDevice device(model_, tone_);
-    device.run(0.3, [](double) { return touch(1); });
-    panic(device);
-    device.publish(touch(2));
-    device.publish(testing::lifted(2));
-    const std::size_t begin = device.output.size();
-    device.renderBlock();
-    device.renderBlock();
-    EXPECT_GT(testing::peak(from(device, begin + 256)), audible);
-    EXPECT_EQ(device.counters().taps, 1U);
 }
 
 TEST_F(PanicTest, TouchesWithoutACounterAreSeparatedByLiftOff) {
@@ -114,19 +81,6 @@ TEST_F(PanicTest, ASecondPanicAlsoSilencesTheTouchBetween) {
     const std::size_t again = device.output.size();
     device.run(0.1, [](double) { return touch(3); });
     EXPECT_GT(testing::peak(from(device, again)), audible);
-}
-
-TEST_F(PanicTest, APanicOutlastsMuteAndPauseOfTheSameTouch) {
-    SimulatedDevice device(model_, tone_);
-    device.run(0.3, [](double) { return touch(1); });
-    device.controls().muted = true;
-    panic(device);
-    device.run(0.1, [](double) { return touch(1); });
-    device.controls().muted = false;
-    const std::size_t begin = device.output.size();
-    device.run(0.2, [](double) { return touch(1); });
-    EXPECT_EQ(testing::peak(from(device, begin)), 0.0F);
-    EXPECT_EQ(device.voice().channels.silence.load(), Silence::panic);
 }
 
 TEST_F(PanicTest, AnEmptyBlockDoesNotEndAPanic) {

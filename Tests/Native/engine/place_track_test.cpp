@@ -34,16 +34,6 @@ TEST(PlaceTrackTest, ASegmentBeginsWhereTheTipWillBeWhenItSounds) {
     EXPECT_NEAR(stretch.path.stepMetres[2], 0.2 / 2000.0, 1e-9);
 }
 
-TEST(PlaceTrackTest, ALargerScaleAndAFasterReadingShrinkTheWay) {
-    PlaceTrack track(1, 0);
-    PublishedContact contact = contactAt({0.1F, 0.2F, 0.3F}, {0.2F, 0.0F});
-    contact.state.spatialScale = 2.0F;
-    contact.ranged.readingRate = 1.25;
-    const SurfaceStretch stretch = track.at(contact, 0, 0.0);
-    EXPECT_NEAR(stretch.path.startMetres[2], 0.15, 1e-7);
-    EXPECT_NEAR(stretch.path.stepMetres[2], 0.1 / 2500.0, 1e-9);
-}
-
 TEST(PlaceTrackTest, SurfacesAndEnginesWithOtherSeedsHaveOtherFieldsAndVoicesShareThem) {
     const PublishedContact contact = contactAt({}, {0.1F, 0.0F});
     PublishedContact other = contact;

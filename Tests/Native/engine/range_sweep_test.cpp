@@ -85,21 +85,5 @@ TEST_F(RangeSweepTest, FromStandstillToTwoMetresASecondTheLevelHasNeitherAStepNo
     }
 }
 
-TEST_F(RangeSweepTest, FromATouchToTenNewtonsTheLevelHasNeitherAStepNorAKink) {
-    const std::vector<double> forces = sweep(0.02, 10.0, steps);
-    std::vector<std::array<float, 3>> motions;
-    for (const double newtons : forces) {
-        motions.push_back({0.15F, 0.1F, static_cast<float>(newtons)});
-    }
-    for (std::size_t label = 0; label < model_.header().labels.size(); ++label) {
-        const std::vector<double> decibels = levels(label, motions);
-        for (std::size_t i = 1; i < decibels.size(); ++i) {
-            ASSERT_LT(std::abs(decibels[i] - decibels[i - 1]), 1.0) << model_.header().labels[label].name;
-        }
-        EXPECT_LT(largestKink(decibels, std::log2(forces[1] / forces[0])), largestAllowedKink)
-            << model_.header().labels[label].name;
-    }
-}
-
 }  // namespace
 }  // namespace haptoflow::engine

@@ -81,18 +81,6 @@ TEST_F(SilenceTest, AStrengthOrACeilingOfZeroIsAReason) {
     }
 }
 
-TEST_F(SilenceTest, AnImpactAtStrengthZeroIsSilentForThatReason) {
-    SimulatedDevice device(model_, tone_);
-    device.controls().strength = 0.0F;
-    ContactState landing = testing::sliding(0.0F);
-    landing.approachSpeedMps = 1.0F;
-    landing.effects = effects::maskOf(effects::EffectKind::impact);
-    device.publish(landing);
-    device.renderBlock();
-    EXPECT_EQ(reason(device), Silence::turnedDown);
-    EXPECT_EQ(testing::peak(device.output), 0.0F);
-}
-
 TEST_F(SilenceTest, OfSeveralReasonsTheMostPersistentIsReported) {
     SimulatedDevice device(model_, tone_);
     device.run(0.2, slide);
@@ -163,31 +151,6 @@ TEST_F(SilenceTest, AnUnsupportedRateIsCountedAndDoesNotWakeTheWorker) {
     }
 }
 
-TEST_F(SilenceTest, ATapAtAnUnsupportedRateIsNotPlayedLater) {
-    SimulatedDevice device(model_, tone_);
-    device.run(0.05, [](double) { return testing::lifted(0); });
-    device.setRate(1.0e6);
-    device.publish(testing::sliding());
-    device.publish(testing::lifted(1));
-    device.run(0.05, [](double) { return testing::lifted(1); });
-    device.setRate(48000.0);
-    device.run(0.1, [](double) { return testing::lifted(1); });
-    EXPECT_EQ(testing::peak(device.output), 0.0F) << "the tap is not played later";
-    EXPECT_EQ(device.counters().taps, 0U);
-    const std::size_t next = device.output.size();
-    ContactState touch = testing::sliding();
-    touch.touchCounter = 2;
-    device.run(0.05, [&touch](double) { return touch; });
-    EXPECT_GT(testing::peak(std::span<const float>(device.output).subspan(next)), 0.2F / 60.0F);
-}
-
-TEST_F(SilenceTest, CreatingAVoiceForAnUnsupportedRateIsRejected) {
-    FakeGenerator tone(testing::continueTone);
-    for (const double impossible : {0.0, 7999.0, 192001.0, std::numeric_limits<double>::quiet_NaN()}) {
-        EXPECT_THROW(SimulatedDevice(model_, tone, {.rateHz = impossible}), std::invalid_argument) << impossible;
-    }
-}
-
 TEST_F(SilenceTest, AnOnsetReadsOnlyItsBlockAndTheResamplersDelay) {
     // The filters' histories are filled directly, without rendering samples that are not played.
     for (const double rateHz : {8000.0, 48000.0, 192000.0}) {
@@ -208,14 +171,6 @@ TEST_F(SilenceTest, ATapInTheFirstPublishedStateSounds) {
     device.renderBlock();
     EXPECT_GT(testing::peak(device.output), 0.2F / 60.0F);
     EXPECT_EQ(device.counters().taps, 1U);
-}
-
-TEST_F(SilenceTest, AFirstStateWithOnlyEarlierTouchesIsSilent) {
-    SimulatedDevice device(model_, tone_);
-    device.publish(testing::lifted(9));
-    device.renderBlock();
-    EXPECT_EQ(testing::peak(device.output), 0.0F);
-    EXPECT_EQ(device.counters().taps, 0U);
 }
 
 TEST_F(SilenceTest, CrossingTheEdgeOfTheRangeDoesNotClick) {

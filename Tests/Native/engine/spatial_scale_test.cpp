@@ -119,16 +119,5 @@ TEST_F(SpatialScaleTest, TheRibPitchIsDividedByTheScale) {
     }
 }
 
-TEST_F(SpatialScaleTest, AChangeOfScaleWithinATouchMakesNoPhaseJump) {
-    SimulatedDevice device(model_, generator_);
-    device.run(1.0, [](double seconds) { return scaled(seconds < 0.3 ? 1.0F : seconds < 0.6 ? 2.0F : 0.5F); });
-    ASSERT_EQ(device.counters().dropped + device.counters().late, 0U);
-    for (std::size_t segment = 2; segment < device.waveform.seams.size(); ++segment) {
-        // The phase advances between segments at the rate of the earlier one.
-        const double expected = 0.2 * static_cast<double>(requested_[segment - 1].motion[0]) * 1000.0 / 2000.0;
-        EXPECT_NEAR(turnsPerSample(device, segment), expected, 1e-5) << segment;
-    }
-}
-
 }  // namespace
 }  // namespace haptoflow::engine

@@ -49,11 +49,6 @@ TEST(TapPiecesTest, AllPairsOfTapsButTheNamedOnesDifferNoticeablyInFrequencyOrDe
     }
 }
 
-TEST(TapPiecesTest, MetalAndGlassHaveDifferentMainModes) {
-    EXPECT_GT(ratioOf(tapOn(pieceNamed("metal")).modes[0].frequencyHz, tapOn(pieceNamed("glass")).modes[0].frequencyHz),
-              noticeableFrequencyRatio);
-}
-
 TEST(TapPiecesTest, AThickerAStifferAndASmallerPlateSoundHigher) {
     const TapPiece plate = pieceNamed("wood");
     const float before = tapOn(plate).modes[0].frequencyHz;

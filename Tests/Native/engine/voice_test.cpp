@@ -67,19 +67,6 @@ TEST(VoiceTest, TheSeedSoundsAtOnceWithAConstantDelay) {
     EXPECT_NEAR(std::sqrt(squares / 800.0), 0.1, 0.003);
 }
 
-TEST(VoiceTest, AReleasedVoiceIsSilentWithinFiveMillisecondsWithoutAClick) {
-    Voice voice(playedRateHz, 60.0F, unreadFigures);
-    voice.onset(toneSeed(6.0F), 1.0F);
-    std::vector<float> output = renderSamples(voice, 2000);
-    const float ordinaryStep = testing::largestStep(output);
-    voice.release();
-    const std::vector<float> ending = renderSamples(voice, 480);
-    output.insert(output.end(), ending.begin(), ending.end());
-    EXPECT_TRUE(std::all_of(ending.begin() + 240, ending.end(), [](float sample) { return sample == 0.0F; }));
-    EXPECT_LE(testing::largestStep(output), 1.5F * ordinaryStep);
-    EXPECT_TRUE(voice.isSilent());
-}
-
 TEST(VoiceTest, ATouchDuringAFadeStartsWithoutAStep) {
     Voice voice(playedRateHz, 60.0F, unreadFigures);
     voice.onset(toneSeed(6.0F), 1.0F);
@@ -142,28 +129,6 @@ TEST(VoiceTest, InsideTheRangeTheFiltersDelayByAtMostOneAndAHalfMilliseconds) {
     const double seconds = static_cast<double>(half - output.begin()) / playedRateHz;
     EXPECT_GE(seconds, readAt - 0.0005) << "the step cannot be output before it was read";
     EXPECT_LE(seconds - readAt, 0.0015);
-}
-
-TEST(VoiceTest, AHigherReadingRateRaisesTheFrequency) {
-    Voice voice(playedRateHz, 60.0F, unreadFigures);
-    voice.setRangeLaw(1.0, 2.0);
-    voice.onset(toneSeed(6.0F), 1.0F);
-    voice.setRangeLaw(1.0, 2.0);
-    renderSamples(voice, 2000);
-    std::array<float, 200> segment{};
-    const std::int64_t start = voice.timeline().head();
-    for (std::size_t i = 0; i < segment.size(); ++i) {
-        const double t = static_cast<double>(start + static_cast<std::int64_t>(i)) / 2000.0;
-        segment[i] = static_cast<float>(6.0 * std::sin(2.0 * std::numbers::pi * 120.0 * t));
-    }
-    ASSERT_EQ(voice.commit(start, segment, 1.0F), start);
-    const std::vector<float> output = renderSamples(voice, 1900);
-    int crossings = 0;
-    for (std::size_t i = 700; i < 1900; ++i) {
-        crossings += (output[i - 1] < 0.0F) != (output[i] < 0.0F) ? 1 : 0;
-    }
-    // A tone of 240 Hz has 480 zero crossings per second.
-    EXPECT_NEAR(crossings, 12, 1);
 }
 
 }  // namespace

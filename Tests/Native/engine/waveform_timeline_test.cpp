@@ -116,15 +116,6 @@ TEST(WaveformTimelineTest, ASegmentForAPlayedStartIsSplicedWithThePlayedWave) {
     }
 }
 
-TEST(WaveformTimelineTest, ClearingRemovesEarlierSplices) {
-    WaveformTimeline timeline;
-    timeline.open(countingSeed());
-    timeline.commit(timeline.head(), constantSegment(5.0F));
-    timeline.clear();
-    timeline.commit(timeline.head(), constantSegment(7.0F));
-    EXPECT_EQ(readSamples(timeline, 10), std::vector<float>(10, 7.0F));
-}
-
 TEST(WaveformTimelineTest, TheHistoryIncludesCommittedSamplesNotYetPlayed) {
     WaveformTimeline timeline;
     timeline.open(countingSeed());
@@ -206,16 +197,6 @@ TEST(WaveformTimelineTest, TheClockIsExactOverADayOfSegments) {
     EXPECT_EQ(timeline.head() - origin, dayOfBlocks * 1000);
     EXPECT_EQ(timeline.commit(timeline.head(), constantSegment(2.0F)), timeline.head());
     EXPECT_EQ(readSamples(timeline, 100).back(), 2.0F);
-}
-
-TEST(WaveformTimelineTest, AClearedTimelineHasASilentPast) {
-    WaveformTimeline timeline;
-    timeline.open(countingSeed());
-    timeline.clear();
-    Segment past = constantSegment(1.0F);
-    timeline.history(timeline.head(), past);
-    EXPECT_TRUE(std::ranges::all_of(past, [](float sample) { return sample == 0.0F; }));
-    EXPECT_EQ(readSamples(timeline, 1).front(), 0.0F);
 }
 
 }  // namespace

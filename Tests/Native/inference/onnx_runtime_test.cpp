@@ -48,22 +48,9 @@ TEST(OnnxRuntimeTest, ALibraryOtherThanOnnxRuntimeIsRejected) {
     EXPECT_THAT(refusalOf([] { (void)Runtime::open("libm.so.6"); }), ::testing::HasSubstr("OrtGetApiBase"));
 }
 
-TEST(OnnxRuntimeTest, ANullApiBaseIsRejected) {
-    EXPECT_THAT(refusalOf([] { (void)Runtime::fromApiBase(nullptr); }), ::testing::HasSubstr("returned nothing"));
-}
-
 TEST(OnnxRuntimeTest, AVersionWithoutTheRequiredApiIsRejected) {
     const OrtApiBase base{noApi, oldVersion};
     EXPECT_THAT(refusalOf([&] { (void)Runtime::fromApiBase(&base); }), ::testing::HasSubstr("1.2.3 is too old: 1.16"));
-}
-
-TEST(OnnxRuntimeTest, SeveralRuntimesCanExistAtTheSameTime) {
-    auto first = Runtime::open(HAPTOFLOW_TEST_ONNXRUNTIME);
-    const auto second = Runtime::open(HAPTOFLOW_TEST_ONNXRUNTIME);
-    first.reset();
-    EXPECT_NO_THROW(second->check(nullptr, "nothing"));
-    OrtStatus* status = second->api().CreateStatus(ORT_FAIL, "made by the test");
-    EXPECT_THROW(second->check(status, "a failure"), InferenceError);
 }
 
 TEST(OnnxRuntimeTest, AnErrorNamesTheOperationAndTheReason) {

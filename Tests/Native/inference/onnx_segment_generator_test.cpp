@@ -79,13 +79,6 @@ TEST(OnnxSegmentGeneratorTest, ABatchOfVoicesNeedsOneRunPerEvaluation) {
     EXPECT_EQ(generator.runCounts().field, 16U);
 }
 
-TEST(OnnxSegmentGeneratorTest, ProbeRunsAreNotCounted) {
-    const OnnxSegmentGenerator generator = makeGenerator("latent", {});
-    EXPECT_EQ(generator.runCounts().level + generator.runCounts().field + generator.runCounts().encoder +
-                  generator.runCounts().decoder,
-              0U);
-}
-
 TEST(OnnxSegmentGeneratorTest, RequestsBeyondTheMaximumBatchAreSplit) {
     const auto requests = goldenBatch().requests();
     OnnxSegmentGenerator whole = makeGenerator("standard", {SolverKind::midpoint, 2}, 3);
@@ -109,13 +102,6 @@ TEST(OnnxSegmentGeneratorTest, ARequestGivesTheSameSegmentAloneAndInABatch) {
         }
     }
     EXPECT_EQ(generate(generator, requests), together);
-}
-
-TEST(OnnxSegmentGeneratorTest, NoRequestsCauseNoRuns) {
-    OnnxSegmentGenerator generator = makeGenerator("standard", {});
-    generator.generate({}, {});
-    generator.levels({}, {});
-    EXPECT_EQ(generator.runCounts().level, 0U);
 }
 
 TEST(OnnxSegmentGeneratorTest, TheSolverCanBeChangedBetweenBatches) {
@@ -170,13 +156,6 @@ TEST(OnnxSegmentGeneratorTest, TheFieldAtTheNoiseEqualsTheIncrementOfOneEulerSte
     }
 }
 
-TEST(OnnxSegmentGeneratorTest, EvaluatingTheFieldOfALatentTierIsRejected) {
-    const auto requests = goldenBatch().requests();
-    OnnxSegmentGenerator generator = makeGenerator("latent", {});
-    std::vector<float> velocities(requests.size() * segmentSamples);
-    EXPECT_THROW(generator.evaluateField(requests, 0.0F, 1.0F, velocities), std::invalid_argument);
-}
-
 TEST(OnnxSegmentGeneratorTest, NonFiniteNoiseIsAnErrorThatDoesNotAffectTheNextBatch) {
     auto requests = goldenBatch().requests();
     OnnxSegmentGenerator generator = makeGenerator("standard", {SolverKind::midpoint, 2});
@@ -218,26 +197,6 @@ TEST(OnnxSegmentGeneratorTest, OutputSpansOfTheWrongSizeAreRejected) {
     EXPECT_THROW(generator.levels(requests, room), std::invalid_argument);
 }
 
-TEST(OnnxSegmentGeneratorTest, TheTiersSolverIsRead) {
-    const SolverSettings standard = defaultSolver(*tinyModel().findTier("standard"));
-    EXPECT_EQ(standard.kind, SolverKind::midpoint);
-    EXPECT_EQ(standard.steps, 2);
-    const SolverSettings fine = defaultSolver(*tinyModel().findTier("fine"));
-    EXPECT_EQ(fine.kind, SolverKind::heun);
-    EXPECT_EQ(fine.steps, 8);
-    EXPECT_EQ(defaultSolver(*tinyModel().findTier("draft")).kind, SolverKind::euler);
-}
-
-TEST(OnnxSegmentGeneratorTest, TheGeneratorOutlivesItsModel) {
-    auto model =
-        std::make_unique<model::ModelFile>(model::ModelFile::read(HAPTOFLOW_TEST_GOLDEN_DIR "/model/tiny.haptoflow"));
-    OnnxSegmentGenerator generator(testRuntime(), *model, "standard", {}, 4);
-    model.reset();
-    const auto requests = goldenBatch().requests();
-    OnnxSegmentGenerator other = makeGenerator("standard", {});
-    EXPECT_EQ(generate(generator, requests), generate(other, requests));
-}
-
 TEST(SharedSessionsTest, TiersOfOneGraphLoadItOnceAndDoNotDisturbEachOther) {
     const auto requests = goldenBatch().requests();
     const std::span<const SegmentRequest> one = std::span(requests).first(1);
@@ -258,13 +217,6 @@ TEST(SharedSessionsTest, TiersOfOneGraphLoadItOnceAndDoNotDisturbEachOther) {
     EXPECT_EQ(sessions.loaded(), 4U);
     const OnnxSegmentGenerator larger(testRuntime(), tinyModel(), "latent", {}, 5, {}, &sessions);
     EXPECT_EQ(sessions.loaded(), 7U) << "another batch has other buffers";
-}
-
-TEST(SharedSessionsTest, AGraphIsFreedWithItsLastTier) {
-    SharedSessions sessions;
-    { const OnnxSegmentGenerator first(testRuntime(), tinyModel(), "standard", {}, 4, {}, &sessions); }
-    const OnnxSegmentGenerator second(testRuntime(), tinyModel(), "standard", {}, 4, {}, &sessions);
-    EXPECT_EQ(sessions.loaded(), 2U);
 }
 
 }  // namespace

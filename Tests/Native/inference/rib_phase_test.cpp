@@ -99,11 +99,5 @@ TEST(RibPhaseInputTest, TheErrorForAnotherShapeNamesTierGraphAndShape) {
     }
 }
 
-TEST(RibPhaseInputTest, ALevelGraphWithThePhaseInputIsRejected) {
-    const auto model = model::ModelFile::parse(withGraphs(tinyModel(), {{"level", ribField("log_level", {1})}}));
-    EXPECT_THROW((void)OnnxSegmentGenerator(testRuntime(), model, "standard", {SolverKind::euler, 1}, 1),
-                 model::ModelError);
-}
-
 }  // namespace
 }  // namespace haptoflow::inference::testing

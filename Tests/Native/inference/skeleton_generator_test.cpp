@@ -79,10 +79,6 @@ protected:
     std::vector<SegmentRequest> requests_;
 };
 
-TEST_F(SkeletonGeneratorTest, TheGoldenFileBelongsToTheModel) {
-    EXPECT_EQ(std::stoul(golden_.at("model_crc32").get<std::string>(), nullptr, 16), skeletonModel().checksum());
-}
-
 TEST_F(SkeletonGeneratorTest, TheSketchAgreesWithPyTorchAndNeedsNoOnnxRuntime) {
     const auto generator = inference::makeGenerator(nullptr, skeletonModel(), tierNamed("sketch"), {}, 4);
     expectGolden(generate(*generator), "sketch_segment");
@@ -96,7 +92,7 @@ TEST_F(SkeletonGeneratorTest, TheRefinedSegmentAgreesWithPyTorchInBatchesOfEvery
 
 TEST_F(SkeletonGeneratorTest, ABatchNeedsOneRunOfTheRefiningGraph) {
     RefinedGenerator generator(testRuntime(), skeletonModel(), skeleton::readNativeParts(skeletonModel()),
-                               tierNamed("standard"), {}, 4);
+                               tierNamed("standard"), 4);
     EXPECT_EQ(generator.graphRuns(), 0U);
     (void)generate(generator);
     EXPECT_EQ(generator.graphRuns(), 2U) << "seven requests in batches of four";
@@ -107,7 +103,7 @@ TEST_F(SkeletonGeneratorTest, ABatchNeedsOneRunOfTheRefiningGraph) {
 
 TEST_F(SkeletonGeneratorTest, ARefinedTierTellsTheSketchOfEachBatchBeforeItsGraphRuns) {
     RefinedGenerator generator(testRuntime(), skeletonModel(), skeleton::readNativeParts(skeletonModel()),
-                               tierNamed("standard"), {}, 4);
+                               tierNamed("standard"), 4);
     std::vector<float> sketches;
     std::vector<std::uint64_t> runsBefore;
     std::vector<float> segments(requests_.size() * segmentSamples);
@@ -131,17 +127,6 @@ TEST_F(SkeletonGeneratorTest, ATierWithoutARefinementTellsItsSegmentsAsSketches)
     });
     EXPECT_EQ(segments, generate(*generator));
     EXPECT_EQ(sketches, segments);
-}
-
-TEST_F(SkeletonGeneratorTest, AllTiersShareTheGivenParts) {
-    const auto native = skeleton::readNativeParts(skeletonModel());
-    const auto sketch = inference::makeGenerator(nullptr, skeletonModel(), tierNamed("sketch"), {}, 1, {}, native);
-    const auto refined =
-        inference::makeGenerator(testRuntime(), skeletonModel(), tierNamed("standard"), {}, 1, {}, native);
-    const auto levels = makeLevelEstimator(nullptr, skeletonModel(), tierNamed("standard"), {}, native);
-    EXPECT_EQ(native.skeleton.use_count(), 3);
-    EXPECT_EQ(native.level.use_count(), 4);
-    EXPECT_EQ(skeleton::readNativeParts(tinyModel()).skeleton, nullptr);
 }
 
 TEST_F(SkeletonGeneratorTest, LevelsAgreeWithPyTorchAndNeedNoOnnxRuntime) {
@@ -244,20 +229,6 @@ TEST_F(SkeletonGeneratorTest, AGraphThatTakesAnotherFilmIsRefusedByName) {
     } catch (const model::ModelError& error) {
         EXPECT_THAT(error.what(), HasSubstr("tier \"standard\", graph \"standard.field\""));
     }
-}
-
-TEST_F(SkeletonGeneratorTest, TheFactoryOpensTiersOfTheOtherKindsAsBefore) {
-    const auto generator = inference::makeGenerator(testRuntime(), tinyModel(), *tinyModel().findTier("standard"),
-                                                    {SolverKind::midpoint, 2}, 4);
-    const auto requests = goldenBatch().requests();
-    std::vector<float> found(requests.size() * segmentSamples);
-    generator->generate(requests, found);
-    OnnxSegmentGenerator direct(testRuntime(), tinyModel(), "standard", {SolverKind::midpoint, 2}, 4);
-    std::vector<float> wanted(found.size());
-    direct.generate(requests, wanted);
-    EXPECT_EQ(found, wanted);
-    EXPECT_THROW((void)makeLevelEstimator(nullptr, tinyModel(), *tinyModel().findTier("standard")),
-                 std::invalid_argument);
 }
 
 TEST(RibRatesTest, RatesAreWaveVectorTimesVelocityWithTheirSign) {

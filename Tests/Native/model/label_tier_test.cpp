@@ -23,52 +23,26 @@ TEST(LabelTest, ALabelWithAMissingKeyIsRefused) {
     }
 }
 
-TEST(LabelTest, AModelWithoutLabelsIsRefused) {
+TEST(LabelTest, InvalidValuesAreRefusedByKey) {
     expectHeaderRefusal([](Json& header) { header["labels"] = Json::array(); }, "labels");
-}
-
-TEST(LabelTest, MoreLabelsThanTheLimitAreRefused) {
     expectHeaderRefusal([](Json& header) { header["labels"] = Json(Json::array_t(maximumLabels + 1, Json(0))); },
                         "the limit is 4096", ModelStatus::oversized);
-}
-
-TEST(LabelTest, ADuplicateNameIsRefused) {
     expectLabelRefusal("name", "metal mesh", "appears twice");
-}
-
-TEST(LabelTest, AnEmptyOrUpperCaseNameIsRefused) {
     expectLabelRefusal("name", "", "labels[0].name");
     expectLabelRefusal("name", "Oak", "lower case");
-}
-
-TEST(LabelTest, AnEmbeddingRowOutsideTheTensorIsRefused) {
     expectLabelRefusal("embedding_row", 2, "labels[0].embedding_row");
     expectLabelRefusal("embedding_row", -1, "labels[0].embedding_row");
     expectLabelRefusal("embedding_row", 0.5, "labels[0].embedding_row");
-}
-
-TEST(LabelTest, ExponentsOutOfRangeAreRefused) {
     expectLabelRefusal("level_exponents", {{"speed", 5.0}, {"force", 0.0}}, "level_exponents.speed");
     expectLabelRefusal("level_exponents", {{"speed", 0.0}, {"force", -5.0}}, "level_exponents.force");
     expectLabelRefusal("frequency_exponent", -0.1, "frequency_exponent");
-}
-
-TEST(LabelTest, APeriodicLabelWithoutWavelengthIsRefused) {
     expectLabelRefusal("periodic", true, "wavelength_metres");
-}
-
-TEST(LabelTest, AWavelengthOfALabelThatIsNotPeriodicIsRefused) {
     expectLabelRefusal("wavelength_metres", 0.001, "not periodic");
-}
-
-TEST(LabelTest, AWavelengthOfZeroIsRefused) {
     expectHeaderRefusal([](Json& header) { header["labels"][1]["wavelength_metres"] = 0; }, "wavelength_metres");
-}
-
-TEST(LabelTest, StiffnessAndFrictionOutOfRangeAreRefused) {
     expectLabelRefusal("stiffness_newtons_per_metre", 0, "stiffness_newtons_per_metre");
     expectLabelRefusal("stiffness_newtons_per_metre", 1e7, "stiffness_newtons_per_metre");
     expectLabelRefusal("friction_coefficient", -0.1, "friction_coefficient");
+    expectLabelRefusal("category", "", "labels[0].category");
 }
 
 Json oneMode() {
@@ -118,10 +92,6 @@ TEST(LabelTest, AnImpactOutOfRangeIsRefused) {
     expectLabelRefusal("impact", Json::object(), "modes");
 }
 
-TEST(LabelTest, AnEmptyCategoryIsRefused) {
-    expectLabelRefusal("category", "", "labels[0].category");
-}
-
 TEST(TierTest, ATierWithAMissingKeyIsRefused) {
     for (const char* key :
          {"name", "kind", "field", "level", "solver", "steps", "parameters", "representation", "accuracy", "cost"}) {
@@ -129,51 +99,21 @@ TEST(TierTest, ATierWithAMissingKeyIsRefused) {
     }
 }
 
-TEST(TierTest, AModelWithoutTiersIsRefused) {
+TEST(TierTest, InvalidValuesAreRefusedByKey) {
     expectHeaderRefusal([](Json& header) { header["tiers"] = Json::array(); }, "tiers");
-}
-
-TEST(TierTest, MoreTiersThanTheLimitAreRefused) {
     expectHeaderRefusal([](Json& header) { header["tiers"] = Json(Json::array_t(maximumTiers + 1, Json(0))); },
                         "the limit is 64", ModelStatus::oversized);
-}
-
-TEST(TierTest, ADuplicateNameIsRefused) {
     expectTierRefusal("name", "draft", "appears twice");
-}
-
-TEST(TierTest, AnUnknownKindIsRefused) {
     expectTierRefusal("kind", "diffusion", "\"average-velocity\"");
-}
-
-TEST(TierTest, AnUnknownSolverIsRefused) {
     expectTierRefusal("solver", "rk45", "\"heun\"");
-}
-
-TEST(TierTest, StepsOutsideOneToSixteenAreRefused) {
     expectTierRefusal("steps", 0, "tiers[1].steps");
     expectTierRefusal("steps", 17, "tiers[1].steps");
-}
-
-TEST(TierTest, ANegativeNumberOfParametersIsRefused) {
     expectTierRefusal("parameters", -1, "tiers[1].parameters");
-}
-
-TEST(TierTest, UnknownGraphsAreRefused) {
     expectTierRefusal("field", "nothing", "tiers[1].field");
     expectTierRefusal("level", "nothing", "tiers[1].level");
-}
-
-TEST(TierTest, ATensorInPlaceOfAGraphIsRefused) {
     expectTierRefusal("field", "embedding", "type \"onnx\"");
-}
-
-TEST(TierTest, FiguresThatAreNotAnObjectAreRefused) {
     expectTierRefusal("accuracy", 0.5, "tiers[1].accuracy");
     expectTierRefusal("cost", Json::array(), "tiers[1].cost");
-}
-
-TEST(TierTest, AnUnknownRepresentationIsRefused) {
     expectTierRefusal("representation", "spectrum", "\"latent\"");
 }
 

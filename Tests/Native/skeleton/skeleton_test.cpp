@@ -89,10 +89,6 @@ TEST_F(SkeletonTest, NoiseLinesAndImpulsesAllPassThroughTheFilter) {
     }
 }
 
-TEST_F(SkeletonTest, TheSamePastNoiseAndPhasesGiveTheSameSegment) {
-    EXPECT_EQ(sketchOf(ruled_, previous_, noise_), sketchOf(ruled_, previous_, noise_));
-}
-
 TEST_F(SkeletonTest, WhatTheRefiningGraphSeesBeginsWithTheSketch) {
     Entering entering{};
     const Moment moment{

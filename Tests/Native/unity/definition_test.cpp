@@ -29,10 +29,6 @@ TEST(DefinitionTest, TheLibraryDefinesOneEffect) {
     EXPECT_STREQ(host.definitions()[0]->name.data(), "HaptoFlow Voice");
 }
 
-TEST(DefinitionTest, ASecondCallReturnsTheSameDefinitions) {
-    EXPECT_EQ(UnityHost().definitions()[0], UnityHost().definitions()[0]);
-}
-
 TEST(DefinitionTest, TheDefinitionStatesItsLayout) {
     const UnityHost host;
     const AudioEffectDefinition& definition = *host.definitions()[0];
@@ -91,15 +87,6 @@ TEST(DefinitionTest, ANewEffectHasEachParametersDefault) {
         const AudioParameterDefinition& parameter = effect.definition().parameters[i];
         EXPECT_EQ(effect.get(parameter.name.data()), parameter.defaultValue) << parameter.name.data();
     }
-}
-
-TEST(DefinitionTest, SeekingAndReadingBuffersAreNotSupported) {
-    const UnityHost host;
-    HostedEffect effect(*host.definitions()[0]);
-    float sample = 5.0F;
-    EXPECT_EQ(effect.definition().setPosition(&effect.state(), 100), resultUnsupported);
-    EXPECT_EQ(effect.definition().getBuffer(&effect.state(), "Waveform", &sample, 1), resultUnsupported);
-    EXPECT_EQ(sample, 5.0F);
 }
 
 TEST(DefinitionTest, NullPointersAreRejected) {

@@ -50,15 +50,6 @@ TEST_F(ParametersTest, NaNIsRejected) {
     }
 }
 
-TEST_F(ParametersTest, VoicesAndChannelsAreRounded) {
-    effect.set("Voice", 2.6F);
-    effect.set("Channel", -0.7F);
-    EXPECT_EQ(effect.get("Voice"), 3.0F);
-    EXPECT_EQ(effect.get("Channel"), -1.0F);
-    effect.set("Strength", 0.617F);
-    EXPECT_EQ(effect.get("Strength"), 0.617F);
-}
-
 TEST_F(ParametersTest, AnInvalidIndexIsRejected) {
     const AudioEffectDefinition& definition = effect.definition();
     for (const int index : {-1, 3, 1000, std::numeric_limits<int>::min(), std::numeric_limits<int>::max()}) {
@@ -78,12 +69,6 @@ TEST_F(ParametersTest, TheDisplayedTextDescribesTheValue) {
     EXPECT_EQ(effect.text("Channel"), "channel 3");
     effect.set("Channel", -1.0F);
     EXPECT_EQ(effect.text("Channel"), "all channels");
-}
-
-TEST_F(ParametersTest, EachEffectHasItsOwnParameters) {
-    HostedEffect other(effect.definition());
-    effect.set("Voice", 12.0F);
-    EXPECT_EQ(other.get("Voice"), 0.0F);
 }
 
 }  // namespace

@@ -34,14 +34,13 @@ namespace HaptoFlow.Preview
         {
             var motion = new[] { 0.1f, 0.0f, 1.0f };
             var previous = new float[HapticGenerator.SegmentSamples];
-            var noise = new float[HapticGenerator.SegmentSamples];
+            float[] noise = Noise();
             var segment = new float[HapticGenerator.SegmentSamples];
             var milliseconds = new double[Runs];
             var clock = new Stopwatch();
             for (int run = -WarmUps; run < Runs; ++run)
             {
                 token.ThrowIfCancellationRequested();
-                HapticGenerator.FillNoise(1, 0, (ulong)(run + WarmUps), noise);
                 clock.Restart();
                 generator.Generate(embedding, motion, previous, noise, segment);
                 clock.Stop();
@@ -52,6 +51,15 @@ namespace HaptoFlow.Preview
                 }
             }
             return Of(milliseconds);
+        }
+
+        /// <summary>Standard normal numbers. Which ones changes no time.</summary>
+        private static float[] Noise()
+        {
+            var random = new Random(1);
+            return Enumerable.Range(0, HapticGenerator.SegmentSamples).Select(_ =>
+                (float)(Math.Sqrt(-2.0 * Math.Log(1.0 - random.NextDouble())) * Math.Cos(2.0 * Math.PI * random.NextDouble())))
+                .ToArray();
         }
 
         /// <param name="milliseconds">At least one measurement.</param>
