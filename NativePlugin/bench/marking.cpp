@@ -2,7 +2,6 @@
 
 #include "bench/measurements.hpp"
 #include "skeleton/condition.hpp"
-#include "skeleton/level_model.hpp"
 #include "skeleton/skeleton.hpp"
 
 #include <array>

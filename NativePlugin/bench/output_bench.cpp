@@ -1,7 +1,6 @@
 #include "bench/measurements.hpp"
 
 #include "bench/distribution.hpp"
-#include "effects/wave_decimation.hpp"
 #include "effects/wave_features.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "bench/subjects.hpp"
 
 #include "bench/bench_plan.hpp"
-#include "inference/tier_graphs.hpp"
+#include "inference/tier_generator.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -2,7 +2,7 @@
 
 #include "inference/gaussian_noise.hpp"
 #include "inference/skeleton_generator.hpp"
-#include "skeleton/rib_rates.hpp"
+#include "skeleton/condition.hpp"
 
 #include <algorithm>
 #include <cstdint>

@@ -3,7 +3,7 @@
 #include "messages.hpp"
 #include "near_words.hpp"
 
-#include "inference/inference_error.hpp"
+#include "inference/load_limits.hpp"
 #include "model/model_error.hpp"
 
 #include <CLI/CLI.hpp>

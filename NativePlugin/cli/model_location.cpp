@@ -2,7 +2,7 @@
 
 #include "command_files.hpp"
 #include "exit_codes.hpp"
-#include "inference/inference_error.hpp"
+#include "inference/load_limits.hpp"
 
 #include <algorithm>
 #include <cstdlib>

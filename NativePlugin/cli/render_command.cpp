@@ -6,7 +6,6 @@
 #include "exit_codes.hpp"
 #include "headless/contact_tracker.hpp"
 #include "inference/tier_generator.hpp"
-#include "inference/tier_graphs.hpp"
 #include "messages.hpp"
 #include "model/model_file.hpp"
 #include "model_location.hpp"

@@ -3,7 +3,7 @@
 #include "command_files.hpp"
 #include "engine/material_library.hpp"
 #include "exit_codes.hpp"
-#include "model/label_key.hpp"
+#include "model/plain_text.hpp"
 #include "scene_file.hpp"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 #include "capi/handles.hpp"
 #include "capi/voice_table.hpp"
 #include "dsp/limiter.hpp"
-#include "inference/shared_sessions.hpp"
-#include "inference/tier_graphs.hpp"
+#include "inference/graph_session.hpp"
+#include "inference/tier_generator.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +20,6 @@ namespace {
 constexpr uint32_t defaultBatchVoices = 8;
 constexpr double defaultFullScaleMps2 = HAPTOFLOW_DEFAULT_FULL_SCALE_MPS2;
 static_assert(defaultFullScaleMps2 == dsp::SoftLimiter::defaultFullScaleMps2);
-
 
 double orDefault(double value, double usual) {
     return value == 0.0 ? usual : value;

@@ -1,5 +1,4 @@
 #include "capi/handles.hpp"
-#include "capi/voice_rendering.hpp"
 #include "capi/voice_table.hpp"
 
 #include <algorithm>
@@ -29,7 +28,6 @@ static_assert(effects::maskOf(EffectKind::impact) == HAPTOFLOW_ASKS_FOR_IMPACT);
 static_assert(effects::maskOf(EffectKind::edge) == HAPTOFLOW_ASKS_FOR_EDGE);
 
 namespace {
-
 
 VoiceTable::Use requireVoice(haptoflow_voice voice) {
     VoiceTable::Use use = voices().use(voice);

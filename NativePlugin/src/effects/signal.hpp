@@ -1,6 +1,5 @@
 #pragma once
 
-#include "dsp/gate.hpp"
 #include "dsp/level_smoother.hpp"
 #include "effects/effect.hpp"
 

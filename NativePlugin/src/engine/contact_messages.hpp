@@ -1,13 +1,12 @@
 #pragma once
 
-#include "dsp/tone_cepstrum.hpp"
+#include "dsp/tone_filter.hpp"
 #include "engine/blend_balance.hpp"
-#include "engine/blow_list.hpp"
+#include "engine/contact_blows.hpp"
 #include "engine/contact_state.hpp"
-#include "engine/level_request.hpp"
 #include "engine/range_law.hpp"
 #include "engine/rib_phase.hpp"
-#include "engine/wave_statistics.hpp"
+#include "engine/seam_statistics.hpp"
 #include "engine/waveform_timeline.hpp"
 #include "inference/segment_generator.hpp"
 #include "skeleton/skeleton.hpp"

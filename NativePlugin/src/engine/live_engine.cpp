@@ -2,7 +2,7 @@
 
 #include "dsp/denormals.hpp"
 #include "engine/worker_thread.hpp"
-#include "inference/inference_error.hpp"
+#include "inference/load_limits.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,9 +1,7 @@
 #include "inference/graph_session.hpp"
-#include "inference/inference_error.hpp"
+#include "inference/load_limits.hpp"
 #include "inference/onnx_runtime.hpp"
 #include "inference/onnx_session.hpp"
-#include "inference/onnx_signature.hpp"
-#include "inference/time_limit.hpp"
 #include "model/model_error.hpp"
 
 #include <onnxruntime_c_api.h>

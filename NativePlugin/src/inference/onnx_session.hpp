@@ -1,11 +1,14 @@
 #pragma once
 
+#include "inference/graph_session.hpp"
 #include "inference/load_limits.hpp"
 #include "inference/onnx_runtime.hpp"
 
 #include <cstddef>
 #include <memory>
 #include <span>
+#include <string>
+#include <vector>
 
 struct OrtIoBinding;
 struct OrtMemoryInfo;
@@ -23,5 +26,17 @@ using OrtHandle = std::unique_ptr<Type, void (*)(Type*)>;
 /// while loading or running. Throws InferenceError, LoadCancelled.
 [[nodiscard]] OrtHandle<OrtSession> createSession(const Runtime& runtime, std::span<const std::byte> graph,
                                                   std::size_t memoryBytes, const LoadLimits& limits);
+
+}  // namespace haptoflow::inference
+
+struct OrtSession;
+
+namespace haptoflow::inference {
+
+/// Compares a session's inputs and outputs with `expected`: names, element type, number of dimensions, a variable batch
+/// dimension, and the other dimensions. Returns, for each expected input, whether the graph has it. Throws
+/// model::ModelError (inconsistent); the message begins with `graphName`.
+[[nodiscard]] std::vector<bool> matchSignature(const Runtime& runtime, const OrtSession& session,
+                                               const GraphSignature& expected, const std::string& graphName);
 
 }  // namespace haptoflow::inference

@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "dsp/denormals.hpp"
-#include "dsp/gate.hpp"
 #include "dsp/level_smoother.hpp"
 #include "dsp/limiter.hpp"
 #include "dsp/rate_warp.hpp"

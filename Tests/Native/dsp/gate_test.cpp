@@ -1,4 +1,4 @@
-#include "dsp/gate.hpp"
+#include "dsp/level_smoother.hpp"
 
 #include <gtest/gtest.h>
 

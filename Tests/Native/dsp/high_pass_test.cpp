@@ -1,4 +1,4 @@
-#include "dsp/high_pass.hpp"
+#include "dsp/limiter.hpp"
 
 #include <gtest/gtest.h>
 

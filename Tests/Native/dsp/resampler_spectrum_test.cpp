@@ -7,7 +7,7 @@
 #include <numbers>
 #include <string>
 
-#include "dsp/minimum_phase_kernel.hpp"
+#include "dsp/tone_filter.hpp"
 #include "dsp/waveform_resampler.hpp"
 #include "test_signals.hpp"
 

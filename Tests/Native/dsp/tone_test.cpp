@@ -1,4 +1,3 @@
-#include "dsp/tone_cepstrum.hpp"
 #include "dsp/tone_filter.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "effects/hand_arm_weighting.hpp"
+#include "effects/exposure_guard.hpp"
 
 #include <gtest/gtest.h>
 

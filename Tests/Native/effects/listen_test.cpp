@@ -1,4 +1,4 @@
-#include "effects/listen.hpp"
+#include "effects/device_loudness.hpp"
 
 #include "support/counting_new.hpp"
 

@@ -1,4 +1,4 @@
-#include "effects/wave_decimation.hpp"
+#include "effects/wave_features.hpp"
 
 #include "support/counting_new.hpp"
 

@@ -1,6 +1,5 @@
 #include "effects/wave_features.hpp"
 #include "effects/perceived_intensity.hpp"
-#include "effects/threshold_filter.hpp"
 
 #include "effects/feature_signals.hpp"
 #include "support/counting_new.hpp"

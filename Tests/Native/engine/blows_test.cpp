@@ -1,5 +1,5 @@
-#include "engine/impact_responses.hpp"
 #include "engine/offline_renderer.hpp"
+#include "engine/tap_pieces.hpp"
 #include "simulated_device.hpp"
 #include "test_model.hpp"
 

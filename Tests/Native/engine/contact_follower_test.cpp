@@ -1,4 +1,4 @@
-#include "engine/contact_follower.hpp"
+#include "engine/contact_publisher.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,4 @@
 #include "engine/mailbox.hpp"
-#include "engine/segment_queue.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,3 @@
-#include "engine/impact_responses.hpp"
 
 #include "engine/tap_pieces.hpp"
 #include "model/model_file.hpp"

@@ -1,4 +1,4 @@
-#include "engine/level_follower.hpp"
+#include "engine/waveform_timeline.hpp"
 
 #include "simulated_device.hpp"
 #include "test_model.hpp"

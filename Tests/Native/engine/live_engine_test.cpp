@@ -2,7 +2,7 @@
 #include "engine/live_engine.hpp"
 
 #include "fake_generators.hpp"
-#include "inference/inference_error.hpp"
+#include "inference/load_limits.hpp"
 #include "simulated_device.hpp"
 #include "test_model.hpp"
 

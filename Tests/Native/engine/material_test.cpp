@@ -1,6 +1,5 @@
 #include "engine/material.hpp"
 
-#include "engine/seed_retrieval.hpp"
 #include "small_library.hpp"
 
 #include <gtest/gtest.h>

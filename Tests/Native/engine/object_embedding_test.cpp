@@ -1,9 +1,8 @@
-#include "engine/object_embedding.hpp"
 
 #include "../model/material_builder.hpp"
 #include "../skeleton/skeleton_model.hpp"
 #include "engine/material.hpp"
-#include "model/crc32.hpp"
+#include "model/file_layout.hpp"
 #include "skeleton/condition.hpp"
 #include "skeleton/skeleton_tensors.hpp"
 #include "small_library.hpp"

@@ -1,6 +1,6 @@
 #include "../model/material_builder.hpp"
 #include "../skeleton/skeleton_model.hpp"
-#include "engine/object_embedding.hpp"
+#include "engine/material.hpp"
 #include "engine/offline_renderer.hpp"
 #include "inference/skeleton_generator.hpp"
 #include "simulated_device.hpp"

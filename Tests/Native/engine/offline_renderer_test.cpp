@@ -1,7 +1,7 @@
 #include "engine/offline_renderer.hpp"
 
 #include "fake_generators.hpp"
-#include "inference/inference_error.hpp"
+#include "inference/load_limits.hpp"
 #include "test_model.hpp"
 
 #include <gtest/gtest.h>
@@ -177,7 +177,6 @@ TEST(OfflineRendererTest, InvalidStatesAreSanitisedAndCountedAndTheOutputIsFinit
     EXPECT_GT(render.sanitised, 60U);
     EXPECT_TRUE(std::ranges::all_of(render.samples, [](float sample) { return std::abs(sample) < 1.0F; }));
 }
-
 
 TEST(OfflineRendererTest, ANewLabelIsAudibleAfterTheLead) {
     const model::ModelFile model = testing::smallModel();

@@ -1,5 +1,4 @@
 #include "engine/quality_control.hpp"
-#include "engine/lead_estimator.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #include "../skeleton/skeleton_model.hpp"
 #include "engine/offline_renderer.hpp"
-#include "inference/inference_error.hpp"
+#include "inference/load_limits.hpp"
 #include "inference/skeleton_generator.hpp"
 #include "simulated_device.hpp"
 

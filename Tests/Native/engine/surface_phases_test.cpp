@@ -1,6 +1,5 @@
 #include "engine/surface_phases.hpp"
 
-#include "engine/surface_wander.hpp"
 #include "model/model_file.hpp"
 #include "small_library.hpp"
 

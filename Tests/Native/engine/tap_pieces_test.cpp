@@ -1,7 +1,5 @@
 #include "engine/tap_pieces.hpp"
 
-#include "engine/impact_responses.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>

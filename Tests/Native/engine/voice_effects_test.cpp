@@ -1,4 +1,4 @@
-#include "engine/impact_responses.hpp"
+#include "engine/tap_pieces.hpp"
 #include "simulated_device.hpp"
 #include "test_model.hpp"
 

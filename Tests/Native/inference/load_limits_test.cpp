@@ -1,7 +1,5 @@
 #include "inference/load_limits.hpp"
-#include "inference/cancellation.hpp"
 #include "inference/onnx_segment_generator.hpp"
-#include "inference/time_limit.hpp"
 #include "rebuilt_model.hpp"
 #include "tiny_model.hpp"
 

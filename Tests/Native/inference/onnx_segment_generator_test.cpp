@@ -1,7 +1,7 @@
 #include "inference/onnx_segment_generator.hpp"
 
-#include "inference/shared_sessions.hpp"
-#include "inference/tier_graphs.hpp"
+#include "inference/graph_session.hpp"
+#include "inference/tier_generator.hpp"
 #include "tiny_model.hpp"
 
 #include <gmock/gmock.h>

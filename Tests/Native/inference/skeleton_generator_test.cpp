@@ -1,9 +1,8 @@
 #include "inference/skeleton_generator.hpp"
-#include "inference/refined_generator.hpp"
-#include "inference/tier_graphs.hpp"
+#include "inference/tier_generator.hpp"
 #include "model/model_error.hpp"
 #include "rebuilt_model.hpp"
-#include "skeleton/rib_rates.hpp"
+#include "skeleton/condition.hpp"
 #include "tiny_model.hpp"
 
 #include <gmock/gmock.h>

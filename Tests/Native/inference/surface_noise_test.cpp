@@ -1,7 +1,5 @@
 #include "inference/surface_noise.hpp"
 
-#include "inference/surface_noise_kernel.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>

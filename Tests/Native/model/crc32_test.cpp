@@ -1,4 +1,4 @@
-#include "model/crc32.hpp"
+#include "model/file_layout.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "model/bounded_json.hpp"
+#include "model/header_node.hpp"
 #include "refusal.hpp"
 
 namespace haptoflow::model::testing {

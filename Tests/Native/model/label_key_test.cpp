@@ -1,4 +1,4 @@
-#include "model/label_key.hpp"
+#include "model/plain_text.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

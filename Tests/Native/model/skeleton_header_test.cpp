@@ -1,5 +1,5 @@
 #include "../skeleton/skeleton_model.hpp"
-#include "model/crc32.hpp"
+#include "model/file_layout.hpp"
 #include "model/plain_text.hpp"
 #include "refusal.hpp"
 

@@ -1,4 +1,3 @@
-#include "skeleton/linear_layer.hpp"
 #include "skeleton/perceptron.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,3 @@
-#include "skeleton/motion_features.hpp"
 
 #include "skeleton/condition.hpp"
 

@@ -1,4 +1,4 @@
-#include "skeleton/rung_impulses.hpp"
+#include "skeleton/excitation.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,7 @@
 #include "skeleton/skeleton.hpp"
 
-#include "skeleton/level_model.hpp"
+#include "skeleton/skeleton_layout.hpp"
 #include "skeleton/skeleton_tensors.hpp"
-#include "skeleton/unit_scale.hpp"
 #include "skeleton_model.hpp"
 #include "support/counting_new.hpp"
 

@@ -1,7 +1,6 @@
-#include "skeleton/level_model.hpp"
 #include "skeleton/skeleton.hpp"
+#include "skeleton/skeleton_layout.hpp"
 #include "skeleton/skeleton_tensors.hpp"
-#include "skeleton/unit_scale.hpp"
 #include "skeleton_model.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "skeleton/surface_waves.hpp"
+#include "skeleton/excitation.hpp"
 
 #include <gtest/gtest.h>
 

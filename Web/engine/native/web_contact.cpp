@@ -1,6 +1,6 @@
 #include "contact_states.hpp"
 #include "input_file.hpp"
-#include "model/label_key.hpp"
+#include "model/plain_text.hpp"
 #include "scene_file.hpp"
 #include "web_imports.hpp"
 #include "web_scene.hpp"

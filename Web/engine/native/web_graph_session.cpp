@@ -1,5 +1,5 @@
 #include "inference/graph_session.hpp"
-#include "inference/inference_error.hpp"
+#include "inference/load_limits.hpp"
 #include "model/model_error.hpp"
 #include "web_imports.hpp"
 

@@ -6,7 +6,6 @@
 #include "engine/offline_renderer.hpp"
 #include "headless/contact_tracker.hpp"
 #include "inference/tier_generator.hpp"
-#include "inference/tier_graphs.hpp"
 #include "model/material_file.hpp"
 #include "stroke_file.hpp"
 #include "web_engine.hpp"
