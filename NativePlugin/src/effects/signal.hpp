@@ -1,6 +1,6 @@
 #pragma once
 
-#include "dsp/level_smoother.hpp"
+#include "dsp/gate.hpp"
 #include "effects/effect.hpp"
 
 #include <span>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "dsp/level_smoother.hpp"
+#include "dsp/gate.hpp"
 #include "dsp/waveform_resampler.hpp"
 #include "effects/actuator_profile.hpp"
 #include "effects/delay.hpp"

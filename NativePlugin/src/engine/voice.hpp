@@ -1,6 +1,6 @@
 #pragma once
 
-#include "dsp/level_smoother.hpp"
+#include "dsp/gate.hpp"
 #include "dsp/limiter.hpp"
 #include "dsp/rate_warp.hpp"
 #include "dsp/tone_filter.hpp"

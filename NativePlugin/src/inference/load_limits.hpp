@@ -1,13 +1,10 @@
 #pragma once
 
-#include <chrono>
-#include <condition_variable>
 #include <cstddef>
 #include <functional>
 #include <memory>
 #include <mutex>
 #include <stdexcept>
-#include <thread>
 #include <vector>
 
 namespace haptoflow::inference {
@@ -73,28 +70,6 @@ private:
 
     const Cancellation* cancellation_;
     std::function<void()> action_;
-};
-
-/// Runs an action on its own thread once a time has passed, unless it was destroyed before. For loading only, because
-/// it starts a thread.
-class TimeLimit {
-public:
-    /// The action must neither block nor throw. Throws std::system_error.
-    TimeLimit(double milliseconds, std::function<void()> action);
-    TimeLimit(const TimeLimit&) = delete;
-    TimeLimit& operator=(const TimeLimit&) = delete;
-    /// Waits for a running action. Afterwards the action never runs.
-    ~TimeLimit();
-
-    /// By the clock: on a busy machine the thread may not have run yet.
-    [[nodiscard]] bool hasPassed() const { return std::chrono::steady_clock::now() >= end_; }
-
-private:
-    std::chrono::steady_clock::time_point end_;
-    std::mutex mutex_;
-    std::condition_variable changed_;
-    bool isOver_ = false;
-    std::thread timer_;
 };
 
 /// Far above the 0.2 ms that a desktop takes; an emulated machine takes 54 ms.

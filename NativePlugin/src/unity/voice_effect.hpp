@@ -1,7 +1,7 @@
 #pragma once
 
 #include "capi/voice_table.hpp"
-#include "dsp/level_smoother.hpp"
+#include "dsp/gate.hpp"
 #include "unity/voice_parameters.hpp"
 
 #include <atomic>

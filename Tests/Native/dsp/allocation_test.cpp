@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "dsp/denormals.hpp"
-#include "dsp/level_smoother.hpp"
+#include "dsp/gate.hpp"
 #include "dsp/limiter.hpp"
 #include "dsp/rate_warp.hpp"
 #include "dsp/splice.hpp"

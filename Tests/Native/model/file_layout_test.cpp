@@ -1,6 +1,12 @@
+#include "model/file_layout.hpp"
+#include "model/header_node.hpp"
 #include "refusal.hpp"
 
-#include "model/file_layout.hpp"
+#include <gtest/gtest.h>
+
+#include <array>
+#include <span>
+#include <string_view>
 
 namespace haptoflow::model::testing {
 namespace {
@@ -139,6 +145,112 @@ TEST(FileLayoutTest, AHeaderThatIsAnArrayIsRefused) {
     ModelBuilder builder;
     builder.editText = [](std::string& text) { text = "[]" + std::string(text.size() - 2, ' '); };
     expectRefusal(builder.build(), ModelStatus::inconsistent, "one object");
+}
+
+}  // namespace
+}  // namespace haptoflow::model::testing
+
+namespace haptoflow::model {
+namespace {
+
+std::uint32_t crcOf(std::string_view text) {
+    return crc32(std::as_bytes(std::span(text.data(), text.size())));
+}
+
+TEST(Crc32Test, ChecksTheNineDigitsToThePublishedValue) {
+    EXPECT_EQ(crcOf("123456789"), 0xCBF43926U);
+}
+
+TEST(Crc32Test, OfNothingIsZero) {
+    EXPECT_EQ(crcOf(""), 0U);
+}
+
+TEST(Crc32Test, AgreesWithZlibOnASentence) {
+    EXPECT_EQ(crcOf("The quick brown fox jumps over the lazy dog"), 0x414FA339U);
+}
+
+TEST(Crc32Test, AgreesWithZlibOnAllByteValues) {
+    std::array<std::byte, 256> bytes{};
+    for (std::size_t index = 0; index < bytes.size(); ++index) {
+        bytes.at(index) = static_cast<std::byte>(index);
+    }
+    EXPECT_EQ(crc32(bytes), 0x29058C73U);
+}
+
+}  // namespace
+}  // namespace haptoflow::model
+
+namespace haptoflow::model::testing {
+namespace {
+
+void replaceHeader(ModelBuilder& builder, const std::string& replacement) {
+    builder.editText = [replacement](std::string& text) {
+        const std::size_t length = text.size();
+        text = replacement;
+        text.resize(length, ' ');
+    };
+}
+
+std::string nested(int levels) {
+    std::string text = "{\"a\":";
+    for (int level = 1; level < levels; ++level) {
+        text += '[';
+    }
+    return text + std::string(static_cast<std::size_t>(levels - 1), ']') + '}';
+}
+
+TEST(JsonLimitsTest, JsonThatEndsEarlyIsDamaged) {
+    ModelBuilder builder;
+    replaceHeader(builder, R"({"name": })");
+    expectRefusal(builder.build(), ModelStatus::damaged, "valid JSON");
+}
+
+TEST(JsonLimitsTest, ASecondValueAfterTheObjectIsRefused) {
+    ModelBuilder builder;
+    replaceHeader(builder, R"({} {})");
+    expectRefusal(builder.build(), ModelStatus::damaged, "valid JSON");
+}
+
+TEST(JsonLimitsTest, TextThatIsNotUtf8IsRefused) {
+    ModelBuilder builder;
+    replaceHeader(builder, "{\"name\": \"\xFF\xFE\"}");
+    expectRefusal(builder.build(), ModelStatus::damaged, "valid JSON");
+}
+
+TEST(JsonLimitsTest, NumbersBeyondTheRangeOfDoubleAreRefused) {
+    ModelBuilder builder;
+    replaceHeader(builder, R"({"name": 1e999})");
+    expectRefusal(builder.build(), ModelStatus::damaged, "valid JSON");
+}
+
+TEST(JsonLimitsTest, NanAndInfinityAreRefused) {
+    for (const char* word : {"NaN", "Infinity", "-Infinity"}) {
+        ModelBuilder builder;
+        replaceHeader(builder, std::string(R"({"sample_rate_hz": )") + word + "}");
+        expectRefusal(builder.build(), ModelStatus::damaged, "valid JSON");
+    }
+}
+
+TEST(JsonLimitsTest, ADuplicateKeyIsRefused) {
+    ModelBuilder builder;
+    replaceHeader(builder, R"({"name": "a", "name": "b"})");
+    expectRefusal(builder.build(), ModelStatus::inconsistent, "\"name\" twice");
+}
+
+TEST(JsonLimitsTest, TheSameKeyInDifferentObjectsIsAccepted) {
+    EXPECT_NO_THROW((void)parseBoundedJson(R"({"a": {"a": 1}, "b": [{"a": 1}, {"a": 2}]})"));
+}
+
+TEST(JsonLimitsTest, TheMaximumNestingIsAcceptedAndOneLevelMoreRefused) {
+    EXPECT_NO_THROW((void)parseBoundedJson(nested(maximumJsonDepth)));
+    ModelBuilder builder;
+    replaceHeader(builder, nested(maximumJsonDepth + 1));
+    expectRefusal(builder.build(), ModelStatus::oversized, "deeper than 32");
+}
+
+TEST(JsonLimitsTest, AMillionOpenBracketsAreRefusedBeforeAnyValueIsBuilt) {
+    const std::string text = "{\"a\":" + std::string(1'000'000, '[');
+    EXPECT_THROW((void)parseBoundedJson(text), ModelError);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "dsp/level_smoother.hpp"
+#include "dsp/gate.hpp"
 
 #include "dsp/sample_rates.hpp"
 
