@@ -291,25 +291,6 @@ TEST_F(SkeletonApiTest, ASketchLoadsAndPlaysWithoutOnnxRuntime) {
     }
 }
 
-TEST_F(SkeletonApiTest, AVariationMakesObjectsOfOneLabelDifferByTheirSeed) {
-    const auto sound = [this](float variation, uint32_t seed) {
-        // An engine of its own: the noise of a voice depends on the voices before it.
-        EXPECT_EQ(createEngine(HAPTOFLOW_QUALITY_SKETCH), HAPTOFLOW_OK) << message();
-        std::vector<float> samples = slide(0, variation, seed);
-        EXPECT_EQ(haptoflow_engine_close(&engine_), HAPTOFLOW_OK);
-        return samples;
-    };
-    const std::vector<float> mean = sound(0.0F, 1);
-    EXPECT_EQ(sound(0.0F, 2), mean);
-    const std::vector<float> first = sound(1.0F, 1);
-    EXPECT_EQ(sanitised_, 0U);
-    EXPECT_EQ(sound(1.0F, 1), first);
-    EXPECT_NE(first, mean);
-    EXPECT_NE(sound(1.0F, 2), first);
-    EXPECT_EQ(sound(std::nanf(""), 1), mean);
-    EXPECT_EQ(sanitised_, 36U);
-}
-
 TEST_F(SkeletonApiTest, AutomaticQualityWithoutOnnxRuntimeTakesTheSketch) {
     ASSERT_EQ(createEngine(HAPTOFLOW_QUALITY_AUTO, true), HAPTOFLOW_OK) << message();
     haptoflow_engine_statistics statistics{};

@@ -250,32 +250,6 @@ TEST_F(LoadingApiTest, AQualityWithoutATierOfItsNameUsesTheFirstOrTheDefaultTier
     EXPECT_EQ(tierFor(HAPTOFLOW_QUALITY_SKETCH), 0U);
 }
 
-TEST_F(LoadingApiTest, AutomaticQualityUsesTheMostAccurateTierByItsFiguresAndNotTheLast) {
-    openModel({}, [](nlohmann::json& header) {
-        header["tiers"].erase(3);
-        header["tiers"].erase(3);
-        const std::array<double, 3> errorsDb{2.0, 1.0, 3.0};
-        for (std::size_t tier = 0; tier < errorsDb.size(); ++tier) {
-            header["tiers"][tier]["accuracy"] = {{"lsd_db", errorsDb[tier]}, {"level_error_p90_db", 0.5}};
-        }
-        header["default_tier"] = "draft";
-    });
-    haptoflow_engine_options options = engineOptions(HAPTOFLOW_QUALITY_AUTO);
-    options.without_worker = 0;
-    options.fixed_lead_ms = 0.0;
-    // A budget of 40 ms for graphs that take microseconds.
-    options.update_rate_hz = 25.0;
-    options.budget_share = 1.0;
-    haptoflow_engine* engine = open(options);
-    haptoflow_engine_statistics statistics{};
-    do {
-        std::this_thread::sleep_for(std::chrono::milliseconds(20));
-        statistics.struct_size = sizeof(statistics);
-        ASSERT_EQ(haptoflow_engine_get_statistics(engine, &statistics), HAPTOFLOW_OK);
-    } while (statistics.is_measuring != 0);
-    EXPECT_EQ(statistics.tier, standardTier);
-}
-
 TEST_F(LoadingApiTest, AModelWithALoopIsRefusedAtOnceByGeneratorAndEngine) {
     openModel({{"level", model::testing::loopingLevel()}});
     expectRefused(engineOptions(HAPTOFLOW_QUALITY_DRAFT), HAPTOFLOW_MODEL_INCONSISTENT,

@@ -70,32 +70,6 @@ TEST_F(VoiceEffectsApiTest, AVoiceUsesOnlyTheProcessorsThatWereSet) {
     EXPECT_EQ(of(HAPTOFLOW_EFFECT_DELAY).is_asked_for, 0U);
 }
 
-TEST_F(VoiceEffectsApiTest, ListenMakesAVoiceLouderIsCountedWhileItIsOnAndCostsNothingWhileItIsOff) {
-    float quiet = 0.0F;
-    for (int update = 0; update < 20; ++update) {
-        quiet = std::max(quiet, peak(open_.update(slidingState())));
-    }
-    EXPECT_EQ(of(HAPTOFLOW_EFFECT_LISTEN).prepared + of(HAPTOFLOW_EFFECT_LISTEN).runs, 0U);
-    EXPECT_EQ(haptoflow_voice_set_listen(open_.voice, 1), HAPTOFLOW_OK) << message();
-    float loud = 0.0F;
-    for (int update = 0; update < 20; ++update) {
-        loud = std::max(loud, peak(open_.update(slidingState())));
-    }
-    EXPECT_GT(loud, 4.0F * quiet);
-    EXPECT_LT(loud, 1.0F);
-    EXPECT_EQ(of(HAPTOFLOW_EFFECT_LISTEN).prepared, 1U);
-    EXPECT_EQ(of(HAPTOFLOW_EFFECT_LISTEN).is_asked_for, 1U);
-    EXPECT_GT(of(HAPTOFLOW_EFFECT_LISTEN).runs, 10U);
-    EXPECT_EQ(haptoflow_voice_set_listen(open_.voice, 0), HAPTOFLOW_OK);
-    for (int update = 0; update < 5; ++update) {
-        (void)open_.update(slidingState());
-    }
-    const uint64_t runs = of(HAPTOFLOW_EFFECT_LISTEN).runs;
-    (void)open_.update(slidingState());
-    EXPECT_EQ(of(HAPTOFLOW_EFFECT_LISTEN).runs, runs);
-    EXPECT_EQ(of(HAPTOFLOW_EFFECT_LISTEN).is_asked_for, 0U);
-}
-
 TEST_F(VoiceEffectsApiTest, AnInvalidProfileIsRefusedByKeyAndTheOldOneStays) {
     EXPECT_EQ(haptoflow_voice_set_actuator(open_.voice, "voice-coil", 10), HAPTOFLOW_OK);
     const std::string broken = R"({"name": "x"})";

@@ -81,32 +81,6 @@ TEST_F(LiveEngineTest, AStepGeneratesForAllTouchingVoicesInOneBatch) {
     EXPECT_EQ(engine.statistics().segments, 30U);
 }
 
-TEST_F(LiveEngineTest, ARoundIsTimedByTheSegmentsThatItGeneratedAndNotByItsVoices) {
-    static constexpr double segmentMs = 3.0;
-    auto generator = std::make_unique<FakeGenerator>([](const auto& request, std::span<float> segment) {
-        std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(segmentMs));
-        testing::continueTone(request, segment);
-    });
-    FakeGenerator& seen = *generator;
-    EngineTiers tiers;
-    tiers.push_back(std::move(generator));
-    LiveEngine engine(model_, std::move(tiers), 0, settings(false));
-    const auto voice = engine.addVoice(48000.0);
-    std::vector<float> block(1024);
-    std::size_t generated = 0;
-    for (int update = 0; update < 30; ++update) {
-        // Beyond the recorded range the waveform is read faster, and needs several segments a round.
-        engine.publish(*voice, testing::sliding(5.0F));
-        voice->renderer.render(block, 48000.0);
-        const RoundResult result = engine.step();
-        generated += result.generated;
-    }
-    EXPECT_GT(seen.generated, 45);
-    EXPECT_EQ(generated, static_cast<std::size_t>(seen.generated));
-    EXPECT_GE(engine.tierTimes(0).medianMs, segmentMs);
-    EXPECT_LT(engine.tierTimes(0).medianMs, 1.5 * segmentMs) << "of a round of two it would be twice as long";
-}
-
 TEST_F(LiveEngineTest, WithoutTouchesTheWorkerSleepsAndInfersNothing) {
     const auto engine = this->engine(settings(true));
     const auto voice = engine->addVoice(48000.0);

@@ -358,30 +358,6 @@ TEST_F(LiveVoiceTest, AfterAFailedRunTheVoiceFadesAtTheEndOfItsSegment) {
     EXPECT_GT(testing::peak(from(device, device.output.size() - 4800)), 0.9F / 60.0F);
 }
 
-TEST_F(LiveVoiceTest, AStateTooSoonAfterAnotherGetsItsSegmentAHopLater) {
-    // The network outputs the requested speed. In each round, a state with a new speed follows another state by 2 ms.
-    FakeGenerator speed([](const inference::SegmentRequest& request, std::span<float> segment) {
-        std::ranges::fill(segment, 10.0F * request.motion[0]);
-    });
-    for (const std::size_t block : {64U, 128U, 256U}) {
-        testing::DeviceSettings settings;
-        settings.blockFrames = block;
-        SimulatedDevice device(model_, speed, settings);
-        device.run(1.0, slide);
-        const double blockSeconds = static_cast<double>(block) / rateHz;
-        for (int step = 0; step < 20; ++step) {
-            const float mps = step % 2 == 0 ? 0.3F : 0.1F;
-            device.publish(testing::sliding(0.2F));
-            device.run(0.002, [](double) { return std::nullopt; });
-            device.publish(testing::sliding(mps));
-            const double lead = device.counters().leadSamples / 2000.0;
-            // A hop, a polling interval of the worker, the lead, two blocks and the time of the generator.
-            device.run(0.005 + 0.002 + lead + 2.0 * blockSeconds + 0.002, [](double) { return std::nullopt; });
-            EXPECT_FLOAT_EQ(device.waveform.samples.back(), 10.0F * mps) << block << ", step " << step;
-        }
-    }
-}
-
 TEST_F(LiveVoiceTest, EveryTouchingStateGetsASegmentOrIsCountedAsSkipped) {
     SimulatedDevice device(model_, tone_);
     std::uint64_t touching = 0;

@@ -105,26 +105,6 @@ TEST(MaterialLibraryTest, ABlendsLevelIsTheMeanOfItsMaterialsInDecibels) {
                 std::pow(own, 0.25F) * std::pow(graph, 0.75F), 1e-4F);
 }
 
-TEST(MaterialLibraryTest, AMaterialWithoutSeedsUsesThoseOfTheNearestLabel) {
-    SmallLibrary small;
-    const auto without = [&](float numbers, float wave) {
-        return materialOf(small.model, [numbers, wave](json& text) {
-            text.erase("seeds");
-            text["embedding"] = std::vector<float>(60, numbers);
-            text["embedding"].insert(text["embedding"].end(), 4, wave);
-        });
-    };
-    // The embedding of "oak" has values from 0 to 0.63, that of "metal mesh" from 0.64 on.
-    (void)small.library.add(without(0.3F, 1.2F), small.levels());
-    (void)small.library.add(without(1.0F, 0.0F), small.levels());
-    (void)small.library.add(materialOf(small.model), small.levels());
-    EXPECT_EQ(small.ingredients({{2, 1.0F}}).heaviest().material->seeds.size(), 2U);
-    EXPECT_EQ(small.ingredients({{3, 1.0F}}).heaviest().material->seeds.size(), 1U);
-    const auto& own = small.ingredients({{4, 1.0F}}).heaviest().material->seeds;
-    ASSERT_EQ(own.size(), 1U);
-    EXPECT_EQ(own[0].ribPhase[0], 0.25);
-}
-
 TEST(MaterialLibraryTest, LevelsAndKernelsMatchTheGoldenFiles) {
     const json golden = haptoflow::testing::readGolden("material/expected.json");
     for (const auto& [modelPath, name] :

@@ -183,32 +183,6 @@ TEST(OfflineRendererTest, InvalidStatesAreSanitisedAndCountedAndTheOutputIsFinit
     EXPECT_TRUE(std::ranges::all_of(render.samples, [](float sample) { return std::abs(sample) < 1.0F; }));
 }
 
-TEST(OfflineRendererTest, ANewLabelIsAudibleAfterTheLead) {
-    const model::ModelFile model = testing::smallModel();
-    // The network outputs silence until the label changes, then a constant, so that the first non-zero sample shows the
-    // change.
-    const auto answer = [&model](const inference::SegmentRequest& request, std::span<float> segment) {
-        const bool mesh = request.embedding[3] == model.embedding(1)[3];
-        std::ranges::fill(segment, mesh ? 1.0F : 0.0F);
-    };
-    std::vector<TimedContactState> states = slide(1.0);
-    for (std::size_t i = 36; i < states.size(); ++i) {
-        states[i].material.labels[0] = 1;
-    }
-    for (const double leadMs : {2.0, 8.0, 20.0}) {
-        FakeGenerator generator(answer);
-        const OfflineRender render = renderOffline(model, generator, states, {.leadMs = leadMs});
-        const auto from = static_cast<std::size_t>(states[30].timeSeconds * 48000.0);
-        const auto first = std::find_if(render.samples.begin() + static_cast<std::ptrdiff_t>(from),
-                                        render.samples.end(), [](float sample) { return sample > 1e-3F; });
-        const double audibleMs = 1000.0 * static_cast<double>(first - render.samples.begin()) / 48000.0;
-        const double changedMs = 1000.0 * states[36].timeSeconds;
-        // The tolerance covers 5 ms of reading ahead and up to 2 ms for splice and resampler.
-        EXPECT_GE(audibleMs - changedMs, leadMs);
-        EXPECT_LE(audibleMs - changedMs, leadMs + 9.0);
-    }
-}
-
 TEST(OfflineRendererTest, SettingsOutOfRangeAreRejected) {
     const model::ModelFile model = testing::smallModel();
     FakeGenerator generator(whiteNoise);

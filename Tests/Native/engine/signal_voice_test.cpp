@@ -202,34 +202,5 @@ TEST_F(SignalVoiceTest, TheLatencyIsMeasuredFromTheStateToTheBlockOfTheChange) {
     EXPECT_EQ(stops.count, 1U);
 }
 
-TEST_F(SignalVoiceTest, ADelayAddsToTheLatencyAndToTheOutput) {
-    device_.controls().delaySeconds = 0.05;
-    device_.voice().channels.changeProcessors([](ProcessorSettings& settings) { return settings.hasDelay = true; });
-    setSignal(tone200);
-    play(0.1, lifted(0));
-    const std::size_t start = device_.output.size();
-    nowSeconds = 1.0;
-    device_.publish(sliding(0.15F));
-    nowSeconds = 1.003;
-    for (int block = 0; block < 15; ++block) {
-        device_.renderBlock();
-    }
-    EXPECT_NEAR(device_.counters().signalStarts.lastSeconds, 0.053, 1e-9);
-    const std::span<const float> output = std::span<const float>(device_.output).subspan(start);
-    EXPECT_EQ(testing::peak(output.first(2400)), 0.0F);
-    EXPECT_GT(testing::peak(output.subspan(2400, 40)), 0.0F);
-    EXPECT_TRUE(isTone(output.subspan(2400 + 96), 200.0, 6.0 / fullScaleMps2));
-    nowSeconds = 2.0;
-    device_.publish(lifted());
-    const std::size_t end = device_.output.size();
-    for (int block = 0; block < 15; ++block) {
-        device_.renderBlock();
-    }
-    const std::span<const float> ended = std::span<const float>(device_.output).subspan(end);
-    EXPECT_TRUE(isTone(ended.first(2400), 200.0, 6.0 / fullScaleMps2));
-    EXPECT_EQ(testing::peak(ended.subspan(2400 + 96)), 0.0F);
-    EXPECT_NEAR(device_.counters().signalStops.lastSeconds, 0.05, 1e-9);
-}
-
 }  // namespace
 }  // namespace haptoflow::engine

@@ -106,31 +106,6 @@ TEST_F(SilenceTest, OfSeveralReasonsTheMostPersistentIsReported) {
     EXPECT_EQ(next([] {}), Silence::panic);
 }
 
-TEST_F(SilenceTest, AnyCombinationOfControlsIsBoundedAndSilentIfAReasonHolds) {
-    SimulatedDevice device(model_, tone_);
-    device.run(0.2, slide);
-    std::uint32_t number = 1;
-    for (unsigned mixture = 0; mixture < 64; ++mixture) {
-        device.controls().muted = (mixture & 1U) != 0;
-        device.controls().paused = (mixture & 2U) != 0;
-        device.workerAlive = (mixture & 4U) == 0;
-        device.setRate((mixture & 8U) != 0 ? 96000.0 : 48000.0);
-        if ((mixture & 16U) != 0) {
-            device.voice().channels.panic();
-        }
-        // A new touch on another label with a jump of pose begins in the same block.
-        number += (mixture & 32U) != 0 ? 1 : 0;
-        ContactState state = testing::sliding((mixture & 32U) != 0 ? -19.0F : 0.1F, 2.0F);
-        state.touchCounter = number;
-        state.material.labels[0] = mixture % 2;
-        device.publish(state);
-        device.run(0.06, [&state](double) { return state; });
-        const auto last = std::span<const float>(device.output).last(480);
-        EXPECT_LE(testing::peak(last), 1.0F) << mixture;
-        EXPECT_EQ(reason(device) == Silence::none, testing::peak(last) > 0.0F) << mixture;
-    }
-}
-
 TEST_F(SilenceTest, AnUnsupportedRateIsCountedAndDoesNotWakeTheWorker) {
     for (const double impossible : {0.0, 1.0, -5.0, 7999.0, 192001.0, 1e9, std::numeric_limits<double>::quiet_NaN(),
                                     std::numeric_limits<double>::infinity()}) {

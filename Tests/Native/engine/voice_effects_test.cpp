@@ -142,30 +142,6 @@ TEST_F(VoiceEffectsTest, APanicSilencesAnImpactAndTheNextTouchSounds) {
     EXPECT_GT(testing::peak(from(device, after)), 0.01F);
 }
 
-TEST_F(VoiceEffectsTest, MutePauseAndStalenessSilenceAnImpactWithinFiveMilliseconds) {
-    for (const int reason : {0, 1, 2}) {
-        SimulatedDevice device(model_, tone_);
-        device.publish(landing(2.0F, impact));
-        renderBlocks(device, 2);
-        device.controls().muted = reason == 0;
-        device.controls().paused = reason == 1;
-        if (reason == 2) {
-            // 100 ms without a state; the impact would sound longer.
-            renderBlocks(device, 19);
-        }
-        const std::size_t begin = device.output.size();
-        renderBlocks(device, 3);
-        EXPECT_EQ(testing::peak(from(device, begin + 256)), 0.0F) << reason;
-        device.controls().muted = false;
-        device.controls().paused = false;
-        const std::size_t later = device.output.size();
-        device.publish(landing(2.0F, impact));
-        renderBlocks(device, 20);
-        EXPECT_EQ(testing::peak(from(device, later)), 0.0F) << reason;
-        EXPECT_LT(testing::largestStep(device.output), 0.3F) << reason;
-    }
-}
-
 /// A state that alternates between two labels every 100 ms.
 ContactState crossing(double seconds, float speedMps, EffectMask mask) {
     ContactState state = testing::sliding(speedMps);
@@ -285,49 +261,6 @@ TEST_F(VoiceEffectsTest, OnARoundedRimTheEdgeUsesTheSpeedBeforeIt) {
         EXPECT_NEAR(peakAt(0.4F, leaves) / peakAt(0.2F, leaves), 2.0, 0.05) << leaves;
         EXPECT_EQ(peakAt(0.0F, leaves), 0.0) << leaves;
     }
-}
-
-TEST_F(VoiceEffectsTest, TenMinutesOfBlowsAndInterruptionsStayBoundedAndEndInSilence) {
-    std::mt19937 random(7);
-    SimulatedDevice device(model_, tone_);
-    std::uint32_t touch = 1;
-    std::uint32_t edges = 0;
-    bool touching = true;
-    double peak = 0.0;
-    for (int second = 0; second < 600; ++second) {
-        device.run(1.0, [&](double) {
-            const auto draw = static_cast<std::uint32_t>(random());
-            touching = draw % 16 != 0 ? touching : !touching;
-            touch += draw % 23 == 0 ? 1 : 0;
-            edges += draw % 31 == 0 ? 1 : 0;
-            ContactState state = testing::sliding(static_cast<float>(draw % 100) * 0.01F);
-            state.touching = touching;
-            state.touchCounter = touch;
-            state.effects = (draw >> 8) % 8;
-            state.approachSpeedMps = static_cast<float>((draw >> 12) % 300) * 0.01F;
-            state.material.labels[0] = (draw >> 20) % 3;
-            state.edgeCounter = edges;
-            state.edgeHeightMetres = static_cast<float>((draw >> 22) % 100) * 0.001F;
-            device.controls().muted = draw % 97 == 0;
-            if (draw % 211 == 0) {
-                device.voice().channels.panic();
-            }
-            return state;
-        });
-        for (const float sample : device.output) {
-            ASSERT_TRUE(std::isfinite(sample));
-        }
-        peak = std::max(peak, static_cast<double>(testing::peak(device.output)));
-        device.output.clear();
-    }
-    EXPECT_LE(peak, 1.0);
-    EXPECT_GT(of(device, EffectKind::impact).events, 100U);
-    EXPECT_GT(of(device, EffectKind::edge).events, 100U);
-    device.controls().muted = false;
-    device.run(2.0, [&](double) { return testing::lifted(touch); });
-    device.output.clear();
-    device.run(0.1, [&](double) { return testing::lifted(touch); });
-    EXPECT_EQ(testing::peak(device.output), 0.0F);
 }
 
 /// Inverts the signal and counts its instances.

@@ -268,29 +268,6 @@ TEST(MaterialMutationTest, AFileWithChangedBytesIsRefusedOrReadable) {
     EXPECT_GT(refused, 100);
 }
 
-TEST(MaterialMutationTest, AFileWithAnExchangedValueIsRefusedOrReadable) {
-    const Json whole = validMaterial("0123abcd");
-    const Json flat = whole.flatten();
-    const std::vector<Json> values{
-        nullptr, true, -1, 0, 1e308, -1e308, "", "x", Json::array(), Json::object(), 18446744073709551615ULL};
-    int refused = 0;
-    for (const auto& [pointer, unused] : flat.items()) {
-        if (pointer.find("samples/") != std::string::npos && pointer.find("samples/0") == std::string::npos) {
-            continue;
-        }
-        for (const Json& value : values) {
-            Json mutant = whole;
-            mutant[Json::json_pointer(pointer)] = value;
-            try {
-                (void)parseMaterial(mutant.dump());
-            } catch (const MaterialError&) {
-                ++refused;
-            }
-        }
-    }
-    EXPECT_GT(refused, 500);
-}
-
 TEST(MaterialMutationTest, DeepNestingAndRepeatedKeysAreRefused) {
     Json material = validMaterial("0123abcd");
     material["nest"] = Json::parse(std::string(31, '[') + std::string(31, ']'));
