@@ -156,19 +156,6 @@ void OnnxSegmentGenerator::levels(std::span<const SegmentRequest> requests, std:
     level_.levels(requests, levelsMps2);
 }
 
-void OnnxSegmentGenerator::evaluateField(std::span<const SegmentRequest> requests, float time, float interval,
-                                         std::span<float> velocities) {
-    if (decoder_) {
-        throw std::invalid_argument("the field of a latent tier cannot be evaluated at a segment's noise");
-    }
-    requireSize(velocities.size(), requests.size() * segmentSamples, "velocities need room");
-    inBatches(requests.size(), maximumBatch_, [&](std::size_t first, std::size_t count) {
-        prepare(requests.subspan(first, count));
-        const std::size_t size = count * pointSize_;
-        field_.evaluate(std::span(points_).first(size), time, interval, velocities.subspan(first * pointSize_, size));
-    });
-}
-
 void OnnxSegmentGenerator::generateBatch(std::span<const SegmentRequest> requests, std::span<float> segments) {
     prepare(requests);
     const auto points = std::span(points_).first(requests.size() * pointSize_);

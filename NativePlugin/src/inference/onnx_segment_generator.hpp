@@ -96,11 +96,6 @@ public:
     void generate(std::span<const SegmentRequest> requests, std::span<float> segments) override;
     void levels(std::span<const SegmentRequest> requests, std::span<float> levelsMps2) override;
 
-    /// The field's value in unit scale at the solver's starting point, the requests' noise, and at `time`. Tests use it
-    /// to compare the graph with training, without a solver. Throws std::invalid_argument for a latent tier.
-    void evaluateField(std::span<const SegmentRequest> requests, float time, float interval,
-                       std::span<float> velocities);
-
     [[nodiscard]] RunCounts runCounts() const noexcept;
 
 private:

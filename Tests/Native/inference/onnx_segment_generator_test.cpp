@@ -145,24 +145,6 @@ TEST(OnnxSegmentGeneratorTest, ALatentTierEncodesAndDecodesOncePerBatch) {
     EXPECT_EQ(generator.runCounts().decoder, 1U);
 }
 
-TEST(OnnxSegmentGeneratorTest, TheFieldAtTheNoiseEqualsTheIncrementOfOneEulerStep) {
-    const auto requests = goldenBatch().requests();
-    OnnxSegmentGenerator generator = makeGenerator("standard", {SolverKind::euler, 1});
-    const auto segments = generate(generator, requests);
-    std::vector<float> levels(requests.size());
-    generator.levels(requests, levels);
-    std::vector<float> atStart(segments.size());
-    generator.evaluateField(requests, 0.0F, 1.0F, atStart);
-    std::vector<float> later(segments.size());
-    generator.evaluateField(requests, 0.5F, 1.0F, later);
-    for (std::size_t index = 0; index < segments.size(); ++index) {
-        const std::size_t row = index / segmentSamples;
-        const float noise = requests[row].noise[index % segmentSamples];
-        EXPECT_NEAR(atStart[index], segments[index] / levels[row] - noise, 1e-5F);
-        EXPECT_NEAR(later[index] - atStart[index], 0.75F * 0.25F, 1e-5F);
-    }
-}
-
 TEST(OnnxSegmentGeneratorTest, NonFiniteNoiseIsAnErrorThatDoesNotAffectTheNextBatch) {
     auto requests = goldenBatch().requests();
     OnnxSegmentGenerator generator = makeGenerator("standard", {SolverKind::midpoint, 2});
