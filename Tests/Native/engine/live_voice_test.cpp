@@ -418,5 +418,38 @@ TEST_F(LiveVoiceTest, DuringALongBlockEveryStateGetsASegmentAndTheNewestSounds) 
     EXPECT_FLOAT_EQ(device.waveform.samples.back(), 2.0F);
 }
 
+TEST_F(LiveVoiceTest, AChangeOfTheOutputRateCausesOnlyAFade) {
+    SimulatedDevice device(model_, tone_);
+    device.run(0.5, slide);
+    const std::uint64_t onsets = device.counters().onsets;
+    const float ordinaryStep = testing::largestStep(device.output);
+    device.setRate(24000.0);
+    const std::size_t begin = device.output.size();
+    device.run(0.5, slide);
+    EXPECT_EQ(device.counters().rateChanges, 1U);
+    EXPECT_EQ(device.counters().onsets, onsets) << "the touch continues";
+    EXPECT_LE(testing::largestStep(from(device, begin - 1)), 3.0F * ordinaryStep);
+    const auto settled = from(device, begin + 2400);
+    EXPECT_GT(testing::peak(settled), 0.9F / 60.0F);
+    int crossings = 0;
+    for (std::size_t i = 1; i < settled.size(); ++i) {
+        crossings += (settled[i - 1] < 0.0F) != (settled[i] < 0.0F) ? 1 : 0;
+    }
+    const double seconds = static_cast<double>(settled.size()) / 24000.0;
+    EXPECT_NEAR(crossings / seconds, 2.0 * testing::toneHz, 10.0) << "the tone keeps its pitch";
+}
+
+TEST_F(LiveVoiceTest, TheBlockLengthMayChangeAtAnyTime) {
+    SimulatedDevice device(model_, tone_);
+    std::size_t block = 1;
+    for (int i = 0; i < 60; ++i) {
+        device.setBlock(block);
+        device.run(0.02, slide);
+        block = block * 7 % 1021 + 1;
+    }
+    EXPECT_EQ(device.counters().underruns, 0U);
+    EXPECT_LE(testing::largestStep(std::span<const float>(device.waveform.samples).subspan(400)), 0.33F + 0.5F);
+}
+
 }  // namespace
 }  // namespace haptoflow::engine

@@ -462,5 +462,24 @@ TEST_F(ProcessorsTest, AfterARateChangeTheProcessorsApplyFromTheFirstSound) {
     EXPECT_GT(of(device, EffectKind::exposureGuard).runs, runs);
 }
 
+TEST_F(ProcessorsTest, LiftOffActsBeforeTheDelayAndPanicAfterIt) {
+    SimulatedDevice device(model_, tone_);
+    device.controls().delaySeconds = 0.2;
+    ask(device, [](ProcessorSettings& settings) { settings.hasDelay = true; });
+    device.run(0.6, [](double) { return testing::sliding(); });
+    const std::size_t lifted = device.output.size();
+    device.run(0.3, [](double) { return testing::lifted(1); });
+    EXPECT_GT(testing::peak(from(device, lifted + 9000)), 0.5F / 60.0F) << "the delayed texture must still sound";
+    EXPECT_LT(testing::peak(from(device, lifted + 9600 + 240 + 512)), silence);
+    ContactState again = testing::sliding();
+    again.touchCounter = 2;
+    device.run(0.4, [&again](double) { return again; });
+    device.voice().channels.panic();
+    device.renderBlock();
+    const std::size_t panicked = device.output.size();
+    device.run(0.4, [&again](double) { return again; });
+    EXPECT_EQ(testing::peak(from(device, panicked)), 0.0F);
+}
+
 }  // namespace
 }  // namespace haptoflow::engine

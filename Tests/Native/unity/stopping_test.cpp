@@ -155,5 +155,27 @@ TEST_F(StoppingTest, AChangeOfVoicePassesThroughSilence) {
     EXPECT_EQ(other.statistics().rendered_frames, frameOfAudio - stopFrames);
 }
 
+TEST_P(StoppingFlagsTest, AnEffectThatStartsSilentDoesNotRenderTheVoice) {
+    effect.reset();
+    effect.setFlags(GetParam());
+    const std::uint64_t before = rendered();
+    EXPECT_THAT(effect.process(frameOfAudio).channel(1), Each(0.0F));
+    EXPECT_EQ(rendered(), before);
+}
+
+TEST_F(StoppingTest, ATouchWithoutNewStatesSinceThePauseBecomesStale) {
+    effect.setFlags(flagPlaying | flagPaused);
+    for (int i = 0; i < 50; ++i) {
+        (void)effect.process(frameOfAudio);
+    }
+    EXPECT_EQ(voice_.statistics().stale_stops, 0U);
+    effect.setFlags(flagPlaying);
+    for (int i = 0; i < 11; ++i) {
+        (void)effect.process(frameOfAudio);
+    }
+    EXPECT_EQ(voice_.statistics().stale_stops, 1U);
+    EXPECT_THAT(effect.process(frameOfAudio).channel(1), Each(0.0F));
+}
+
 }  // namespace
 }  // namespace haptoflow::unity::testing
