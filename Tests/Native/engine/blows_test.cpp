@@ -266,5 +266,32 @@ INSTANTIATE_TEST_SUITE_P(Of, BlowLoudnessTest,
                                     std::to_string(static_cast<int>(std::get<1>(test.param))) + "Hz";
                          });
 
+TEST_F(BlowsTest, ALandingAndALiftOffInOneBlockSound) {
+    for (const std::size_t block : blockLengths) {
+        const std::vector<float> held = play(block, {testing::lifted(0), landing(0.5F, 1)});
+        const std::vector<float> tapped = play(block, {testing::lifted(0), landing(0.5F, 1), testing::lifted(1)});
+        EXPECT_EQ(held, tapped) << block;
+        EXPECT_GT(testing::peak(tapped), 0.01F) << block;
+    }
+}
+
+TEST_F(BlowsTest, ALandingInTheFrameInWhichTheRateChangesSounds) {
+    for (const double rateHz : {16000.0, 44100.0, 96000.0}) {
+        for (const bool isRib : {false, true}) {
+            SimulatedDevice device(model_, tone_);
+            const EffectKind kind = isRib ? EffectKind::edge : EffectKind::impact;
+            device.run(0.2, [&](double) { return isRib ? onRibs(0) : testing::lifted(0); });
+            device.setRate(rateHz);
+            const std::size_t begin = device.output.size();
+            const ContactState blow = isRib ? onRibs(1) : landing(0.5F, 1);
+            device.publish(blow);
+            device.renderBlock();
+            device.run(0.2, [&](double) { return blow; });
+            EXPECT_EQ(events(device, kind), 1U) << rateHz;
+            EXPECT_GT(testing::peak(std::span<const float>(device.output).subspan(begin)), 0.005F) << rateHz;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace haptoflow::engine

@@ -245,5 +245,25 @@ TEST(StrengthTest, AChangeOfStrengthWhileSoundingDoesNotClick) {
     EXPECT_EQ(testing::peak(gliding.subspan(481)), 0.0F) << "the change must end after 10 ms";
 }
 
+TEST_F(PanicTest, AFirstTouchWithCounterZeroIsSilenced) {
+    SimulatedDevice device(model_, tone_);
+    device.run(0.3, [](double) { return touch(0); });
+    ASSERT_GT(testing::peak(device.output), audible);
+    panic(device);
+    const std::size_t begin = device.output.size();
+    device.run(0.3, [](double) { return touch(0); });
+    EXPECT_EQ(testing::peak(from(device, begin + 256)), 0.0F);
+}
+
+TEST_P(InterruptionTest, ACeilingSetInSilenceAppliesFromTheFirstSample) {
+    SimulatedDevice device(model_, generator_, {.fullScaleMps2 = 0.01F});
+    const std::size_t end = interrupt(device);
+    device.controls().ceiling = 0.1F;
+    device.run(0.2, [this](double) { return motion().after; });
+    const float loudest = testing::peak(std::span<const float>(device.output).subspan(end));
+    EXPECT_LT(loudest, 0.1F);
+    EXPECT_GT(loudest, 0.05F);
+}
+
 }  // namespace
 }  // namespace haptoflow::engine
