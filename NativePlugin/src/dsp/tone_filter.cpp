@@ -12,16 +12,16 @@
 namespace haptoflow::dsp {
 namespace {
 
-constexpr std::size_t transformLength = 256;
+constexpr std::size_t cepstrumLength = 256;
 
 }  // namespace
 
 ToneCepstrum toneCepstrum(const ToneGain& gainDb) {
-    std::vector<std::complex<double>> values(transformLength);
-    for (std::size_t i = 0; i <= transformLength / 2; ++i) {
-        const double frequencyHz = static_cast<double>(i) * waveformRateHz / static_cast<double>(transformLength);
+    std::vector<std::complex<double>> values(cepstrumLength);
+    for (std::size_t i = 0; i <= cepstrumLength / 2; ++i) {
+        const double frequencyHz = static_cast<double>(i) * waveformRateHz / static_cast<double>(cepstrumLength);
         values[i] = gainDb(frequencyHz) * nepersPerDecibel;
-        values[(transformLength - i) % transformLength] = values[i];
+        values[(cepstrumLength - i) % cepstrumLength] = values[i];
     }
     fourierTransform(values, Direction::inverse);
     ToneCepstrum cepstrum{};

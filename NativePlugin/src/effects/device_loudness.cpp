@@ -90,7 +90,7 @@ constexpr double shelfEndHz = 1500.0;
 constexpr float middleEnvelopeMps2 = 12.0F;
 constexpr float middleShare = 0.4F;
 constexpr float exponent = 0.4F;
-constexpr float knee = 0.7F;
+constexpr float softKnee = 0.7F;
 constexpr float ceiling = 0.9F;
 // Quieter envelopes are not raised any further.
 constexpr float leastEnvelopeMps2 = 0.2F;
@@ -100,8 +100,8 @@ constexpr float loudEnvelopeMps2 = 200.0F;
 
 float shareOf(float envelopeMps2) noexcept {
     const float share = middleShare * std::pow(envelopeMps2 / middleEnvelopeMps2, exponent);
-    constexpr float room = ceiling - knee;
-    return share <= knee ? share : ceiling - room * room / (room + share - knee);
+    constexpr float room = ceiling - softKnee;
+    return share <= softKnee ? share : ceiling - room * room / (room + share - softKnee);
 }
 
 float gainOf(float envelopeMps2) noexcept {
