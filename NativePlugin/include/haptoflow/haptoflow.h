@@ -561,8 +561,8 @@ HAPTOFLOW_API haptoflow_status haptoflow_engine_material_count(const haptoflow_e
 HAPTOFLOW_API haptoflow_status haptoflow_engine_material(const haptoflow_engine* engine, uint32_t index,
                                                          haptoflow_label_info* info);
 
-/* Runs one round of inference for all voices that need a segment. Only for engines without worker. [worker-thread]
- * */
+/* Runs one round of inference for all voices that need a segment. Only for engines without worker.
+ * [worker-thread] */
 HAPTOFLOW_API haptoflow_status haptoflow_engine_step(haptoflow_engine* engine);
 
 /* Fills the engine's statistics. [any-thread] Blocks while another thread opens or closes a handle, never for
