@@ -74,53 +74,32 @@ TEST(FileLayoutTest, AFileWithAFlippedVersionBitIsDamagedAndNotNewer) {
     expectRefusal(file, ModelStatus::damaged, "checksum at byte 28");
 }
 
-TEST(FileLayoutTest, AHeaderLengthAboveTheLimitIsRefused) {
-    Bytes file = validFile();
-    writeUnsigned(file, headerLengthOffset, 4, 4'194'305);
-    resealPrefix(file);
-    expectRefusal(file, ModelStatus::oversized, "4194305");
-}
-
-TEST(FileLayoutTest, AHeaderLengthBelowTwoIsRefused) {
-    Bytes file = validFile();
-    writeUnsigned(file, headerLengthOffset, 4, 1);
-    resealPrefix(file);
-    expectRefusal(file, ModelStatus::inconsistent, "header length 1");
-}
-
-TEST(FileLayoutTest, AHeaderBeyondTheEndOfTheFileIsRefused) {
-    Bytes file = validFile();
-    writeUnsigned(file, headerLengthOffset, 4, 4'194'272);
-    resealPrefix(file);
-    expectRefusal(file, ModelStatus::inconsistent, "inside the file");
-}
-
-TEST(FileLayoutTest, AHeaderThatDoesNotEndOnAMultipleOf64IsRefused) {
-    Bytes file = validFile();
-    writeUnsigned(file, headerLengthOffset, 4, readUnsigned(file, headerLengthOffset, 4) - 1);
-    resealHeader(file);
-    expectRefusal(file, ModelStatus::inconsistent, "multiple of 64");
-}
-
-TEST(FileLayoutTest, AFileLengthAboveTheLimitIsRefused) {
-    Bytes file = validFile();
-    writeUnsigned(file, fileLengthOffset, 8, 268'435'457);
-    resealPrefix(file);
-    expectRefusal(file, ModelStatus::oversized, "268435457");
-}
-
-TEST(FileLayoutTest, AFileLengthOfTheLargest64BitNumberIsRefused) {
-    Bytes file = validFile();
-    writeUnsigned(file, fileLengthOffset, 8, ~std::uint64_t{0});
-    resealPrefix(file);
-    expectRefusal(file, ModelStatus::oversized, "18446744073709551615");
-}
-
-TEST(FileLayoutTest, AFileLengthBelowThatOfTheFirstPartIsRefused) {
-    Bytes file = validFile();
-    writeUnsigned(file, fileLengthOffset, 8, 3);
-    resealPrefix(file);
-    expectRefusal(file, ModelStatus::inconsistent, "says 3 bytes");
+TEST(FileLayoutTest, LengthsThatDoNotFitAreRefused) {
+    struct Length {
+        std::size_t offset;
+        std::size_t bytes;
+        std::uint64_t value;
+        ModelStatus status;
+        const char* part;
+    };
+    const std::uint64_t header = readUnsigned(validFile(), headerLengthOffset, 4);
+    for (const Length& length : {
+             Length{headerLengthOffset, 4, 4'194'305, ModelStatus::oversized, "4194305"},
+             Length{headerLengthOffset, 4, 1, ModelStatus::inconsistent, "header length 1"},
+             Length{headerLengthOffset, 4, 4'194'272, ModelStatus::inconsistent, "inside the file"},
+             Length{headerLengthOffset, 4, header - 1, ModelStatus::inconsistent, "multiple of 64"},
+             Length{fileLengthOffset, 8, 268'435'457, ModelStatus::oversized, "268435457"},
+             Length{fileLengthOffset, 8, ~std::uint64_t{0}, ModelStatus::oversized, "18446744073709551615"},
+             Length{fileLengthOffset, 8, 3, ModelStatus::inconsistent, "says 3 bytes"},
+         }) {
+        Bytes file = validFile();
+        writeUnsigned(file, length.offset, length.bytes, length.value);
+        if (length.value == header - 1) {
+            resealHeader(file);
+        }
+        resealPrefix(file);
+        expectRefusal(file, length.status, length.part);
+    }
 }
 
 TEST(FileLayoutTest, AHeaderThatDoesNotMatchItsChecksumIsRefused) {
@@ -129,22 +108,15 @@ TEST(FileLayoutTest, AHeaderThatDoesNotMatchItsChecksumIsRefused) {
     expectRefusal(file, ModelStatus::damaged, "checksum at byte 24");
 }
 
-TEST(FileLayoutTest, PaddingOtherThanSpacesIsRefused) {
-    ModelBuilder builder;
-    builder.editText = [](std::string& text) { text.back() = '\n'; };
-    expectRefusal(builder.build(), ModelStatus::inconsistent, "spaces");
-}
-
-TEST(FileLayoutTest, AHeaderOfSpacesOnlyIsRefused) {
-    ModelBuilder builder;
-    builder.editText = [](std::string& text) { text.assign(text.size(), ' '); };
-    expectRefusal(builder.build(), ModelStatus::inconsistent, "one object");
-}
-
-TEST(FileLayoutTest, AHeaderThatIsAnArrayIsRefused) {
-    ModelBuilder builder;
-    builder.editText = [](std::string& text) { text = "[]" + std::string(text.size() - 2, ' '); };
-    expectRefusal(builder.build(), ModelStatus::inconsistent, "one object");
+TEST(FileLayoutTest, AHeaderThatIsNoObjectFollowedBySpacesIsRefused) {
+    const auto refuse = [](void (*edit)(std::string&), const char* part) {
+        ModelBuilder builder;
+        builder.editText = edit;
+        expectRefusal(builder.build(), ModelStatus::inconsistent, part);
+    };
+    refuse([](std::string& text) { text.back() = '\n'; }, "spaces");
+    refuse([](std::string& text) { text.assign(text.size(), ' '); }, "one object");
+    refuse([](std::string& text) { text = "[]" + std::string(text.size() - 2, ' '); }, "one object");
 }
 
 }  // namespace
@@ -199,34 +171,11 @@ std::string nested(int levels) {
     return text + std::string(static_cast<std::size_t>(levels - 1), ']') + '}';
 }
 
-TEST(JsonLimitsTest, JsonThatEndsEarlyIsDamaged) {
-    ModelBuilder builder;
-    replaceHeader(builder, R"({"name": })");
-    expectRefusal(builder.build(), ModelStatus::damaged, "valid JSON");
-}
-
-TEST(JsonLimitsTest, ASecondValueAfterTheObjectIsRefused) {
-    ModelBuilder builder;
-    replaceHeader(builder, R"({} {})");
-    expectRefusal(builder.build(), ModelStatus::damaged, "valid JSON");
-}
-
-TEST(JsonLimitsTest, TextThatIsNotUtf8IsRefused) {
-    ModelBuilder builder;
-    replaceHeader(builder, "{\"name\": \"\xFF\xFE\"}");
-    expectRefusal(builder.build(), ModelStatus::damaged, "valid JSON");
-}
-
-TEST(JsonLimitsTest, NumbersBeyondTheRangeOfDoubleAreRefused) {
-    ModelBuilder builder;
-    replaceHeader(builder, R"({"name": 1e999})");
-    expectRefusal(builder.build(), ModelStatus::damaged, "valid JSON");
-}
-
-TEST(JsonLimitsTest, NanAndInfinityAreRefused) {
-    for (const char* word : {"NaN", "Infinity", "-Infinity"}) {
+TEST(JsonLimitsTest, WhatIsNotOneJsonValueIsDamaged) {
+    for (const char* text : {R"({"name": })", R"({} {})", "{\"name\": \"\xFF\xFE\"}", R"({"name": 1e999})",
+                             R"({"sample_rate_hz": NaN})", R"({"sample_rate_hz": -Infinity})"}) {
         ModelBuilder builder;
-        replaceHeader(builder, std::string(R"({"sample_rate_hz": )") + word + "}");
+        replaceHeader(builder, text);
         expectRefusal(builder.build(), ModelStatus::damaged, "valid JSON");
     }
 }
