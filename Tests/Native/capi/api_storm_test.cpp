@@ -398,7 +398,6 @@ private:
         haptoflow_tier_times times{};
         times.struct_size = sizeOf(sizeof(times));
         std::uint32_t place = 0;
-        std::array<float, 16> noise{};
         const bool isNull = oneIn(16);
         switch (next() % 16) {
             case 14:

@@ -154,9 +154,6 @@ TEST_F(OpenModelTest, TheTiersAreListed) {
 using model::testing::Bytes;
 using Graphs = std::map<std::string, Bytes>;
 
-constexpr uint32_t draftTier = 0;
-constexpr uint32_t standardTier = 1;
-
 class LoadingApiTest : public ::testing::Test {
 protected:
     void TearDown() override {
@@ -204,21 +201,6 @@ protected:
         statistics.struct_size = sizeof(statistics);
         EXPECT_EQ(haptoflow_engine_get_statistics(engine, &statistics), HAPTOFLOW_OK);
         return statistics.tier;
-    }
-    static uint64_t runsOf(const haptoflow_engine* engine, uint32_t tier) {
-        haptoflow_tier_times times{};
-        times.struct_size = sizeof(times);
-        EXPECT_EQ(haptoflow_engine_tier_times(engine, tier, &times), HAPTOFLOW_OK);
-        return times.runs;
-    }
-    /// Publishes and generates one touch with one segment.
-    static void slide(haptoflow_engine* engine, haptoflow_voice voice, uint32_t touch) {
-        haptoflow_contact_state state = slidingState();
-        state.touch_counter = touch;
-        std::vector<float> block(667);
-        EXPECT_EQ(haptoflow_voice_publish(voice, &state), HAPTOFLOW_OK);
-        EXPECT_EQ(haptoflow_voice_render(voice, block.data(), 667, 1, 0, 48000.0), HAPTOFLOW_OK);
-        EXPECT_EQ(haptoflow_engine_step(engine), HAPTOFLOW_OK);
     }
 
     haptoflow_runtime* runtime_ = openRuntime();

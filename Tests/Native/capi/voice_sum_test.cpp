@@ -77,13 +77,6 @@ protected:
         return wave;
     }
 
-    static uint64_t limitedSamples(haptoflow_voice voice) {
-        haptoflow_voice_statistics statistics{};
-        statistics.struct_size = sizeof(statistics);
-        EXPECT_EQ(haptoflow_voice_get_statistics(voice, &statistics), HAPTOFLOW_OK);
-        return statistics.limited_samples;
-    }
-
     haptoflow_runtime* runtime_ = openRuntime();
     haptoflow_model* model_ = nullptr;
     std::vector<haptoflow_engine*> engines_;

@@ -113,27 +113,6 @@ TEST(ToneFilterTest, TheBlockLengthsDoNotChangeTheFilteredSignal) {
     EXPECT_EQ(found, expected);
 }
 
-/// The largest step between neighbouring samples of a 50 Hz tone while the kernel changes every `period` samples.
-float largestStep(std::span<const ToneKernel* const> kernels, std::size_t period) {
-    ToneFilter filter;
-    std::vector<float> samples = tone(50.0, 2000);
-    const std::vector<float> input = samples;
-    filter.reset(nullptr);
-    for (std::size_t first = 0; first < samples.size(); first += period) {
-        std::array<float, ToneFilter::memorySamples> past{};
-        if (first >= past.size()) {
-            std::copy_n(input.begin() + static_cast<std::ptrdiff_t>(first - past.size()), past.size(), past.begin());
-        }
-        filter.setTone(kernels[first / period % kernels.size()], past);
-        filter.process(std::span(samples).subspan(first, std::min(period, samples.size() - first)));
-    }
-    float largest = 0.0F;
-    for (std::size_t i = 200; i < samples.size(); ++i) {
-        largest = std::max(largest, std::abs(samples[i] - samples[i - 1]));
-    }
-    return largest;
-}
-
 TEST(ToneFilterTest, AToneThatIsSwitchedOffFadesAndTheFilterBecomesInactive) {
     const ToneKernel kernel = toneKernel(toneCepstrum(rising));
     ToneFilter filter;

@@ -17,9 +17,7 @@ namespace haptoflow::effects {
 namespace {
 
 using testing::decayingSinusoidFrom;
-using testing::featureNoise;
 using testing::featureSine;
-using testing::textureNoise;
 
 WaveFeatureOptions touchPlus() {
     WaveFeatureOptions options;

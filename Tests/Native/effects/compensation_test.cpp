@@ -90,27 +90,6 @@ std::vector<float> noise(std::size_t count, float amplitude, unsigned seed) {
     return samples;
 }
 
-/// White noise up to 1 kHz, as in a texture at the output rate.
-std::vector<float> textureNoise(std::size_t count, float amplitude, unsigned seed) {
-    std::vector<float> samples = noise(count, amplitude, seed);
-    for (int pass = 0; pass < 4; ++pass) {
-        double state = 0.0;
-        for (float& sample : samples) {
-            state += 0.15 * (static_cast<double>(sample) - state);
-            sample = static_cast<float>(state);
-        }
-    }
-    return samples;
-}
-
-double powerOf(const std::vector<float>& samples) {
-    double sum = 0.0;
-    for (const float sample : samples) {
-        sum += static_cast<double>(sample) * static_cast<double>(sample);
-    }
-    return sum / static_cast<double>(samples.size());
-}
-
 TEST(CompensationTest, TheCompensatedVoiceCoilIsFlatWithinThreeDecibelsFrom60To400HzAtEveryRate) {
     const ActuatorProfile coil = voiceCoil();
     for (const double rate : rates) {

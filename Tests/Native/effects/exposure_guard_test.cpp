@@ -91,8 +91,7 @@ private:
 };
 
 // Tones with the unweighted and weighted levels of the shipped strokes on the loudest labels at 3 N.
-const std::vector<Tone> wholeSet{{160.0, 43.6}, {25.0, 12.0}};       // 32 m/s^2, weighted 6.3
-const std::vector<Tone> loudestStroke{{160.0, 70.7}, {25.0, 22.6}};  // 52.5 m/s^2, weighted 11.5
+const std::vector<Tone> wholeSet{{160.0, 43.6}, {25.0, 12.0}};  // 32 m/s^2, weighted 6.3
 const std::vector<Tone> fullScale{{160.0, 200.0}};
 
 TEST(ExposureGuardTest, AnHourOfSlidingOverTheLoudestLabelsIsNotReduced) {
@@ -269,16 +268,6 @@ TEST(ExposureGuardTest, TheBlockLengthsDoNotChangeTheResult) {
     for (const std::size_t block : {1U, 7U, 64U, 441U, 1024U}) {
         EXPECT_EQ(played(block), whole) << block;
     }
-}
-
-/// Plays a tone and passes silence in turn, as a hand does, and returns the longest day's exposure.
-double playDay(ExposureGuard& guard, Session& session, double seconds, const std::vector<Tone>& tones,
-               double playSeconds, double pauseSeconds) {
-    for (double at = 0.0; at < seconds; at += playSeconds + pauseSeconds) {
-        session.play(playSeconds, tones);
-        guard.passSilence(static_cast<std::uint64_t>(pauseSeconds * voiceRateHz));
-    }
-    return session.highestDailyMps2;
 }
 
 class ExposureDayTest : public ::testing::TestWithParam<double> {};

@@ -271,5 +271,21 @@ TEST_F(LongRunTest, AStrokeRenderedOfflineADayLaterGivesTheSameBits) {
     EXPECT_EQ(renderFrom(daySeconds), now);
 }
 
+TEST_F(LongRunTest, AVoiceAfterALongTouchSoundsLikeANewVoice) {
+    SimulatedDevice device(model_, tone_, settings());
+    const auto seconds = static_cast<int>(soundingSeconds());
+    for (int second = 0; second < seconds; ++second) {
+        device.run(1.0, [](double) { return testing::sliding(19.0F); });
+        device.output.clear();
+        device.waveform.samples.clear();
+        device.waveform.seams.clear();
+    }
+    // The head advances by four times 2,000 samples a second, except at the beginning.
+    EXPECT_GT(device.voice().renderer.voice().timeline().head(), 7900LL * seconds);
+    device.run(1.0, [](double) { return testing::lifted(1); });
+    EXPECT_EQ(touch(device, 2), ofANewVoice());
+    EXPECT_EQ(device.counters().underruns, 0U);
+}
+
 }  // namespace
 }  // namespace haptoflow::engine

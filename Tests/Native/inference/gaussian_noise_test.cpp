@@ -26,14 +26,6 @@ const std::vector<float>& manyValues() {
     return values;
 }
 
-double moment(const std::vector<float>& values, int power) {
-    double sum = 0.0;
-    for (const float value : values) {
-        sum += std::pow(static_cast<double>(value), power);
-    }
-    return sum / static_cast<double>(values.size());
-}
-
 double correlation(const std::vector<float>& left, const std::vector<float>& right, std::size_t lag) {
     double sum = 0.0;
     const std::size_t count = std::min(left.size(), right.size() - lag);

@@ -98,13 +98,6 @@ void decay(std::span<const float> point, float /*time*/, std::span<float> veloci
     }
 }
 
-/// A rotation by a quarter turn: (1, 0) becomes (0, 1).
-void rotate(std::span<const float> point, float /*time*/, std::span<float> velocity) {
-    const auto rate = static_cast<float>(std::numbers::pi / 2.0);
-    velocity[0] = -rate * point[1];
-    velocity[1] = rate * point[0];
-}
-
 float integrateOne(Formula formula, SolverSettings settings, float start) {
     FormulaField field(std::move(formula));
     Solver solver;
