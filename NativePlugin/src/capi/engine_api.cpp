@@ -109,7 +109,7 @@ haptoflow_status haptoflow_engine_create(const haptoflow_engine_options* options
         engine::EngineTiers tiers(header.tiers.size());
         for (std::size_t index = 0; index < tiers.size(); ++index) {
             const model::Tier& tier = header.tiers[index];
-            if (runtime != nullptr || !tier.needsOnnxRuntime() || index == settings.quality.fixedTier) {
+            if (runtime != nullptr || !tier.needsOnnxRuntime() || settings.quality.fixedTier.value_or(index) == index) {
                 tiers[index] = inference::makeGenerator(runtime, open->model, tier, inference::defaultSolver(tier),
                                                         batch, limits, open->native, &sessions);
             }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "engine/live_engine.hpp"
-#include "include/haptoflow/haptoflow.h"
+#include "haptoflow/haptoflow.h"
 #include "inference/load_limits.hpp"
 #include "inference/tier_generator.hpp"
 #include "model/material_file.hpp"

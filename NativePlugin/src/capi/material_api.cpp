@@ -48,8 +48,9 @@ engine::MaterialLibrary::LevelSource levelsOf(OpenEngine& open) {
     return [&open]() -> inference::LevelEstimator& {
         if (open.levels == nullptr) {
             const model::ModelHeader& header = open.model->model.header();
-            open.levels = inference::makeLevelEstimator(open.runtime, open.model->model, header.tiers[header.defaultTier],
-                                                        {.probeLimitMs = open.probeLimitMs}, open.model->native);
+            open.levels =
+                inference::makeLevelEstimator(open.runtime, open.model->model, header.tiers[header.defaultTier],
+                                              {.probeLimitMs = open.probeLimitMs}, open.model->native);
         }
         return *open.levels;
     };

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "engine/live_engine.hpp"
-#include "include/haptoflow/haptoflow.h"
+#include "haptoflow/haptoflow.h"
 
 #include <array>
 #include <atomic>
