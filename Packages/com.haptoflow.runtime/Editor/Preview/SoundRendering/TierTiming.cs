@@ -53,13 +53,17 @@ namespace HaptoFlow.Preview
             return Of(milliseconds);
         }
 
-        /// <summary>Standard normal numbers. Which ones changes no time.</summary>
+        /// <summary>Standard normal numbers, after Box and Muller. Which ones changes no time.</summary>
         private static float[] Noise()
         {
             var random = new Random(1);
-            return Enumerable.Range(0, HapticGenerator.SegmentSamples).Select(_ =>
-                (float)(Math.Sqrt(-2.0 * Math.Log(1.0 - random.NextDouble())) * Math.Cos(2.0 * Math.PI * random.NextDouble())))
-                .ToArray();
+            var noise = new float[HapticGenerator.SegmentSamples];
+            for (int index = 0; index < noise.Length; ++index)
+            {
+                double size = Math.Sqrt(-2.0 * Math.Log(1.0 - random.NextDouble()));
+                noise[index] = (float)(size * Math.Cos(2.0 * Math.PI * random.NextDouble()));
+            }
+            return noise;
         }
 
         /// <param name="milliseconds">At least one measurement.</param>
