@@ -129,13 +129,6 @@ Listen::Listen(double sampleRateHz, double fullScaleMps2)
     gain_.begin(loudEnvelopeMps2);
 }
 
-EffectDeclaration Listen::declaration() const noexcept {
-    return {.kind = EffectKind::listen,
-            .latencySeconds = EnvelopeGain::latencySeconds,
-            .tailSeconds = 0.02,
-            .memoryBytes = sizeof(*this)};
-}
-
 double Listen::brightened(double sample) noexcept {
     for (Shelf& shelf : shelves_) {
         const double out = in0_ * sample + in1_ * shelf.in + back_ * shelf.out;

@@ -79,7 +79,6 @@ public:
     /// 8-192 kHz or a full scale that is not above 0.
     Listen(double sampleRateHz, double fullScaleMps2);
 
-    [[nodiscard]] EffectDeclaration declaration() const noexcept override;
     void process(std::span<float> samplesMps2) noexcept override;
     void reset() noexcept override;
     [[nodiscard]] bool isIdle() const noexcept override;

@@ -283,14 +283,6 @@ ExposureReport ExposureGuard::report() const noexcept {
             .loweredSeconds = publishedLoweredSeconds_.load(std::memory_order_relaxed)};
 }
 
-EffectDeclaration ExposureGuard::declaration() const noexcept {
-    return {.kind = EffectKind::exposureGuard,
-            .reads = contact_field::none,
-            .latencySeconds = 0.0,
-            .tailSeconds = 0.0,
-            .memoryBytes = sizeof(ExposureGuard)};
-}
-
 void ExposureGuard::reset() noexcept {
     weighting_.reset();
 }

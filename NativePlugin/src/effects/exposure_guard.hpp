@@ -138,7 +138,6 @@ public:
     /// Any thread. Each value belongs to the latest hundredth of a second or to the one before.
     [[nodiscard]] ExposureReport report() const noexcept;
 
-    [[nodiscard]] EffectDeclaration declaration() const noexcept override;
     void process(std::span<float> samplesMps2) noexcept override;
     /// Clears the signal state; exposure and gain stay.
     void reset() noexcept override;

@@ -50,8 +50,8 @@ constexpr double maximumAmplitudeMps2 = 1e5;
 
 }  // namespace
 
-Strikes::Strikes(EffectKind kind, double sampleRateHz, double decayFactor) noexcept
-    : kind_(kind), sampleRateHz_(sampleRateHz), decayFactor_(decayFactor) {}
+Strikes::Strikes(double sampleRateHz, double decayFactor) noexcept
+    : sampleRateHz_(sampleRateHz), decayFactor_(decayFactor) {}
 
 void Strikes::strike(double speedMps, const ImpactResponse& response) noexcept {
     if (!(speedMps > 0.0)) {
@@ -92,19 +92,6 @@ void Strikes::planRebound(double speedMps, const ImpactResponse& response) noexc
     const double flightSeconds = 2.0 * rebound_.speedMps / returnAccelerationMps2;
     rebound_.samplesLeft = 1 + static_cast<std::uint64_t>(flightSeconds * sampleRateHz_);
     isIdle_ = false;
-}
-
-EffectDeclaration Strikes::declaration() const noexcept {
-    // The time in which the strongest and slowest mode decays to silence, after the last rebound's flight.
-    const double ringSeconds = std::log(maximumAmplitudeMps2 / imperceptibleMps2) / minimumDecayPerSecond;
-    const double flightsSeconds = static_cast<double>(rebounds) * 2.0 * ImpactResponse::maximumRestitution *
-                                  maximumStrikeMps / returnAccelerationMps2;
-    return {.kind = kind_,
-            .reads = contact_field::touch | contact_field::material |
-                     (kind_ == EffectKind::impact ? contact_field::approachSpeed : contact_field::velocity),
-            .latencySeconds = 0.0,
-            .tailSeconds = ringSeconds / decayFactor_ + flightsSeconds,
-            .memoryBytes = sizeof(Strikes)};
 }
 
 void Strikes::process(std::span<float> samplesMps2) noexcept {

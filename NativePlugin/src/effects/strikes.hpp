@@ -61,12 +61,11 @@ public:
     static constexpr std::size_t rebounds = 2;
 
     /// `decayFactor` multiplies the decay of the responses, which makes edges shorter than landings.
-    Strikes(EffectKind kind, double sampleRateHz, double decayFactor = 1.0) noexcept;
+    explicit Strikes(double sampleRateHz, double decayFactor = 1.0) noexcept;
 
     /// Starts a blow with the next sample; its rebounds follow. Ignores a speed that is not above 0.
     void strike(double speedMps, const ImpactResponse& response) noexcept;
 
-    [[nodiscard]] EffectDeclaration declaration() const noexcept override;
     void process(std::span<float> samplesMps2) noexcept override;
     void reset() noexcept override;
     [[nodiscard]] bool isIdle() const noexcept override { return isIdle_; }
@@ -81,7 +80,6 @@ private:
     void ring(double speedMps, const ImpactResponse& response) noexcept;
     void planRebound(double speedMps, const ImpactResponse& response) noexcept;
 
-    EffectKind kind_;
     double sampleRateHz_;
     double decayFactor_;
     std::array<DecayingSinusoid, capacity> ringing_{};

@@ -82,8 +82,8 @@ void resetAll(const Processors* processors) noexcept {
 }  // namespace
 
 EffectStage::EffectStage(double outputRateHz)
-    : impact_(EffectKind::impact, outputRateHz),
-      edge_(EffectKind::edge, outputRateHz, edgeDecayFactor),
+    : impact_(outputRateHz),
+      edge_(outputRateHz, edgeDecayFactor),
       signal_(outputRateHz),
       gate_(outputRateHz),
       fadeSamples_(std::max<std::size_t>(1, static_cast<std::size_t>(handOverSeconds * outputRateHz))) {}

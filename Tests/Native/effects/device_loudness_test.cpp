@@ -228,7 +228,7 @@ TEST(ListenTest, AfterItsTailItIsIdleAndSilent) {
     std::vector<float> wave(4800, 5.0F);
     listen.process(wave);
     EXPECT_FALSE(listen.isIdle());
-    std::vector<float> silence(static_cast<std::size_t>(48000.0 * listen.declaration().tailSeconds), 0.0F);
+    std::vector<float> silence(static_cast<std::size_t>(48000.0 * 0.02), 0.0F);
     listen.process(silence);
     EXPECT_TRUE(listen.isIdle());
     std::ranges::fill(silence, 0.0F);

@@ -41,7 +41,7 @@ float peakOf(const std::vector<float>& samples) {
 
 TEST(StrikesTest, ABlowIsADecayingSinusoidThatStartsWithTheNextSample) {
     for (const double rate : {8000.0, 44100.0, 48000.0, 192000.0}) {
-        Strikes strikes(EffectKind::impact, rate);
+        Strikes strikes(rate);
         strikes.strike(0.2, ringing(180.0F, 90.0F, 600.0F));
         const std::vector<float> output = next(strikes, static_cast<std::size_t>(0.1 * rate), 61);
         for (std::size_t i = 0; i < output.size(); ++i) {
@@ -55,7 +55,7 @@ TEST(StrikesTest, ABlowIsADecayingSinusoidThatStartsWithTheNextSample) {
 
 TEST(StrikesTest, TheAmplitudeIsProportionalToTheSpeedFromOneCentimetreToTwoMetresASecond) {
     const auto peakAt = [](double speedMps) {
-        Strikes strikes(EffectKind::impact, rateHz);
+        Strikes strikes(rateHz);
         strikes.strike(speedMps, ringing(200.0F, 60.0F, 500.0F));
         return static_cast<double>(peakOf(next(strikes, 4800)));
     };
@@ -69,7 +69,7 @@ TEST(StrikesTest, TheAmplitudeIsProportionalToTheSpeedFromOneCentimetreToTwoMetr
 TEST(StrikesTest, ReboundsFollowTheirFlightTimesAndGetWeaker) {
     ImpactResponse response = ringing(400.0F, 2000.0F, 500.0F);
     response.restitution = 0.5F;
-    Strikes strikes(EffectKind::impact, rateHz);
+    Strikes strikes(rateHz);
     strikes.strike(0.5, response);
     const std::vector<float> output = next(strikes, 9600, 100);
     // A flight takes 2 v / (25 m/s^2): 20 ms at the remaining 0.25 m/s, then 10 ms.
@@ -87,7 +87,7 @@ TEST(StrikesTest, ReboundsFollowTheirFlightTimesAndGetWeaker) {
 }
 
 TEST(StrikesTest, TheSourceIsIdleAfterABlowHasDecayed) {
-    Strikes strikes(EffectKind::impact, rateHz);
+    Strikes strikes(rateHz);
     EXPECT_TRUE(strikes.isIdle());
     strikes.strike(2.0, ringing(100.0F, 40.0F, 1000.0F));
     EXPECT_FALSE(strikes.isIdle());
@@ -98,7 +98,7 @@ TEST(StrikesTest, TheSourceIsIdleAfterABlowHasDecayed) {
 }
 
 TEST(StrikesTest, ManyBlowsAtOnceAreBoundedAndTheLoudestAreKept) {
-    Strikes strikes(EffectKind::impact, rateHz);
+    Strikes strikes(rateHz);
     strikes.strike(1.0, ringing(150.0F, 50.0F, 400.0F));
     for (int blow = 0; blow < 200; ++blow) {
         strikes.strike(0.001, ringing(300.0F, 50.0F, 400.0F));
@@ -111,7 +111,7 @@ TEST(StrikesTest, ManyBlowsAtOnceAreBoundedAndTheLoudestAreKept) {
 TEST(StrikesTest, InvalidBlowsMakeNoSound) {
     constexpr float nan = std::numeric_limits<float>::quiet_NaN();
     constexpr float infinity = std::numeric_limits<float>::infinity();
-    Strikes strikes(EffectKind::impact, rateHz);
+    Strikes strikes(rateHz);
     for (const double speedMps : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
         strikes.strike(speedMps, ringing(150.0F, 50.0F, 400.0F));
     }
@@ -130,7 +130,7 @@ TEST(StrikesTest, InvalidBlowsMakeNoSound) {
 TEST(StrikesTest, AResetSilencesAtOnceAndCancelsRebounds) {
     ImpactResponse response = ringing(150.0F, 50.0F, 400.0F);
     response.restitution = 0.8F;
-    Strikes strikes(EffectKind::impact, rateHz);
+    Strikes strikes(rateHz);
     strikes.strike(1.0, response);
     next(strikes, 100);
     strikes.reset();
@@ -139,8 +139,8 @@ TEST(StrikesTest, AResetSilencesAtOnceAndCancelsRebounds) {
 }
 
 TEST(StrikesTest, ASourceAddsToTheInput) {
-    Strikes alone(EffectKind::edge, rateHz, 3.0);
-    Strikes added(EffectKind::edge, rateHz, 3.0);
+    Strikes alone(rateHz, 3.0);
+    Strikes added(rateHz, 3.0);
     alone.strike(0.3, ringing(220.0F, 80.0F, 300.0F));
     added.strike(0.3, ringing(220.0F, 80.0F, 300.0F));
     std::vector<float> out(480, 2.0F);
@@ -152,7 +152,7 @@ TEST(StrikesTest, ASourceAddsToTheInput) {
 }
 
 TEST(StrikesTest, NothingAllocates) {
-    Strikes strikes(EffectKind::impact, rateHz);
+    Strikes strikes(rateHz);
     ImpactResponse response = ringing(150.0F, 50.0F, 400.0F);
     response.restitution = 0.7F;
     std::vector<float> out(512);

@@ -268,7 +268,6 @@ class Inverter final : public effects::Effect {
 public:
     explicit Inverter(int& alive, float gain = -1.0F) : alive_(alive), gain_(gain) { ++alive_; }
     ~Inverter() override { --alive_; }
-    [[nodiscard]] effects::EffectDeclaration declaration() const noexcept override { return {}; }
     void process(std::span<float> samples) noexcept override {
         std::ranges::transform(samples, samples.begin(), [this](float sample) { return gain_ * sample; });
     }
