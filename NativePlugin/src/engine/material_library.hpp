@@ -1,8 +1,8 @@
 #pragma once
 
 #include "engine/contact_state.hpp"
-#include "engine/material.hpp"
 #include "engine/onset_levels.hpp"
+#include "engine/prepared_material.hpp"
 #include "inference/load_limits.hpp"
 #include "inference/segment_generator.hpp"
 #include "model/material_file.hpp"
