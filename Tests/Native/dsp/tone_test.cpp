@@ -16,13 +16,13 @@
 namespace haptoflow::dsp {
 namespace {
 
-constexpr double rateHz = 2000.0;
+constexpr double waveHz = 2000.0;
 
 double responseDb(const ToneKernel& kernel, double frequencyHz) {
     std::complex<double> sum = 0.0;
     for (std::size_t tap = 0; tap < kernel.size(); ++tap) {
         sum += static_cast<double>(kernel[tap]) *
-               std::polar(1.0, -2.0 * std::numbers::pi * frequencyHz * static_cast<double>(tap) / rateHz);
+               std::polar(1.0, -2.0 * std::numbers::pi * frequencyHz * static_cast<double>(tap) / waveHz);
     }
     return 20.0 * std::log10(std::abs(sum));
 }
@@ -36,7 +36,7 @@ std::vector<float> tone(double frequencyHz, std::size_t count) {
     std::vector<float> samples(count);
     for (std::size_t i = 0; i < count; ++i) {
         samples[i] =
-            static_cast<float>(std::sin(2.0 * std::numbers::pi * frequencyHz * static_cast<double>(i) / rateHz));
+            static_cast<float>(std::sin(2.0 * std::numbers::pi * frequencyHz * static_cast<double>(i) / waveHz));
     }
     return samples;
 }

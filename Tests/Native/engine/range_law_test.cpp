@@ -74,7 +74,7 @@ TEST(RangeLawTest, ASlowSweepAcrossTheEdgeOfTheRangeHasNoStep) {
     }
 }
 
-constexpr std::array<float, inference::segmentSamples> silence{};
+constexpr std::array<float, inference::segmentSamples> quiet{};
 
 class RangeSweepTest : public ::testing::Test {
 protected:
@@ -88,7 +88,7 @@ protected:
         for (const auto& motion : motions) {
             const RangedMotion ranged = applyRangeLaw(model_.header(), material, {motion[0], motion[1]}, motion[2]);
             requests.push_back(
-                {.embedding = material.embedding, .motion = ranged.motion, .previous = silence, .noise = silence});
+                {.embedding = material.embedding, .motion = ranged.motion, .previous = quiet, .noise = quiet});
             result.push_back(20.0 * std::log10(ranged.levelGain));
         }
         std::vector<float> found(requests.size());
