@@ -6,7 +6,6 @@
 #include "bench/real_time_device.hpp"
 #include "dsp/waveform_resampler.hpp"
 #include "skeleton/condition.hpp"
-#include "skeleton/level_model.hpp"
 #include "skeleton/skeleton.hpp"
 
 #include <algorithm>

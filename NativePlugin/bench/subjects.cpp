@@ -3,7 +3,7 @@
 #include "bench/bench_plan.hpp"
 #include "bench/distribution.hpp"
 #include "bench/machine.hpp"
-#include "inference/tier_graphs.hpp"
+#include "inference/tier_generator.hpp"
 
 #include <algorithm>
 #include <array>

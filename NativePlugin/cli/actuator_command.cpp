@@ -211,15 +211,14 @@ void describeCompensation(const ActuatorProfile& profile, effects::Compensation&
     constexpr std::size_t blockSamples = 480;
     std::vector<float> block(blockSamples);
     const double microseconds = microsecondsPerBlock(compensation, block);
-    const effects::EffectDeclaration declared = compensation.declaration();
     resultStream() << "  band          " << fixedDecimals(compensation.bandHz()[0], 0) << " to "
                    << fixedDecimals(compensation.bandHz()[1], 0) << " Hz, levelled to "
                    << fixedDecimals(compensation.levelDecibels(), 1) << " dB\n"
-                   << "  latency       " << fixedDecimals(declared.latencySeconds * 1000.0, 1)
+                   << "  latency       " << fixedDecimals(compensation.latencySeconds() * 1000.0, 1)
                    << " ms at the latest frequency of the band, "
                    << fixedDecimals(compensation.groupDelaySeconds(250.0) * 1000.0, 1) << " ms at 250 Hz\n"
-                   << "  tail, memory  " << fixedDecimals(declared.tailSeconds, 2) << " s, " << declared.memoryBytes
-                   << " bytes\n"
+                   << "  tail, memory  " << fixedDecimals(compensation.tailSeconds(), 2) << " s, "
+                   << sizeof(compensation) << " bytes\n"
                    << "  cost          " << fixedDecimals(microseconds, 1)
                    << " us for 10 ms at 48 kHz on this machine, " << fixedDecimals(microseconds / 100.0, 2)
                    << " % of it\n\n"

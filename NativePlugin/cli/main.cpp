@@ -2,7 +2,7 @@
 #include "headless/scenes/near_words.hpp"
 #include "messages.hpp"
 
-#include "inference/inference_error.hpp"
+#include "inference/load_limits.hpp"
 #include "model/model_error.hpp"
 
 #include <CLI/CLI.hpp>

@@ -1,7 +1,7 @@
 #include "model_location.hpp"
 
 #include "headless/scenes/command_files.hpp"
-#include "inference/inference_error.hpp"
+#include "inference/load_limits.hpp"
 #include "messages.hpp"
 
 #include <algorithm>

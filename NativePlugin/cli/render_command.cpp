@@ -8,7 +8,6 @@
 #include "headless/scenes/scene_materials.hpp"
 #include "headless/scenes/stroke_file.hpp"
 #include "inference/tier_generator.hpp"
-#include "inference/tier_graphs.hpp"
 #include "messages.hpp"
 #include "model/model_file.hpp"
 #include "model_location.hpp"

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "effects/wave_decimation.hpp"
 #include "effects/wave_features.hpp"
 #include "engine/offline_renderer.hpp"
 

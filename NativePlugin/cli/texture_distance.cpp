@@ -4,7 +4,7 @@
 #include "dsp/waveform_resampler.hpp"
 #include "inference/gaussian_noise.hpp"
 #include "inference/skeleton_generator.hpp"
-#include "skeleton/rib_rates.hpp"
+#include "skeleton/condition.hpp"
 
 #include <algorithm>
 #include <cmath>

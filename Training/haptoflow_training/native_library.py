@@ -45,7 +45,13 @@ def options_of(structure: type[ctypes.Structure], **values: Any) -> Any:
 
 
 class _RuntimeOptions(ctypes.Structure):
-    _fields_ = [("struct_size", ctypes.c_uint32), ("ort_api_base", ctypes.c_void_p), ("library_path", ctypes.c_char_p)]
+    _fields_ = [
+        ("struct_size", ctypes.c_uint32),
+        ("ort_api_base", ctypes.c_void_p),
+        ("library_path", ctypes.c_char_p),
+        ("log", ctypes.c_void_p),
+        ("log_context", ctypes.c_void_p),
+    ]
 
 
 class _ModelOptions(ctypes.Structure):

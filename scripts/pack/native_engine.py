@@ -30,7 +30,10 @@ class _ContactState(Structure):
     _fields_ = [("struct_size", c_uint32), ("touching", c_uint32), ("touch_counter", c_uint32), ("label_count", c_uint32),
                 ("labels", c_uint32 * 4), ("weights", c_float * 4), ("velocity_mps", c_float * 2),
                 ("force_newtons", c_float), ("approach_speed_mps", c_float), ("effects", c_uint32),
-                ("edge_counter", c_uint32), ("edge_height_metres", c_float), ("landing_counter", c_uint32)]
+                ("edge_counter", c_uint32), ("edge_height_metres", c_float), ("landing_counter", c_uint32),
+                ("spatial_scale", c_float), ("tone_db_per_octave", c_float), ("has_place", c_uint32),
+                ("surface_seed", c_uint32), ("place_metres", c_float * 3), ("first_axis", c_float * 3),
+                ("second_axis", c_float * 3), ("variation", c_float)]
 
 
 class _Exposure(Structure):

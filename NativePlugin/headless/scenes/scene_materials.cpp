@@ -3,7 +3,8 @@
 #include "engine/material_library.hpp"
 #include "headless/scenes/command_files.hpp"
 #include "headless/scenes/scene_file.hpp"
-#include "model/label_key.hpp"
+#include "model/plain_text.hpp"
+#include "scene_file.hpp"
 
 #include <algorithm>
 #include <array>

@@ -3,18 +3,15 @@
  *
  * Conventions
  *
- * - Every function that can fail returns a haptoflow_status. After a status other than HAPTOFLOW_OK,
+ * - Every function that can fail returns a haptoflow_status. Any of them may return HAPTOFLOW_INVALID_ARGUMENT; its
+ *   comment names the other errors. After a status other than HAPTOFLOW_OK,
  *   haptoflow_last_message() describes the error, on the thread that made the call. A call that fails leaves its
  *   outputs unchanged, unless its comment says otherwise.
- * - Every descriptor begins with struct_size, which the caller sets to sizeof the struct it was compiled with. If the
- *   caller's struct is shorter (an older caller), the missing fields take their defaults, zero; if it is longer (a
- *   newer caller), the library ignores the fields that it does not know. A struct that the library fills is filled up
- *   to the smaller of the two sizes, and struct_size then holds the number of bytes that were filled. Set struct_size
- *   before each call.
- * - That is all that two versions promise each other before 1.0: structs may grow at their end, but functions, values
- *   of enums and meanings may still change or go. Where the library could be of another version than this header,
- *   compare haptoflow_version() with HAPTOFLOW_VERSION_TEXT. The Unity package's C# does, and refuses a library of any
- *   other version, or with a struct of another size.
+ * - Every descriptor begins with struct_size, which the caller sets to sizeof the struct before each call; any other
+ *   size is refused.
+ * - Before 1.0 no two versions are compatible. A caller that could meet a library of another version than this header
+ *   compares haptoflow_version() with HAPTOFLOW_VERSION_TEXT; one that declares the structs itself, in another
+ * language, also compares its sizes with haptoflow_struct_size.
  * - Handles are opaque and never reused. A call with a closed handle, or with anything else that is not an open handle
  *   of that kind, returns HAPTOFLOW_INVALID_ARGUMENT. An open handle keeps alive the objects that it was created from.
  * - Text is UTF-8 and ends with a zero byte. Text that the library returns belongs to the library.
@@ -23,18 +20,16 @@
  *
  * Thread tags, one on every function
  *
- * [any-thread]     May be called from any thread, at any time, also concurrently with other calls.
- * [loader-thread]  May be called from any thread that can wait: it reads files, allocates memory, or builds networks.
- *                  Never call it from an audio callback; call it from a main thread only while the application loads.
- * [worker-thread]  May be called from any thread that can wait for a network: it allocates inside ONNX Runtime and
- *                  takes up to milliseconds. Never call it from an audio callback. Calls on one generator wait for each
- *                  other.
- * [publisher]      May be called from any thread that is not an audio callback; takes microseconds and never waits for
- *                  other threads. Two threads must not publish on one voice at the same time: the second call is
- *                  refused.
- * [audio-callback] For the audio callback: takes microseconds, never allocates, locks, logs or makes a system call. May
- *                  be called from any thread. Two threads must not render one voice at the same time: the second call
- *                  is refused and gets silence.
+ * [any-thread]     May be called from any thread, at any time, also concurrently with other calls. With a handle it
+ * blocks while another thread opens or closes one. [loader-thread]  May be called from any thread that can wait: it
+ * reads files, allocates memory, or builds networks. Never call it from an audio callback; call it from a main thread
+ * only while the application loads. [worker-thread]  May be called from any thread that can wait for a network: it
+ * allocates inside ONNX Runtime and takes up to milliseconds. Never call it from an audio callback. Calls on one
+ * generator wait for each other. [publisher]      May be called from any thread that is not an audio callback; takes
+ * microseconds and never waits for other threads. Two threads must not publish on one voice at the same time: the
+ * second call is refused. [audio-callback] For the audio callback: takes microseconds, never allocates, locks, logs or
+ * makes a system call. May be called from any thread. Two threads must not render one voice at the same time: the
+ * second call is refused and gets silence.
  */
 #ifndef HAPTOFLOW_H
 #define HAPTOFLOW_H
@@ -129,9 +124,8 @@ enum {
  * [any-thread] Never blocks. */
 HAPTOFLOW_API const char* haptoflow_version(void);
 
-/* Returns a status's name, for example "HAPTOFLOW_OK", or "HAPTOFLOW_UNKNOWN_STATUS" for any other number. The text is
- * valid as long as the process runs. Never fails.
- * [any-thread] Never blocks. */
+/* Returns a status's name, for example "HAPTOFLOW_OK", or "HAPTOFLOW_UNKNOWN_STATUS" for any other number. The text
+ * is valid as long as the process runs. Never fails. [any-thread] Never blocks. */
 HAPTOFLOW_API const char* haptoflow_status_name(haptoflow_status status);
 
 /* Why a voice is silent. If several reasons apply, the one that lasts longest. */
@@ -156,14 +150,8 @@ enum {
     HAPTOFLOW_SILENCE_TURNED_DOWN = 9
 };
 
-/* Returns a reason's name, for example "HAPTOFLOW_SILENCE_STALE", or "HAPTOFLOW_UNKNOWN_SILENCE" for any other number.
- * The text is valid as long as the process runs. Never fails.
- * [any-thread] Never blocks. */
-HAPTOFLOW_API const char* haptoflow_silence_name(haptoflow_silence silence);
-
-/* Returns the message of the last call on this thread that failed; "" if none has failed. The text is valid until the
- * next call on this thread fails or the thread ends. Never fails.
- * [any-thread] Never blocks. */
+/* Returns the message of the last call on this thread that failed; "" if none has failed. The text is valid until
+ * the next call on this thread fails or the thread ends. Never fails. [any-thread] Never blocks. */
 HAPTOFLOW_API const char* haptoflow_last_message(void);
 
 /* ------------------------------------------------------------------------------------------------- ONNX Runtime */
@@ -193,15 +181,14 @@ typedef struct haptoflow_runtime_options {
     void* log_context;
 } haptoflow_runtime_options;
 
-/* Makes ONNX Runtime available; one runtime is enough for a process. Close it with haptoflow_runtime_close.
- * Errors: INVALID_ARGUMENT, RUNTIME_UNAVAILABLE, OUT_OF_MEMORY.
- * [loader-thread] Blocks on disk while the library loads. */
+/* Makes ONNX Runtime available; one runtime is enough for a process. Close it with haptoflow_runtime_close. Errors:
+ * RUNTIME_UNAVAILABLE, OUT_OF_MEMORY. [loader-thread] Blocks on disk while the library loads. */
 HAPTOFLOW_API haptoflow_status haptoflow_runtime_open(const haptoflow_runtime_options* options,
                                                       haptoflow_runtime** runtime);
 
 /* Closes *runtime and sets it to null; a null handle is allowed. Generators and engines created with it stay usable.
- * Its log callback is not called after this call has returned. Errors: INVALID_ARGUMENT.
- * [loader-thread] Blocks while ONNX Runtime frees its memory and until a running call of the log returns. */
+ * Its log callback is not called after this call has returned. [loader-thread] Blocks while ONNX Runtime frees its
+ * memory and until a running call of the log returns. */
 HAPTOFLOW_API haptoflow_status haptoflow_runtime_close(haptoflow_runtime** runtime);
 
 /* ------------------------------------------------------------------------------------------------- cancellations */
@@ -209,19 +196,15 @@ HAPTOFLOW_API haptoflow_status haptoflow_runtime_close(haptoflow_runtime** runti
 /* Cancels running loads: those whose options contain it. It can serve several loads, also one after the other. */
 typedef struct haptoflow_cancellation haptoflow_cancellation;
 
-/* Creates a cancellation. Close it with haptoflow_cancellation_close. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY.
- * [any-thread] Blocks while another thread opens or closes a handle. */
+/* Creates a cancellation. Close it with haptoflow_cancellation_close. Errors: OUT_OF_MEMORY. [any-thread] */
 HAPTOFLOW_API haptoflow_status haptoflow_cancellation_create(haptoflow_cancellation** cancellation);
 
 /* Ends all present and future loads with this cancellation with HAPTOFLOW_CANCELLED. A running load ends at its next
  * operator, graph or part of a table; ONNX Runtime before 1.22 first finishes the graph that it is loading.
- * Errors: INVALID_ARGUMENT.
- * [any-thread] Blocks while another thread opens or closes a handle. */
+ * [any-thread] */
 HAPTOFLOW_API haptoflow_status haptoflow_cancellation_cancel(haptoflow_cancellation* cancellation);
 
-/* Closes *cancellation and sets it to null; a null handle is allowed. Running loads continue.
- * Errors: INVALID_ARGUMENT.
- * [any-thread] Blocks while another thread opens or closes a handle. */
+/* Closes *cancellation and sets it to null; a null handle is allowed. Running loads continue. [any-thread] */
 HAPTOFLOW_API haptoflow_status haptoflow_cancellation_close(haptoflow_cancellation** cancellation);
 
 /* ------------------------------------------------------------------------------------------------------- models */
@@ -292,58 +275,47 @@ typedef struct haptoflow_tier_info {
     int64_t parameter_count;
 } haptoflow_tier_info;
 
-/* Reads a model and verifies all of its bytes. Close it with haptoflow_model_close.
- * Errors: INVALID_ARGUMENT, MODEL_UNREADABLE, NOT_A_MODEL, MODEL_TRUNCATED, MODEL_TOO_NEW, MODEL_OVERSIZED,
- * MODEL_DAMAGED, MODEL_INCONSISTENT, OUT_OF_MEMORY.
+/* Reads a model and verifies all of its bytes. Close it with haptoflow_model_close. Errors: MODEL_UNREADABLE,
+ * NOT_A_MODEL, MODEL_TRUNCATED, MODEL_TOO_NEW, MODEL_OVERSIZED, MODEL_DAMAGED, MODEL_INCONSISTENT, OUT_OF_MEMORY.
  * [loader-thread] Blocks on disk if a path is given; takes milliseconds per megabyte. */
 HAPTOFLOW_API haptoflow_status haptoflow_model_open(const haptoflow_model_options* options, haptoflow_model** model);
 
 /* Closes *model and sets it to null; a null handle is allowed. Generators created from it stay usable; texts that it
- * returned do not. Errors: INVALID_ARGUMENT.
- * [loader-thread] Blocks while memory is freed. */
+ * returned do not. [loader-thread] Blocks while memory is freed. */
 HAPTOFLOW_API haptoflow_status haptoflow_model_close(haptoflow_model** model);
 
 /* Returns the file's JSON header (Documentation~/model-format.md). It is valid until the model is closed.
- * Errors: INVALID_ARGUMENT.
- * [any-thread] Blocks while another thread opens or closes a handle. */
+ * [any-thread] */
 HAPTOFLOW_API haptoflow_status haptoflow_model_header(const haptoflow_model* model, const char** header_json);
 
-/* Fills info for the whole model. Errors: INVALID_ARGUMENT.
- * [any-thread] Blocks while another thread opens or closes a handle. */
+/* Fills info for the whole model. [any-thread] */
 HAPTOFLOW_API haptoflow_status haptoflow_model_describe(const haptoflow_model* model, haptoflow_model_info* info);
 
-/* Returns the number of labels. Errors: INVALID_ARGUMENT.
- * [any-thread] Blocks while another thread opens or closes a handle. */
+/* Returns the number of labels. [any-thread] */
 HAPTOFLOW_API haptoflow_status haptoflow_model_label_count(const haptoflow_model* model, uint32_t* count);
 
-/* Fills info for the label at index, 0 to count - 1. Errors: INVALID_ARGUMENT.
- * [any-thread] Blocks while another thread opens or closes a handle. */
+/* Fills info for the label at index, 0 to count - 1. [any-thread] */
 HAPTOFLOW_API haptoflow_status haptoflow_model_label(const haptoflow_model* model, uint32_t index,
                                                      haptoflow_label_info* info);
 
-/* Writes the material embedding of the label at index: HAPTOFLOW_EMBEDDING_SIZE numbers. Errors: INVALID_ARGUMENT.
- * [any-thread] Blocks while another thread opens or closes a handle. */
+/* Writes the material embedding of the label at index: HAPTOFLOW_EMBEDDING_SIZE numbers. [any-thread] */
 HAPTOFLOW_API haptoflow_status haptoflow_model_embedding(const haptoflow_model* model, uint32_t index,
                                                          float* embedding);
 
-/* Sets *index to the label whose embedding is nearest to this one, HAPTOFLOW_EMBEDDING_SIZE numbers. Wave vectors, the
- * last four of them, are not compared. Errors: INVALID_ARGUMENT.
- * [any-thread] Blocks while another thread opens or closes a handle; takes microseconds. */
+/* Sets *index to the label whose embedding is nearest to this one, HAPTOFLOW_EMBEDDING_SIZE numbers. Wave vectors,
+ * the last four of them, are not compared. [any-thread] Takes microseconds. */
 HAPTOFLOW_API haptoflow_status haptoflow_model_nearest_label(const haptoflow_model* model, const float* embedding,
                                                              uint32_t* index);
 
-/* Sets *space to 8 hexadecimal digits that identify the model's embedding space. A material file works with every model
- * of the same space (Documentation~/own-materials.md). The text is valid until the model is closed.
- * Errors: INVALID_ARGUMENT.
- * [any-thread] Blocks while another thread opens or closes a handle. */
+/* Sets *space to 8 hexadecimal digits that identify the model's embedding space. A material file works with every
+ * model of the same space (Documentation~/own-materials.md). The text is valid until the model is closed.
+ * [any-thread] */
 HAPTOFLOW_API haptoflow_status haptoflow_model_space(const haptoflow_model* model, const char** space);
 
-/* Returns the number of tiers. Errors: INVALID_ARGUMENT.
- * [any-thread] Blocks while another thread opens or closes a handle. */
+/* Returns the number of tiers. [any-thread] */
 HAPTOFLOW_API haptoflow_status haptoflow_model_tier_count(const haptoflow_model* model, uint32_t* count);
 
-/* Fills info for the tier at index, 0 to count - 1; the most accurate tier is the last. Errors: INVALID_ARGUMENT.
- * [any-thread] Blocks while another thread opens or closes a handle. */
+/* Fills info for the tier at index, 0 to count - 1; the most accurate tier is the last. [any-thread] */
 HAPTOFLOW_API haptoflow_status haptoflow_model_tier(const haptoflow_model* model, uint32_t index,
                                                     haptoflow_tier_info* info);
 
@@ -376,23 +348,19 @@ typedef struct haptoflow_material_info {
 } haptoflow_material_info;
 
 /* Reads the text of a material file, length bytes, and verifies every value of it, as
- * haptoflow_engine_register_material does. Close it with haptoflow_material_close. Errors: INVALID_ARGUMENT,
- * MATERIAL_INVALID (the message names the key), OUT_OF_MEMORY. [any-thread] Blocks while another thread opens or closes
- * a handle; takes less than a millisecond. */
+ * haptoflow_engine_register_material does. Close it with haptoflow_material_close. Errors: MATERIAL_INVALID (the
+ * message names the key), OUT_OF_MEMORY. [any-thread] Takes less than a millisecond. */
 HAPTOFLOW_API haptoflow_status haptoflow_material_read(const char* json, uint64_t length,
                                                        haptoflow_material** material);
 
-/* Closes *material and sets it to null; a null handle is allowed. Errors: INVALID_ARGUMENT.
- * [any-thread] Blocks while another thread opens or closes a handle. */
+/* Closes *material and sets it to null; a null handle is allowed. [any-thread] */
 HAPTOFLOW_API haptoflow_status haptoflow_material_close(haptoflow_material** material);
 
-/* Fills info for the material. Errors: INVALID_ARGUMENT.
- * [any-thread] Blocks while another thread opens or closes a handle. */
+/* Fills info for the material. [any-thread] */
 HAPTOFLOW_API haptoflow_status haptoflow_material_describe(const haptoflow_material* material,
                                                            haptoflow_material_info* info);
 
-/* Writes the material's embedding: HAPTOFLOW_EMBEDDING_SIZE numbers. Errors: INVALID_ARGUMENT.
- * [any-thread] Blocks while another thread opens or closes a handle. */
+/* Writes the material's embedding: HAPTOFLOW_EMBEDDING_SIZE numbers. [any-thread] */
 HAPTOFLOW_API haptoflow_status haptoflow_material_embedding(const haptoflow_material* material, float* embedding);
 
 /* --------------------------------------------------------------------------------------------------- generators */
@@ -402,17 +370,13 @@ typedef struct haptoflow_generator haptoflow_generator;
 
 typedef struct haptoflow_generator_options {
     uint32_t struct_size;
-    /* HAPTOFLOW_SOLVER_OF_TIER, or a solver with `steps`. */
-    haptoflow_solver solver;
+    /* Requests that one run of a graph computes, up to HAPTOFLOW_MAXIMUM_BATCH; 0 for 8. Larger batches are split. */
+    uint32_t maximum_batch;
     /* Null for a tier of kind "skeleton", which needs none. */
     const haptoflow_runtime* runtime;
     const haptoflow_model* model;
     /* Name of the tier; null for the model's default. */
     const char* tier;
-    /* 1 to 16; must be 0 with HAPTOFLOW_SOLVER_OF_TIER. */
-    int32_t steps;
-    /* Requests that one run of a graph computes, up to HAPTOFLOW_MAXIMUM_BATCH; 0 for 8. Larger batches are split. */
-    uint32_t maximum_batch;
     /* Cancels the creation; null for none. */
     const haptoflow_cancellation* cancellation;
     /* Time limit of a trial run of each graph, for each 8 requests of maximum_batch, above 0 to 3600000 ms; 0 for
@@ -430,14 +394,14 @@ typedef struct haptoflow_batch {
     /* count * HAPTOFLOW_MOTION_SIZE numbers: vx and vy along the surface in m/s and the force in N, inside the trained
      * range. */
     const float* motions;
-    /* count * HAPTOFLOW_SEGMENT_SAMPLES samples in m/s^2 that precede each segment. Not needed for levels. */
+    /* count * HAPTOFLOW_SEGMENT_SAMPLES samples in m/s^2 that precede each segment. */
     const float* previous_mps2;
-    /* count * HAPTOFLOW_SEGMENT_SAMPLES standard normal numbers. Not needed for levels. */
+    /* count * HAPTOFLOW_SEGMENT_SAMPLES standard normal numbers. */
     const float* noise;
     /* count * HAPTOFLOW_PHASES numbers: for the ribs along each of the embedding's two wave vectors and for stick-slip,
      * the phase at the segment's first sample in cycles from 0 to below 1, then its signed rate in Hz for each; null
-     * for phases of zero and the rates at which the motion crosses the wave vectors. Not needed for levels. Used by
-     * tiers of the kinds "skeleton" and "refine", and by graphs that have the input "phases". */
+     * for phases of zero and the rates at which the motion crosses the wave vectors. Used by tiers of the kinds
+     * "skeleton" and "refine", and by graphs that have the input "phases". */
     const float* phases;
     /* count levels above 0, RMS in m/s^2, that replace those of the level graph; null to use the level graph. */
     const float* own_levels_mps2;
@@ -446,37 +410,27 @@ typedef struct haptoflow_batch {
     const float* latent_noise;
 } haptoflow_batch;
 
-/* Loads the tier's graphs into ONNX Runtime, checks them and runs them once. Close it with haptoflow_generator_close.
- * Errors: INVALID_ARGUMENT, MODEL_INCONSISTENT if a graph breaks a rule of the format, TIER_TOO_SLOW, CANCELLED,
- * OUT_OF_MEMORY.
- * [loader-thread] Blocks while ONNX Runtime optimises the graphs. */
+/* Loads the tier's graphs into ONNX Runtime, checks them and runs them once. Close it with
+ * haptoflow_generator_close. Errors: MODEL_INCONSISTENT if a graph breaks a rule of the format, TIER_TOO_SLOW,
+ * CANCELLED, OUT_OF_MEMORY. [loader-thread] Blocks while ONNX Runtime optimises the graphs. */
 HAPTOFLOW_API haptoflow_status haptoflow_generator_create(const haptoflow_generator_options* options,
                                                           haptoflow_generator** generator);
 
 /* Closes *generator and sets it to null; a null handle is allowed. A running call on another thread finishes.
- * Errors: INVALID_ARGUMENT.
  * [loader-thread] Blocks while memory is freed. */
 HAPTOFLOW_API haptoflow_status haptoflow_generator_close(haptoflow_generator** generator);
 
 /* Sets the solver and the number of steps (1 to 16) from the next batch on; HAPTOFLOW_SOLVER_OF_TIER with 0 steps
- * restores the tier's own. Tiers of kind "average-velocity" always use Euler steps, and those of kind "direct" take one
- * evaluation. Errors: INVALID_ARGUMENT.
- * [worker-thread] Blocks while another thread uses this generator. */
+ * restores the tier's own. Tiers of kind "average-velocity" always use Euler steps, and those of kind "direct" take
+ * one evaluation. [worker-thread] Blocks while another thread uses this generator. */
 HAPTOFLOW_API haptoflow_status haptoflow_generator_set_solver(haptoflow_generator* generator, haptoflow_solver solver,
                                                               int32_t steps);
 
 /* Writes count * HAPTOFLOW_SEGMENT_SAMPLES samples in m/s^2 into segments_mps2. If the call fails, the content of
- * segments_mps2 is unspecified: do not play it. Errors: INVALID_ARGUMENT, INFERENCE_FAILED, OUT_OF_MEMORY.
- * [worker-thread] Blocks while another thread uses this generator and while the graphs run. */
+ * segments_mps2 is unspecified: do not play it. Errors: INFERENCE_FAILED, OUT_OF_MEMORY. [worker-thread] Blocks
+ * while another thread uses this generator and while the graphs run. */
 HAPTOFLOW_API haptoflow_status haptoflow_generator_generate(haptoflow_generator* generator,
                                                             const haptoflow_batch* batch, float* segments_mps2);
-
-/* Writes the level that the model predicts for each request into levels_mps2: count numbers, RMS in m/s^2. Reads
- * embeddings and motions only. If the call fails, the content of levels_mps2 is unspecified.
- * Errors: INVALID_ARGUMENT, INFERENCE_FAILED, OUT_OF_MEMORY.
- * [worker-thread] Blocks while another thread uses this generator and while the graphs run. */
-HAPTOFLOW_API haptoflow_status haptoflow_generator_levels(haptoflow_generator* generator, const haptoflow_batch* batch,
-                                                          float* levels_mps2);
 
 /* ------------------------------------------------------------------------------------------------------- engines */
 
@@ -493,14 +447,12 @@ enum {
     HAPTOFLOW_QUALITY_DRAFT = 1,
     /* The tier "standard", or the model's default tier if it has no such tier. */
     HAPTOFLOW_QUALITY_STANDARD = 2,
-    /* The tier "sketch", which plays without a network, or the model's first tier if it has no such tier. (3 belonged
-     * to an earlier quality and is refused.) */
+    /* The tier "sketch", which plays without a network, or the model's first tier if it has no such tier. */
     HAPTOFLOW_QUALITY_SKETCH = 4
 };
 
 typedef struct haptoflow_engine_options {
     uint32_t struct_size;
-    /* Only the tier of this quality is loaded. HAPTOFLOW_QUALITY_AUTO loads every tier of the model. */
     haptoflow_quality quality;
     /* Null where there is no ONNX Runtime: then only tiers of kind "skeleton" can be used, and HAPTOFLOW_QUALITY_AUTO
      * uses the most accurate of those. */
@@ -535,8 +487,8 @@ typedef struct haptoflow_tier_times {
     uint32_t struct_size;
     /* 1 for the tier that generates at present, 0 otherwise. */
     uint32_t is_current;
-    /* Number of runs that the figures are based on, the last 128 at most; 0 if the tier is not loaded or was neither
-     * used nor measured. */
+    /* Number of runs that the figures are based on, the last 128 at most; 0 if the tier was neither used nor measured.
+     */
     uint64_t runs;
     double median_ms;
     double percentile_99_ms;
@@ -567,72 +519,66 @@ typedef struct haptoflow_engine_statistics {
     uint32_t priority_was_refused;
 } haptoflow_engine_statistics;
 
-/* Loads the tiers that the quality uses and starts the worker. Close it with haptoflow_engine_close.
- * Errors: INVALID_ARGUMENT, MODEL_INCONSISTENT, INFERENCE_FAILED, TIER_TOO_SLOW, CANCELLED, OUT_OF_MEMORY.
+/* Loads every tier of the model that the runtime can run and starts the worker. Close it with
+ * haptoflow_engine_close. Errors: MODEL_INCONSISTENT, INFERENCE_FAILED, TIER_TOO_SLOW, CANCELLED, OUT_OF_MEMORY.
  * [loader-thread] Blocks while ONNX Runtime optimises the graphs and while the levels of all labels are computed. */
 HAPTOFLOW_API haptoflow_status haptoflow_engine_create(const haptoflow_engine_options* options,
                                                        haptoflow_engine** engine);
 
-/* Ends the worker, destroys the engine's voices as haptoflow_voice_destroy does and sets *engine to null; a null handle
- * is allowed. Errors: INVALID_ARGUMENT.
- * [loader-thread] Blocks for the present round of inference. */
+/* Ends the worker, destroys the engine's voices as haptoflow_voice_destroy does and sets *engine to null; a null
+ * handle is allowed. [loader-thread] Blocks for the present round of inference. */
 HAPTOFLOW_API haptoflow_status haptoflow_engine_close(haptoflow_engine** engine);
 
-/* Sets the quality from the next segment on. The calling thread first loads the tiers that this quality uses and that
- * are not loaded yet, while the engine continues with its present tier; loaded tiers stay loaded. If loading fails, the
- * quality does not change. Errors: INVALID_ARGUMENT, MODEL_INCONSISTENT, TIER_TOO_SLOW, OUT_OF_MEMORY.
- * [loader-thread] Blocks while ONNX Runtime optimises the graphs of such tiers; takes microseconds if all are
- * loaded. */
+/* Sets the quality from the next segment on. Errors: also for a tier that needs the ONNX Runtime that the engine was
+ * created without; the quality then does not change. [any-thread] Takes microseconds. */
 HAPTOFLOW_API haptoflow_status haptoflow_engine_set_quality(haptoflow_engine* engine, haptoflow_quality quality);
 
 /* Maximum number of materials that one engine holds besides its model's labels. */
 #define HAPTOFLOW_MAXIMUM_MATERIALS 64
 
 /* Registers a material: json is the text of a material file (Documentation~/own-materials.md), length its number of
- * bytes. From then on contact states may refer to it by *index, which is the number of the model's labels plus that of
- * the materials registered before. It stays until the engine is closed. The sound of all other labels is unchanged.
- * Errors: INVALID_ARGUMENT (also if HAPTOFLOW_MAXIMUM_MATERIALS are registered), MATERIAL_INVALID (the message names
- * the key), MATERIAL_MISMATCH, OUT_OF_MEMORY; MODEL_INCONSISTENT, INFERENCE_FAILED and TIER_TOO_SLOW if the material
- * has no level of its own and the model's level graph fails. [loader-thread] Publishers, worker and callbacks never
- * wait for it. Takes milliseconds; the first material without a level of its own also loads the model's level graph. */
+ * bytes. From then on contact states may refer to it by *index, which is the number of the model's labels plus that
+ * of the materials registered before. It stays until the engine is closed. The sound of all other labels is
+ * unchanged. Errors: INVALID_ARGUMENT (also if HAPTOFLOW_MAXIMUM_MATERIALS are registered), MATERIAL_INVALID (the
+ * message names the key), MATERIAL_MISMATCH, OUT_OF_MEMORY; MODEL_INCONSISTENT, INFERENCE_FAILED and TIER_TOO_SLOW
+ * if the material has no level of its own and the model's level graph fails. [loader-thread] Publishers, worker and
+ * callbacks never wait for it. Takes milliseconds; the first material without a level of its own also loads the
+ * model's level graph. */
 HAPTOFLOW_API haptoflow_status haptoflow_engine_register_material(haptoflow_engine* engine, const char* json,
                                                                   uint64_t length, uint32_t* index);
 
-/* Replaces the registered material at index; the new one sounds from the next published state on. The old one is freed.
- * If the call fails, the old one stays. Errors: those of haptoflow_engine_register_material.
- * [loader-thread] Publishers, worker and callbacks never wait for it; it waits microseconds for running calls of
- * publishers. */
+/* Replaces the registered material at index; the new one sounds from the next published state on. The old one is
+ * freed. If the call fails, the old one stays. Errors: those of haptoflow_engine_register_material. [loader-thread]
+ * Publishers, worker and callbacks never wait for it; it waits microseconds for running calls of publishers. */
 HAPTOFLOW_API haptoflow_status haptoflow_engine_replace_material(haptoflow_engine* engine, uint32_t index,
                                                                  const char* json, uint64_t length);
 
-/* Returns the number of registered materials, without the model's labels. Errors: INVALID_ARGUMENT.
- * [any-thread] Blocks while another thread opens or closes a handle. */
+/* Returns the number of registered materials, without the model's labels. [any-thread] */
 HAPTOFLOW_API haptoflow_status haptoflow_engine_material_count(const haptoflow_engine* engine, uint32_t* count);
 
-/* Fills info for the registered material at index, the one that contact states use. Errors: INVALID_ARGUMENT.
- * [any-thread] Blocks while another thread opens or closes a handle, or registers a material. */
+/* Fills info for the registered material at index, the one that contact states use. [any-thread] Blocks while
+ * another thread opens or closes a handle, or registers a material. */
 HAPTOFLOW_API haptoflow_status haptoflow_engine_material(const haptoflow_engine* engine, uint32_t index,
                                                          haptoflow_label_info* info);
 
 /* Runs one round of inference for all voices that need a segment. Only for engines without worker.
- * Errors: INVALID_ARGUMENT.
  * [worker-thread] */
 HAPTOFLOW_API haptoflow_status haptoflow_engine_step(haptoflow_engine* engine);
 
-/* Fills the engine's statistics. Errors: INVALID_ARGUMENT.
- * [any-thread] Blocks while another thread opens or closes a handle, never for inference. */
+/* Fills the engine's statistics. [any-thread] Blocks while another thread opens or closes a handle, never for
+ * inference. */
 HAPTOFLOW_API haptoflow_status haptoflow_engine_get_statistics(const haptoflow_engine* engine,
                                                                haptoflow_engine_statistics* statistics);
 
-/* Fills times for the tier at index, in the model's order. Errors: INVALID_ARGUMENT.
- * [any-thread] Blocks while another thread opens or closes a handle, never for inference. */
+/* Fills times for the tier at index, in the model's order. [any-thread] Blocks while another thread opens or closes
+ * a handle, never for inference. */
 HAPTOFLOW_API haptoflow_status haptoflow_engine_tier_times(const haptoflow_engine* engine, uint32_t index,
                                                            haptoflow_tier_times* times);
 
 /* Writes the message of the newest failure, of a round of inference or of the worker itself, into text: at most
  * capacity bytes including the final zero byte; "" if nothing has failed. *length receives the length of the whole
- * message without that byte. text may be null if capacity is 0. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. [any-thread]
- * Blocks while another thread opens or closes a handle, or while the worker records a failure. */
+ * message without that byte. text may be null if capacity is 0. Errors: OUT_OF_MEMORY. [any-thread] Blocks while
+ * another thread opens or closes a handle, or while the worker records a failure. */
 HAPTOFLOW_API haptoflow_status haptoflow_engine_last_failure(const haptoflow_engine* engine, char* text,
                                                              uint64_t capacity, uint64_t* length);
 
@@ -807,83 +753,79 @@ HAPTOFLOW_API haptoflow_status haptoflow_voice_create(haptoflow_engine* engine, 
 
 /* Ends the voice and sets *voice to 0; 0 is allowed. A voice that sounds fades within a block and 5 ms: for as long,
  * haptoflow_voice_render and haptoflow_voices_render still take its number, and every other function refuses it. Its
- * memory is freed by a later call that creates or destroys a voice or closes an engine. Errors: INVALID_ARGUMENT.
- * [loader-thread] Blocks while another voice is created or destroyed; never for a block, a fade or inference. */
+ * memory is freed by a later call that creates or destroys a voice or closes an engine. [loader-thread] Blocks while
+ * another voice is created or destroyed; never for a block, a fade or inference. */
 HAPTOFLOW_API haptoflow_status haptoflow_voice_destroy(haptoflow_voice* voice);
 
-/* Publishes what the tip does now: once a frame, also while nothing touches. A touch sounds from the next block on and
- * falls silent after 100 ms of output without a new state. All impacts and edges published between two blocks sound:
- * the first at once, the others at their distance from it, for which states are taken to come evenly. Values that are
- * not finite or out of range are corrected and counted. Errors: INVALID_ARGUMENT, BUSY.
- * [publisher] */
+/* Publishes what the tip does now: once a frame, also while nothing touches. A touch sounds from the next block on
+ * and falls silent after 100 ms of output without a new state. All impacts and edges published between two blocks
+ * sound: the first at once, the others at their distance from it, for which states are taken to come evenly. Values
+ * that are not finite or out of range are corrected and counted. Errors: BUSY. [publisher] */
 HAPTOFLOW_API haptoflow_status haptoflow_voice_publish(haptoflow_voice voice, const haptoflow_contact_state* state);
 
 /* Writes frame_count frames of the voice into one channel of interleaved samples, or into all channels with
- * HAPTOFLOW_ALL_CHANNELS; other channels are not changed. Samples are within +-1. channel_count is 1 to 64.
- * If sample_rate_hz differs from the last block's, the voice fades within 5 ms and is silent until the worker has
- * prepared for the new rate; a touch that still continues then sounds again, according to its newest state. At a rate
- * outside 8 to 192 kHz the voice stays silent and its statistics report the rate. For a voice that is not open and has
- * faded, or that another thread is rendering, zeros are written. Errors: INVALID_ARGUMENT, BUSY; this function sets no
+ * HAPTOFLOW_ALL_CHANNELS; other channels are not changed. Samples are within +-1. channel_count is 1 to 64. If
+ * sample_rate_hz differs from the last block's, the voice fades within 5 ms and is silent until the worker has
+ * prepared for the new rate; a touch that still continues then sounds again, according to its newest state. At a
+ * rate outside 8 to 192 kHz the voice stays silent and its statistics report the rate. For a voice that is not open
+ * and has faded, or that another thread is rendering, zeros are written. Errors: BUSY; this function sets no
  * message. [audio-callback] */
 HAPTOFLOW_API haptoflow_status haptoflow_voice_render(haptoflow_voice voice, float* interleaved, uint32_t frame_count,
                                                       uint32_t channel_count, int32_t channel, double sample_rate_hz);
 
-/* Writes the sum of the voices as haptoflow_voice_render writes one voice, also for none. The sum passes the limiter's
- * curve once, below the lowest ceiling above 0 of the voices; a single voice sounds as haptoflow_voice_render gives it.
- * Sets voices[i] to 0 if that voice is not open and has faded. BUSY if another thread is rendering one of the voices,
- * which is then missing in the sum. Errors: INVALID_ARGUMENT, BUSY; this function sets no message.
- * [audio-callback] */
+/* Writes the sum of the voices as haptoflow_voice_render writes one voice, also for none. The sum passes the
+ * limiter's curve once, below the lowest ceiling above 0 of the voices; a single voice sounds as
+ * haptoflow_voice_render gives it. Sets voices[i] to 0 if that voice is not open and has faded. BUSY if another
+ * thread is rendering one of the voices, which is then missing in the sum. Errors: BUSY; this function sets no
+ * message. [audio-callback] */
 HAPTOFLOW_API haptoflow_status haptoflow_voices_render(haptoflow_voice* voices, uint32_t voice_count,
                                                        float* interleaved, uint32_t frame_count, uint32_t channel_count,
                                                        int32_t channel, double sample_rate_hz);
 
-/* Sets the gain of the output before the limiter, 0 to 1. It changes within 10 ms while the voice sounds, delayed sound
- * included; set while the voice is silent, it applies from the first sample of the next touch.
- * Errors: INVALID_ARGUMENT. [publisher] */
+/* Sets the gain of the output before the limiter, 0 to 1. It changes within 10 ms while the voice sounds, delayed
+ * sound included; set while the voice is silent, it applies from the first sample of the next touch. [publisher] */
 HAPTOFLOW_API haptoflow_status haptoflow_voice_set_strength(haptoflow_voice voice, float strength);
 
-/* Sets the maximum magnitude of the output, 0 to 1; no sample ever exceeds it. The limiter's curve begins at 0.7 of the
- * ceiling and approaches it smoothly. Errors: INVALID_ARGUMENT. [publisher] */
+/* Sets the maximum magnitude of the output, 0 to 1; no sample ever exceeds it. The limiter's curve begins at 0.7 of
+ * the ceiling and approaches it smoothly. [publisher] */
 HAPTOFLOW_API haptoflow_status haptoflow_voice_set_ceiling(haptoflow_voice voice, float ceiling);
 
 /* Mutes (1) or unmutes (0) the voice. A muted voice falls silent within a block and 5 ms and needs no inference.
- * Errors: INVALID_ARGUMENT. [publisher] */
+ * [publisher] */
 HAPTOFLOW_API haptoflow_status haptoflow_voice_set_muted(haptoflow_voice voice, uint32_t muted);
 
-/* Pauses the voice, for an application that is suspended; like muting, and independent of it.
- * Errors: INVALID_ARGUMENT. [publisher] */
+/* Pauses the voice, for an application that is suspended; like muting, and independent of it. [publisher] */
 HAPTOFLOW_API haptoflow_status haptoflow_voice_set_paused(haptoflow_voice voice, uint32_t paused);
 
 /* Silences the touch that was published last by the end of the next block, whatever the block's length. The next
  * touch-down published after this call sounds: another touch_counter, or touching after a state that did not touch.
- * Errors: INVALID_ARGUMENT. [publisher] */
+ * [publisher] */
 HAPTOFLOW_API haptoflow_status haptoflow_voice_panic(haptoflow_voice voice);
 
 /* haptoflow_voice_panic for every voice of the process. Never fails. [publisher] */
 HAPTOFLOW_API haptoflow_status haptoflow_panic(void);
 
-/* Fills the voice's statistics. Errors: INVALID_ARGUMENT. [publisher] */
+/* Fills the voice's statistics. [publisher] */
 HAPTOFLOW_API haptoflow_status haptoflow_voice_get_statistics(haptoflow_voice voice,
                                                               haptoflow_voice_statistics* statistics);
 
-/* Fills the statistics of one effect of the voice. Errors: INVALID_ARGUMENT. [publisher] */
+/* Fills the statistics of one effect of the voice. [publisher] */
 HAPTOFLOW_API haptoflow_status haptoflow_voice_effect_statistics(haptoflow_voice voice, haptoflow_effect effect,
                                                                  haptoflow_effect_statistics* statistics);
 
 /* Delays the whole signal, for studies and slow displays: 0 to 0.5 s, 0 for no delay. A change fades within 20 ms.
- * Lift-off closes the texture before the delay; strength, ceiling, mute, pause, panic and missing states act after it,
- * at once.
- * Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. [publisher] */
+ * Lift-off closes the texture before the delay; strength, ceiling, mute, pause, panic and missing states act after
+ * it, at once. Errors: OUT_OF_MEMORY. [publisher] */
 HAPTOFLOW_API haptoflow_status haptoflow_voice_set_delay(haptoflow_voice voice, double seconds);
 
-/* Sets a sine for studies of latency. While it is set, the voice plays only this sine (no texture, impact or edge, and
- * no inference) whenever the newest contact state touches and moves at 5 mm/s or more along the surface, independently
- * of force and speed. It starts and stops within 2 ms on a raised cosine, starts at phase 0 after silence, and keeps
- * its phase continuous while it sounds, also when the frequency changes. Strength, delay, compensation, exposure guard,
- * mute, pause, panic and missing states act on it as on the other effects.
+/* Sets a sine for studies of latency. While it is set, the voice plays only this sine (no texture, impact or edge,
+ * and no inference) whenever the newest contact state touches and moves at 5 mm/s or more along the surface,
+ * independently of force and speed. It starts and stops within 2 ms on a raised cosine, starts at phase 0 after
+ * silence, and keeps its phase continuous while it sounds, also when the frequency changes. Strength, delay,
+ * compensation, exposure guard, mute, pause, panic and missing states act on it as on the other effects.
  * frequency_hz: 20 to 500; it is ignored if the amplitude is 0. amplitude_mps2: the peak amplitude, 0 to 60. An
  * amplitude of 0 switches the signal off, and the texture sounds again with the next state. Both values take effect
- * with the next block; a change of amplitude takes 10 ms. Errors: INVALID_ARGUMENT. [publisher] */
+ * with the next block; a change of amplitude takes 10 ms. [publisher] */
 HAPTOFLOW_API haptoflow_status haptoflow_voice_set_signal(haptoflow_voice voice, double frequency_hz,
                                                           double amplitude_mps2);
 
@@ -902,22 +844,22 @@ typedef struct haptoflow_signal_statistics {
     double mean_stop_latency_seconds;
 } haptoflow_signal_statistics;
 
-/* Fills the statistics of the signal. Errors: INVALID_ARGUMENT. [publisher] */
+/* Fills the statistics of the signal. [publisher] */
 HAPTOFLOW_API haptoflow_status haptoflow_voice_signal_statistics(haptoflow_voice voice,
                                                                  haptoflow_signal_statistics* statistics);
 
-/* Sets the actuator that plays the voice, so that its resonances and weak bands are compensated: an actuator profile as
- * JSON of length bytes, or the name of a built-in profile ("flat", "voice-coil"); null for no compensation. The worker
- * prepares the filter for the output's rate; the change then fades over 10 ms.
- * Errors: INVALID_ARGUMENT (the message names the key), OUT_OF_MEMORY. [loader-thread] Parses the profile. */
+/* Sets the actuator that plays the voice, so that its resonances and weak bands are compensated: an actuator profile
+ * as JSON of length bytes, or the name of a built-in profile ("flat", "voice-coil"); null for no compensation. The
+ * worker prepares the filter for the output's rate; the change then fades over 10 ms. Errors: INVALID_ARGUMENT (the
+ * message names the key), OUT_OF_MEMORY. [loader-thread] Parses the profile. */
 HAPTOFLOW_API haptoflow_status haptoflow_voice_set_actuator(haptoflow_voice voice, const char* profile,
                                                             uint64_t length);
 
 /* is_on: 1 switches the exposure guard on, which slowly lowers a level that stays high for too long, but never to
- * silence; 0 switches it off. Switched off it measures on, and switched on again it knows the exposure of the whole day
- * since it was first on. actuator_gain: acceleration at the hand per m/s^2 of the voice, above 0 to 1000; 0 for 1.
- * Documentation~/effects-and-outputs.md gives the law. The guard is not a medical device.
- * Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. [publisher] */
+ * silence; 0 switches it off. Switched off it measures on, and switched on again it knows the exposure of the whole
+ * day since it was first on. actuator_gain: acceleration at the hand per m/s^2 of the voice, above 0 to 1000; 0 for
+ * 1. Documentation~/effects-and-outputs.md gives the law. The guard is not a medical device. Errors: OUT_OF_MEMORY.
+ * [publisher] */
 HAPTOFLOW_API haptoflow_status haptoflow_voice_set_exposure_guard(haptoflow_voice voice, uint32_t is_on,
                                                                   float actuator_gain);
 
@@ -945,11 +887,11 @@ typedef struct haptoflow_exposure {
     double lowered_seconds;
 } haptoflow_exposure;
 
-/* Fills the state of the voice's exposure guard. Errors: INVALID_ARGUMENT. [publisher] */
+/* Fills the state of the voice's exposure guard. [publisher] */
 HAPTOFLOW_API haptoflow_status haptoflow_voice_exposure(haptoflow_voice voice, haptoflow_exposure* exposure);
 
-/* Returns the voice's slot, 0 to HAPTOFLOW_MAXIMUM_VOICES - 1, to which the parameter "Voice" of Unity's mixer effect
- * refers. Slots are reused. Errors: INVALID_ARGUMENT. [publisher] */
+/* Returns the voice's slot, 0 to HAPTOFLOW_MAXIMUM_VOICES - 1, to which the parameter "Voice" of Unity's mixer
+ * effect refers. Slots are reused. [publisher] */
 HAPTOFLOW_API haptoflow_status haptoflow_voice_place(haptoflow_voice voice, uint32_t* place);
 
 /* ------------------------------------------------------------------------------------------------ wave features */
@@ -992,42 +934,32 @@ typedef struct haptoflow_wave_frame {
     float transient_frequency_hz;
 } haptoflow_wave_frame;
 
-/* Creates wave features. Close them with haptoflow_wave_features_close. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY.
- * [any-thread] Blocks while another thread opens or closes a handle; allocates. */
+/* Creates wave features. Close them with haptoflow_wave_features_close. Errors: OUT_OF_MEMORY. [any-thread]
+ * Allocates. */
 HAPTOFLOW_API haptoflow_status haptoflow_wave_features_create(const haptoflow_wave_features_options* options,
                                                               haptoflow_wave_features** features);
 
-/* Closes *features and sets it to null; a null handle is allowed. Errors: INVALID_ARGUMENT.
- * [any-thread] Blocks while another thread opens or closes a handle. */
+/* Closes *features and sets it to null; a null handle is allowed. [any-thread] */
 HAPTOFLOW_API haptoflow_status haptoflow_wave_features_close(haptoflow_wave_features** features);
 
-/* Clears the history of the wave; the next sample is the first one. Errors: INVALID_ARGUMENT.
- * [any-thread] Blocks while another thread uses these features. */
+/* Clears the history of the wave; the next sample is the first one. [any-thread] Blocks while another thread uses
+ * these features. */
 HAPTOFLOW_API haptoflow_status haptoflow_wave_features_reset(haptoflow_wave_features* features);
 
-/* Sets the range of the device from the next frame on, above 0 to 1000 Hz each. Errors: INVALID_ARGUMENT.
- * [any-thread] Blocks while another thread uses these features. */
+/* Sets the range of the device from the next frame on, above 0 to 1000 Hz each. [any-thread] Blocks while another
+ * thread uses these features. */
 HAPTOFLOW_API haptoflow_status haptoflow_wave_features_set_range(haptoflow_wave_features* features,
                                                                  double minimum_frequency_hz,
                                                                  double maximum_frequency_hz);
 
-/* Processes the next sample_count samples of the wave, in m/s^2, and writes the frames that they complete; *frame_count
- * receives the number of frames. A frame is complete 4 ms after its end. A capacity of
- * sample_count / (rate * frame_seconds) + 1 frames is always enough; frames beyond capacity are lost. Samples that are
- * not finite count as 0. Errors: INVALID_ARGUMENT.
- * [any-thread] Blocks while another thread uses these features; takes about 2 us per ms of wave. */
+/* Processes the next sample_count samples of the wave, in m/s^2, and writes the frames that they complete;
+ * *frame_count receives the number of frames. A frame is complete 4 ms after its end. A capacity of sample_count /
+ * (rate * frame_seconds) + 1 frames is always enough; frames beyond capacity are lost. Samples that are not finite
+ * count as 0. [any-thread] Blocks while another thread uses these features; takes about 2 us per ms of wave. */
 HAPTOFLOW_API haptoflow_status haptoflow_wave_features_process(haptoflow_wave_features* features,
                                                                const float* wave_mps2, uint64_t sample_count,
                                                                haptoflow_wave_frame* frames, uint64_t capacity,
                                                                uint64_t* frame_count);
-
-/* -------------------------------------------------------------------------------------------------------- noise */
-
-/* Fills noise with count standard normal numbers that depend only on seed, voice and segment and have the same bytes on
- * every platform. count is at most 2^32. Errors: INVALID_ARGUMENT.
- * [any-thread] Never blocks; allocates only to report an error. */
-HAPTOFLOW_API haptoflow_status haptoflow_noise_fill(uint64_t seed, uint32_t voice, uint64_t segment, float* noise,
-                                                    uint64_t count);
 
 /* --------------------------------------------------------------------------------------------------- recordings */
 
@@ -1260,8 +1192,7 @@ enum {
 
 /* Sets *share to the part of the device's range, 0 to below 1, at which an acceleration amplitude (peak, m/s^2) is
  * played: the loudness law of Documentation~/effects-and-outputs.md, which keeps the order of any two amplitudes. An
- * amplitude that is not above 0 gives 0. Errors: INVALID_ARGUMENT.
- * [any-thread] Never blocks; allocates only to report an error. */
+ * amplitude that is not above 0 gives 0. [any-thread] Never blocks; allocates only to report an error. */
 HAPTOFLOW_API haptoflow_status haptoflow_device_share(haptoflow_device_kind kind, float amplitude_mps2, float* share);
 
 /* Applies the loudness law of HAPTOFLOW_DEVICE_WAVEFORM to a wave, by a gain that follows its envelope; delays the wave
@@ -1269,32 +1200,31 @@ HAPTOFLOW_API haptoflow_status haptoflow_device_share(haptoflow_device_kind kind
 typedef struct haptoflow_device_wave haptoflow_device_wave;
 
 /* Creates a device wave for a sample rate of 2000 to 192000 Hz. Close it with haptoflow_device_wave_close. Errors:
- * INVALID_ARGUMENT, OUT_OF_MEMORY. [any-thread] Blocks while another thread opens or closes a handle; allocates. */
+ * OUT_OF_MEMORY. [any-thread] Allocates. */
 HAPTOFLOW_API haptoflow_status haptoflow_device_wave_create(double sample_rate_hz, haptoflow_device_wave** wave);
 
-/* Closes *wave and sets it to null; a null handle is allowed. Errors: INVALID_ARGUMENT.
- * [any-thread] Blocks while another thread opens or closes a handle. */
+/* Closes *wave and sets it to null; a null handle is allowed. [any-thread] */
 HAPTOFLOW_API haptoflow_status haptoflow_device_wave_close(haptoflow_device_wave** wave);
 
-/* Continues with silence. Errors: INVALID_ARGUMENT. [any-thread] Blocks while another thread uses this wave. */
+/* Continues with silence. [any-thread] Blocks while another thread uses this wave. */
 HAPTOFLOW_API haptoflow_status haptoflow_device_wave_reset(haptoflow_device_wave* wave);
 
-/* Replaces the next sample_count samples, +-1 at full_scale_mps2, by those for the device, within +-1. Samples that are
- * not finite count as 0. Errors: INVALID_ARGUMENT. [any-thread] Blocks while another thread uses this wave. */
+/* Replaces the next sample_count samples, +-1 at full_scale_mps2, by those for the device, within +-1. Samples that
+ * are not finite count as 0. [any-thread] Blocks while another thread uses this wave. */
 HAPTOFLOW_API haptoflow_status haptoflow_device_wave_process(haptoflow_device_wave* wave, float* samples,
                                                              uint64_t sample_count, float full_scale_mps2);
 
 /* Makes a voice audible on loudspeakers (is_on 1): louder, and brighter from 150 Hz on, after every other effect and
- * before the limiter; delays it by 1 ms. For ears only: 0 for an output that feeds an actuator. The worker prepares the
- * effect; the change then fades over 10 ms. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. [publisher] */
+ * before the limiter; delays it by 1 ms. For ears only: 0 for an output that feeds an actuator. The worker prepares
+ * the effect; the change then fades over 10 ms. Errors: OUT_OF_MEMORY. [publisher] */
 HAPTOFLOW_API haptoflow_status haptoflow_voice_set_listen(haptoflow_voice voice, uint32_t is_on);
 
 /* ---------------------------------------------------------------------------------------------------- agreement */
 
 /* Sets *bytes to the size with which the library was built of a struct of this header, for example of
  * "haptoflow_engine_options". A caller that declares the structs itself, in another language, compares its own sizes
- * with these before the first call that passes one. Errors: INVALID_ARGUMENT, also for a name that this library's
- * header does not have. [any-thread] Never blocks; allocates only to report an error. */
+ * with these before the first call that passes one. Errors: also for a name that this library's header does not
+ * have. [any-thread] Never blocks; allocates only to report an error. */
 HAPTOFLOW_API haptoflow_status haptoflow_struct_size(const char* name, uint32_t* bytes);
 
 #ifdef __cplusplus

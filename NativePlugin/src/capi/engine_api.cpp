@@ -1,7 +1,8 @@
 #include "capi/handles.hpp"
 #include "capi/voice_table.hpp"
 #include "dsp/limiter.hpp"
-#include "inference/tier_graphs.hpp"
+#include "inference/graph_session.hpp"
+#include "inference/tier_generator.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,9 +20,6 @@ namespace {
 constexpr uint32_t defaultBatchVoices = 8;
 constexpr double defaultFullScaleMps2 = HAPTOFLOW_DEFAULT_FULL_SCALE_MPS2;
 static_assert(defaultFullScaleMps2 == dsp::SoftLimiter::defaultFullScaleMps2);
-
-// The fields that the first version required; all later ones have defaults.
-constexpr std::size_t mandatoryOptions = offsetof(haptoflow_engine_options, update_rate_hz);
 
 double orDefault(double value, double usual) {
     return value == 0.0 ? usual : value;
@@ -68,11 +66,6 @@ engine::QualitySettings qualitySettings(const model::ModelHeader& header, haptof
     return settings;
 }
 
-/// True if an engine of this quality uses the tier.
-bool isWanted(const engine::QualitySettings& quality, std::size_t tier) {
-    return !quality.fixedTier || *quality.fixedTier == tier;
-}
-
 engine::LiveEngineSettings engineSettings(const haptoflow_engine_options& given, const model::ModelHeader& header) {
     const double budgetShare = orDefault(given.budget_share, engine::defaultBudgetShare);
     if (!(budgetShare > 0.0 && budgetShare <= 1.0)) {
@@ -99,7 +92,7 @@ engine::LiveEngineSettings engineSettings(const haptoflow_engine_options& given,
 
 haptoflow_status haptoflow_engine_create(const haptoflow_engine_options* options, haptoflow_engine** engine) {
     return guarded([&] {
-        const auto given = readDescriptor(options, mandatoryOptions, "options");
+        const auto given = readDescriptor(options, "options");
         (void)require(engine, "engine");
         const auto runtime = runtimeOf(given.runtime);
         const auto open = models().get(given.model);
@@ -111,18 +104,21 @@ haptoflow_status haptoflow_engine_create(const haptoflow_engine_options* options
         auto settings = engineSettings(given, header);
         settings.native = open->native;
         const inference::LoadLimits limits = loadLimits(given.cancellation, given.probe_limit_ms);
-        TierLoader loader{.runtime = runtime, .model = open, .batch = batch};
+        // Tiers of one graph share its session, because one thread at a time runs them.
+        inference::SharedSessions sessions;
         engine::EngineTiers tiers(header.tiers.size());
-        for (std::size_t tier = 0; tier < tiers.size(); ++tier) {
-            if (isWanted(settings.quality, tier)) {
-                tiers[tier] = loader.load(tier, limits);
+        for (std::size_t index = 0; index < tiers.size(); ++index) {
+            const model::Tier& tier = header.tiers[index];
+            if (runtime != nullptr || !tier.needsOnnxRuntime() || settings.quality.fixedTier.value_or(index) == index) {
+                tiers[index] = inference::makeGenerator(runtime, open->model, tier, inference::defaultSolver(tier),
+                                                        batch, limits, open->native, &sessions);
             }
         }
         auto live = std::make_shared<engine::LiveEngine>(
             std::shared_ptr<const model::ModelFile>(open, &open->model), std::move(tiers),
             tierOfQuality(header, HAPTOFLOW_QUALITY_AUTO), settings, limits);
         *engine = engines().open(
-            std::make_shared<OpenEngine>(std::move(live), settings.hasWorker, std::move(loader), limits.probeLimitMs));
+            std::make_shared<OpenEngine>(std::move(live), settings.hasWorker, runtime, open, limits.probeLimitMs));
     });
 }
 
@@ -144,16 +140,7 @@ haptoflow_status haptoflow_engine_set_quality(haptoflow_engine* engine, haptoflo
         const auto open = engines().get(engine);
         engine::LiveEngine& live = *open->engine;
         const model::ModelHeader& header = live.model().header();
-        const auto settings =
-            qualitySettings(header, quality, live.statistics().budgetMs, open->loader.runtime != nullptr);
-        engine::requireServedQuality(settings, open->hasWorker);
-        const std::lock_guard lock(open->loading);
-        for (std::size_t tier = 0; tier < header.tiers.size(); ++tier) {
-            if (isWanted(settings, tier) && !live.hasTier(tier)) {
-                live.addTier(tier, open->loader.load(tier, {.probeLimitMs = open->probeLimitMs}));
-            }
-        }
-        live.setQuality(settings);
+        live.setQuality(qualitySettings(header, quality, live.statistics().budgetMs, open->runtime != nullptr));
     });
 }
 

@@ -1,23 +1,141 @@
 #pragma once
 
-#include "capi/boundary.hpp"
-#include "capi/handle_table.hpp"
 #include "engine/live_engine.hpp"
 #include "haptoflow/haptoflow.h"
 #include "inference/load_limits.hpp"
-#include "inference/shared_sessions.hpp"
 #include "inference/tier_generator.hpp"
 #include "model/material_file.hpp"
 #include "model/model_file.hpp"
 #include "skeleton/skeleton_tensors.hpp"
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <limits>
 #include <memory>
 #include <mutex>
+#include <stdexcept>
 #include <string>
+#include <unordered_map>
 #include <utility>
 
 namespace haptoflow::capi {
+
+/// Converts the exception that is being handled into a status and stores its message for this thread.
+[[nodiscard]] haptoflow_status reportCurrentException() noexcept;
+
+/// The message of the last failed call on this thread.
+[[nodiscard]] const char* lastMessage() noexcept;
+
+/// Runs the body of a C function; no exception leaves it.
+template <typename Action>
+[[nodiscard]] haptoflow_status guarded(Action&& action) noexcept {
+    try {
+        action();
+        return HAPTOFLOW_OK;
+    } catch (...) {
+        return reportCurrentException();
+    }
+}
+
+/// Returns `pointer`. Throws std::invalid_argument that names it if it is null.
+template <typename Type>
+[[nodiscard]] Type* require(Type* pointer, const char* name) {
+    if (pointer == nullptr) {
+        throw std::invalid_argument(std::string(name) + " is null");
+    }
+    return pointer;
+}
+
+/// A number of samples of up to three axes. Throws std::invalid_argument that names it if no memory could hold them.
+[[nodiscard]] inline std::size_t countOf(uint64_t given, const char* name) {
+    constexpr uint64_t maximumSamples = std::numeric_limits<std::size_t>::max() / (3 * sizeof(float));
+    if (given > maximumSamples) {
+        throw std::invalid_argument(std::string(name) + " is " + std::to_string(given));
+    }
+    return static_cast<std::size_t>(given);
+}
+
+/// Throws std::invalid_argument unless the caller's struct has the library's size.
+template <typename Descriptor>
+void checkStructSize(const Descriptor* descriptor, const char* name) {
+    const std::size_t size = require(descriptor, name)->struct_size;
+    if (size != sizeof(Descriptor)) {
+        throw std::invalid_argument(std::string(name) + ": struct_size is " + std::to_string(size) + "; expected " +
+                                    std::to_string(sizeof(Descriptor)) + ", the size of the struct in this version");
+    }
+}
+
+template <typename Descriptor>
+[[nodiscard]] Descriptor readDescriptor(const Descriptor* descriptor, const char* name) {
+    checkStructSize(descriptor, name);
+    return *descriptor;
+}
+
+template <typename Descriptor>
+void writeDescriptor(Descriptor* target, Descriptor content, const char* name) {
+    checkStructSize(target, name);
+    content.struct_size = sizeof(Descriptor);
+    *target = content;
+}
+
+/// A caller's path, which is UTF-8 on every platform.
+[[nodiscard]] inline std::filesystem::path utf8Path(const char* text) {
+    const std::u8string utf8(text, text + std::strlen(text));
+    return std::filesystem::path(utf8);
+}
+
+/// Opaque handles to shared objects. A handle is a number that is never reused, not an address, so that a closed or
+/// invalid handle is detected instead of dereferenced. Thread-safe.
+template <typename Handle, typename Object>
+class HandleTable {
+public:
+    explicit HandleTable(const char* kind) : kind_(kind) {}
+
+    [[nodiscard]] Handle* open(std::shared_ptr<Object> object) {
+        const std::lock_guard lock(mutex_);
+        const std::uintptr_t number = nextNumber_;
+        objects_.emplace(number, std::move(object));
+        nextNumber_ += numberStep;
+        return reinterpret_cast<Handle*>(number);
+    }
+
+    /// Throws std::invalid_argument for a handle that is not open.
+    [[nodiscard]] std::shared_ptr<Object> get(const Handle* handle) const {
+        const std::lock_guard lock(mutex_);
+        const auto found = objects_.find(reinterpret_cast<std::uintptr_t>(handle));
+        if (found == objects_.end()) {
+            refuse();
+        }
+        return found->second;
+    }
+
+    /// Throws std::invalid_argument for a handle that is not open. The object is destroyed outside the lock, when its
+    /// last user releases it.
+    void close(const Handle* handle) {
+        std::shared_ptr<Object> last;
+        const std::lock_guard lock(mutex_);
+        const auto found = objects_.find(reinterpret_cast<std::uintptr_t>(handle));
+        if (found == objects_.end()) {
+            refuse();
+        }
+        last = std::move(found->second);
+        objects_.erase(found);
+    }
+
+private:
+    // Tools that tag the lower bits of pointers expect multiples of 16.
+    static constexpr std::uintptr_t numberStep = 16;
+
+    [[noreturn]] void refuse() const { throw std::invalid_argument(std::string("not an open ") + kind_ + " handle"); }
+
+    const char* kind_;
+    mutable std::mutex mutex_;
+    std::unordered_map<std::uintptr_t, std::shared_ptr<Object>> objects_;
+    std::uintptr_t nextNumber_ = numberStep;
+};
 
 struct OpenModel {
     explicit OpenModel(model::ModelFile file)
@@ -42,36 +160,23 @@ struct OpenGenerator {
     std::size_t latentSize = 0;
 };
 
-/// Loads the tiers of one engine, when it is created or when a later quality uses them.
-struct TierLoader {
-    /// Null if the caller has none.
-    std::shared_ptr<const inference::Runtime> runtime;
-    std::shared_ptr<const OpenModel> model;
-    std::size_t batch;
-    /// Of all tiers, because one thread at a time runs them. Whoever calls `load` holds `loading`, or creates the
-    /// engine.
-    std::shared_ptr<inference::SharedSessions> sessions = std::make_shared<inference::SharedSessions>();
-
-    /// Throws what inference::makeGenerator throws.
-    [[nodiscard]] std::unique_ptr<inference::SegmentGenerator> load(std::size_t tier,
-                                                                    const inference::LoadLimits& limits) const;
-    /// Loads only what the tier's levels need. Throws what inference::makeLevelEstimator throws.
-    [[nodiscard]] std::unique_ptr<inference::LevelEstimator> loadLevels(std::size_t tier,
-                                                                        const inference::LoadLimits& limits) const;
-};
-
 struct OpenEngine {
-    OpenEngine(std::shared_ptr<engine::LiveEngine> live, bool worker, TierLoader tierLoader, double limitMs)
-        : engine(std::move(live)), hasWorker(worker), loader(std::move(tierLoader)), probeLimitMs(limitMs) {}
+    OpenEngine(std::shared_ptr<engine::LiveEngine> live, bool worker, std::shared_ptr<const inference::Runtime> given,
+               std::shared_ptr<const OpenModel> opened, double limitMs)
+        : engine(std::move(live)),
+          hasWorker(worker),
+          runtime(std::move(given)),
+          model(std::move(opened)),
+          probeLimitMs(limitMs) {}
 
     std::shared_ptr<engine::LiveEngine> engine;
     bool hasWorker;
+    /// Null if the caller has none.
+    const std::shared_ptr<const inference::Runtime> runtime;
+    const std::shared_ptr<const OpenModel> model;
+    const double probeLimitMs;
     /// Serialises calls of haptoflow_engine_step.
     std::mutex stepping;
-    /// Serialises changes of quality, which may load tiers.
-    std::mutex loading;
-    const TierLoader loader;
-    const double probeLimitMs;
     /// Serialises registrations, which share a level graph that the first one that needs it loads.
     std::mutex registering;
     std::unique_ptr<inference::LevelEstimator> levels;

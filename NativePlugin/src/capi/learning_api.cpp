@@ -23,7 +23,6 @@ struct OpenLearning {
 
 namespace {
 
-constexpr std::size_t mandatoryOptions = offsetof(haptoflow_learning_options, seed);
 constexpr double maximumLimitSeconds = 3600.0;
 
 std::string textOrNone(const char* text) {
@@ -81,7 +80,7 @@ learning::LearningSettings settingsOf(const haptoflow_learning_options& given,
 
 haptoflow_status haptoflow_learn_material(const haptoflow_learning_options* options, haptoflow_learning** learning) {
     return guarded([&] {
-        const auto given = readDescriptor(options, mandatoryOptions, "options");
+        const auto given = readDescriptor(options, "options");
         (void)require(learning, "learning");
         const auto runtime = runtimeOf(given.runtime);
         const auto open = models().get(given.model);

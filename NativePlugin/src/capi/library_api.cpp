@@ -1,12 +1,63 @@
-#include "capi/boundary.hpp"
-#include "inference/gaussian_noise.hpp"
+#include "capi/handles.hpp"
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <iterator>
-#include <span>
 #include <string>
 #include <string_view>
+
+using namespace haptoflow;
+using namespace haptoflow::capi;
+
+haptoflow_status haptoflow_cancellation_create(haptoflow_cancellation** cancellation) {
+    return guarded([&] {
+        (void)require(cancellation, "cancellation");
+        *cancellation = cancellations().open(std::make_shared<inference::Cancellation>());
+    });
+}
+
+haptoflow_status haptoflow_cancellation_cancel(haptoflow_cancellation* cancellation) {
+    return guarded([&] { cancellations().get(cancellation)->cancel(); });
+}
+
+haptoflow_status haptoflow_cancellation_close(haptoflow_cancellation** cancellation) {
+    return guarded([&] { closeHandle(cancellations(), cancellation, "cancellation"); });
+}
+
+using namespace haptoflow;
+using namespace haptoflow::capi;
+
+namespace {}  // namespace
+
+haptoflow_status haptoflow_runtime_open(const haptoflow_runtime_options* options, haptoflow_runtime** runtime) {
+    return guarded([&] {
+        const auto given = readDescriptor(options, "options");
+        (void)require(runtime, "runtime");
+        if ((given.ort_api_base == nullptr) == (given.library_path == nullptr)) {
+            throw std::invalid_argument("options: exactly one of ort_api_base and library_path must be set");
+        }
+        const auto log =
+            given.log != nullptr ? std::make_shared<inference::LogSink>(given.log, given.log_context) : nullptr;
+        *runtime = runtimes().open(
+            given.ort_api_base != nullptr
+                ? inference::Runtime::fromApiBase(static_cast<const OrtApiBase*>(given.ort_api_base), log)
+                : inference::Runtime::open(utf8Path(given.library_path), log));
+    });
+}
+
+haptoflow_status haptoflow_runtime_close(haptoflow_runtime** runtime) {
+    return guarded([&] {
+        if (*require(runtime, "runtime") == nullptr) {
+            return;
+        }
+        const auto open = runtimes().get(*runtime);
+        closeHandle(runtimes(), runtime, "runtime");
+        if (open->log() != nullptr) {
+            open->log()->close();
+        }
+    });
+}
 
 using namespace haptoflow;
 using namespace haptoflow::capi;
@@ -52,8 +103,8 @@ constexpr auto structSizes = std::to_array<StructSize>({
     HAPTOFLOW_SIZE(haptoflow_learning_options),
 });
 
-struct NamedNumber {
-    int32_t number;
+struct NamedStatus {
+    haptoflow_status number;
     const char* name;
 };
 
@@ -61,7 +112,7 @@ struct NamedNumber {
 #define HAPTOFLOW_NAMED(constant) \
     { constant, #constant }
 
-constexpr auto statusNames = std::to_array<NamedNumber>({
+constexpr auto statusNames = std::to_array<NamedStatus>({
     HAPTOFLOW_NAMED(HAPTOFLOW_OK),
     HAPTOFLOW_NAMED(HAPTOFLOW_INVALID_ARGUMENT),
     HAPTOFLOW_NAMED(HAPTOFLOW_OUT_OF_MEMORY),
@@ -83,24 +134,6 @@ constexpr auto statusNames = std::to_array<NamedNumber>({
     HAPTOFLOW_NAMED(HAPTOFLOW_TIER_TOO_SLOW),
 });
 
-constexpr auto silenceNames = std::to_array<NamedNumber>({
-    HAPTOFLOW_NAMED(HAPTOFLOW_SILENCE_NONE),
-    HAPTOFLOW_NAMED(HAPTOFLOW_SILENCE_REST),
-    HAPTOFLOW_NAMED(HAPTOFLOW_SILENCE_STALE),
-    HAPTOFLOW_NAMED(HAPTOFLOW_SILENCE_MUTED),
-    HAPTOFLOW_NAMED(HAPTOFLOW_SILENCE_PAUSED),
-    HAPTOFLOW_NAMED(HAPTOFLOW_SILENCE_PANIC),
-    HAPTOFLOW_NAMED(HAPTOFLOW_SILENCE_RATE),
-    HAPTOFLOW_NAMED(HAPTOFLOW_SILENCE_CLOSING),
-    HAPTOFLOW_NAMED(HAPTOFLOW_SILENCE_WORKER_DEAD),
-    HAPTOFLOW_NAMED(HAPTOFLOW_SILENCE_TURNED_DOWN),
-});
-
-const char* nameIn(std::span<const NamedNumber> names, int32_t number, const char* otherwise) {
-    const auto entry = std::ranges::find(names, number, &NamedNumber::number);
-    return entry == names.end() ? otherwise : entry->name;
-}
-
 }  // namespace
 
 const char* haptoflow_version(void) {
@@ -108,25 +141,12 @@ const char* haptoflow_version(void) {
 }
 
 const char* haptoflow_status_name(haptoflow_status status) {
-    return nameIn(statusNames, status, "HAPTOFLOW_UNKNOWN_STATUS");
-}
-
-const char* haptoflow_silence_name(haptoflow_silence silence) {
-    return nameIn(silenceNames, silence, "HAPTOFLOW_UNKNOWN_SILENCE");
+    const auto* entry = std::ranges::find(statusNames, status, &NamedStatus::number);
+    return entry == std::end(statusNames) ? "HAPTOFLOW_UNKNOWN_STATUS" : entry->name;
 }
 
 const char* haptoflow_last_message(void) {
     return lastMessage();
-}
-
-haptoflow_status haptoflow_noise_fill(uint64_t seed, uint32_t voice, uint64_t segment, float* noise, uint64_t count) {
-    return guarded([&] {
-        if (count > uint64_t{1} << 32U) {
-            throw std::invalid_argument("count is above 2^32");
-        }
-        const std::span<float> target(require(noise, "noise"), static_cast<std::size_t>(count));
-        inference::fillStandardNormal({seed, voice, segment}, target);
-    });
 }
 
 haptoflow_status haptoflow_struct_size(const char* name, uint32_t* bytes) {

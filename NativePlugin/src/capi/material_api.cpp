@@ -47,8 +47,10 @@ haptoflow_material_info describe(const model::MaterialFile& material) {
 engine::MaterialLibrary::LevelSource levelsOf(OpenEngine& open) {
     return [&open]() -> inference::LevelEstimator& {
         if (open.levels == nullptr) {
-            const std::size_t tier = open.engine->model().header().defaultTier;
-            open.levels = open.loader.loadLevels(tier, {.probeLimitMs = open.probeLimitMs});
+            const model::ModelHeader& header = open.model->model.header();
+            open.levels =
+                inference::makeLevelEstimator(open.runtime, open.model->model, header.tiers[header.defaultTier],
+                                              {.probeLimitMs = open.probeLimitMs}, open.model->native);
         }
         return *open.levels;
     };

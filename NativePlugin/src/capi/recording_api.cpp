@@ -35,7 +35,6 @@ struct OpenRecording {
 
 namespace {
 
-constexpr std::size_t mandatoryOptions = offsetof(haptoflow_recording_options, files);
 constexpr double unknownNumber = std::numeric_limits<double>::quiet_NaN();
 
 std::optional<double> fullScaleOrNone(double value) {
@@ -129,7 +128,7 @@ void writeWave(const std::vector<Number>& wave, std::span<float> written) {
 
 haptoflow_status haptoflow_recording_read(const haptoflow_recording_options* options, haptoflow_recording** recording) {
     return guarded([&] {
-        const auto given = readDescriptor(options, mandatoryOptions, "options");
+        const auto given = readDescriptor(options, "options");
         (void)require(recording, "recording");
         const std::filesystem::path path = utf8Path(require(given.path, "options: path"));
         const recordings::RecordingWords words{.fullScaleMps2 = fullScaleOrNone(given.full_scale_mps2)};

@@ -1,5 +1,4 @@
 #include "capi/handles.hpp"
-#include "capi/voice_rendering.hpp"
 #include "capi/voice_table.hpp"
 
 #include <algorithm>
@@ -29,9 +28,6 @@ static_assert(effects::maskOf(EffectKind::impact) == HAPTOFLOW_ASKS_FOR_IMPACT);
 static_assert(effects::maskOf(EffectKind::edge) == HAPTOFLOW_ASKS_FOR_EDGE);
 
 namespace {
-
-// All fields up to the force; the later ones have defaults.
-constexpr std::size_t mandatoryState = offsetof(haptoflow_contact_state, approach_speed_mps);
 
 VoiceTable::Use requireVoice(haptoflow_voice voice) {
     VoiceTable::Use use = voices().use(voice);
@@ -124,7 +120,7 @@ haptoflow_status haptoflow_voice_destroy(haptoflow_voice* voice) {
 haptoflow_status haptoflow_voice_publish(haptoflow_voice voice, const haptoflow_contact_state* state) {
     bool isBusy = false;
     const haptoflow_status status = guarded([&] {
-        const auto given = readDescriptor(state, mandatoryState, "state");
+        const auto given = readDescriptor(state, "state");
         const VoiceTable::Use use = requireVoice(voice);
         if (use->publishing.test_and_set(std::memory_order_acquire)) {
             use->refusedCalls.fetch_add(1, std::memory_order_relaxed);

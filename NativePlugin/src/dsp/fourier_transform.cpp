@@ -1,6 +1,7 @@
 #include "dsp/fourier_transform.hpp"
 
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <numbers>
 #include <stdexcept>
@@ -8,6 +9,40 @@
 #include <utility>
 
 namespace haptoflow::dsp {
+namespace {
+
+// A power series, because libc++ (Android, Apple) has no std::cyl_bessel_i.
+double besselI0(double x) noexcept {
+    const double quarterSquare = 0.25 * x * x;
+    double term = 1.0;
+    double sum = 1.0;
+    for (int k = 1; term > 1e-17 * sum; ++k) {
+        term *= quarterSquare / (static_cast<double>(k) * static_cast<double>(k));
+        sum += term;
+    }
+    return sum;
+}
+
+}  // namespace
+
+double kaiserBeta(double attenuationDecibels) noexcept {
+    return 0.1102 * (attenuationDecibels - 8.7);
+}
+
+double kaiserWindow(double position, double beta) noexcept {
+    if (std::abs(position) > 1.0) {
+        return 0.0;
+    }
+    return besselI0(beta * std::sqrt(1.0 - position * position)) / besselI0(beta);
+}
+
+double normalisedSinc(double x) noexcept {
+    if (std::abs(x) < 1e-9) {
+        return 1.0;
+    }
+    const double angle = std::numbers::pi * x;
+    return std::sin(angle) / angle;
+}
 
 void fourierTransform(std::vector<std::complex<double>>& values, Direction direction) {
     using Complex = std::complex<double>;

@@ -5,6 +5,16 @@
 
 namespace haptoflow::dsp {
 
+/// Kaiser's shape parameter beta for a stopband `attenuationDecibels` (above 50 dB) below the passband.
+/// J. F. Kaiser, "Nonrecursive digital filter design using the I0-sinh window function", 1974.
+[[nodiscard]] double kaiserBeta(double attenuationDecibels) noexcept;
+
+/// Kaiser window at `position`: 1 at 0, and 0 outside [-1, 1]. Any thread.
+[[nodiscard]] double kaiserWindow(double position, double beta) noexcept;
+
+/// sin(pi x) / (pi x).
+[[nodiscard]] double normalisedSinc(double x) noexcept;
+
 enum class Direction { forward, inverse };
 
 /// Discrete Fourier transform in place; the inverse divides by the length. Allocates: for filter design and analysis,

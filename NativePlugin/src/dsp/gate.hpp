@@ -5,6 +5,69 @@
 
 namespace haptoflow::dsp {
 
+/// A gain that moves to its target in a straight line; each change states its own length. Audio thread: allocates
+/// nothing, waits for nothing.
+class GainRamp {
+public:
+    explicit GainRamp(float gain = 0.0F) noexcept : value_(gain), target_(gain) {}
+
+    /// Reaches `gain` exactly with the last of the next `samples` samples (at least 1).
+    void moveTo(float gain, std::uint32_t samples) noexcept {
+        target_ = gain;
+        remaining_ = samples;
+        step_ = (static_cast<double>(gain) - value_) / static_cast<double>(samples);
+    }
+    /// Takes the value `gain` at once.
+    void jumpTo(float gain) noexcept {
+        target_ = gain;
+        value_ = gain;
+        remaining_ = 0;
+    }
+    /// Advances by one sample and returns its gain.
+    [[nodiscard]] float next() noexcept {
+        if (remaining_ > 0) {
+            --remaining_;
+            value_ = remaining_ == 0 ? static_cast<double>(target_) : value_ + step_;
+        }
+        return static_cast<float>(value_);
+    }
+
+    [[nodiscard]] float target() const noexcept { return target_; }
+    [[nodiscard]] bool isSettled() const noexcept { return remaining_ == 0; }
+    [[nodiscard]] bool isSettledAt(float gain) const noexcept { return isSettled() && target_ == gain; }
+
+private:
+    double value_;
+    double step_ = 0.0;
+    float target_;
+    std::uint32_t remaining_ = 0;
+};
+
+/// A gain that takes the same time for every change, so that no change of strength or level clicks. Audio thread:
+/// allocates nothing, waits for nothing. Another thread sets a target through an atomic, which the audio thread reads
+/// once a block and passes to `setTarget`.
+class LevelSmoother {
+public:
+    /// Throws std::invalid_argument unless `sampleRateHz` is the waveform rate or an output rate, `rampSeconds` is 0-1
+    /// and `initialGain` is finite.
+    explicit LevelSmoother(double sampleRateHz, double rampSeconds = 0.01, float initialGain = 1.0F);
+
+    /// Starts a ramp that reaches `gain` after one ramp time. Ignores a non-finite gain and the present target.
+    void setTarget(float gain) noexcept;
+    /// Takes the value `gain` at once, for a new stream. Ignores a non-finite gain.
+    void reset(float gain) noexcept;
+    [[nodiscard]] float target() const noexcept { return ramp_.target(); }
+    [[nodiscard]] bool isSettled() const noexcept { return ramp_.isSettled(); }
+    /// Advances by one sample and returns its gain. The last gain of a ramp is exactly the target.
+    [[nodiscard]] float next() noexcept { return ramp_.next(); }
+    /// Multiplies in place. A settled gain of 1 leaves every sample unchanged.
+    void process(std::span<float> samples) noexcept;
+
+private:
+    std::uint32_t rampSamples_;
+    GainRamp ramp_;
+};
+
 /// Opens within 2 ms and closes within `closeSeconds` along a raised cosine. It can change direction at any sample
 /// without a step. A closed gate outputs exact zeros for any input, an open one passes the signal unchanged. To change
 /// direction inside a block, process the samples before the change first. Audio thread: allocates nothing, waits for

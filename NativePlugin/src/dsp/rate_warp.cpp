@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dsp/kaiser_window.hpp"
+#include "dsp/fourier_transform.hpp"
 
 namespace haptoflow::dsp {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "dsp/minimum_phase_kernel.hpp"
 #include "dsp/sample_rates.hpp"
+#include "dsp/tone_filter.hpp"
 
 namespace haptoflow::dsp {
 namespace {

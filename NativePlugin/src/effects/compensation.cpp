@@ -210,14 +210,6 @@ void Compensation::measureLatency() noexcept {
     }
 }
 
-EffectDeclaration Compensation::declaration() const noexcept {
-    return {.kind = EffectKind::compensation,
-            .reads = contact_field::none,
-            .latencySeconds = latencySeconds_,
-            .tailSeconds = tailSeconds_,
-            .memoryBytes = sizeof(Compensation)};
-}
-
 void Compensation::process(std::span<float> samplesMps2) noexcept {
     if (!filter_ || samplesMps2.empty()) {
         return;

@@ -26,10 +26,10 @@ struct CompensationSettings {
 /// - Level: white noise and pink noise from 20 to 1000 Hz do not gain power, so a broadband texture keeps its headroom.
 ///   A texture with its energy where the actuator is weak gets louder, by the maximum boost at most; the limiter after
 ///   this effect handles that case.
-/// - Delay: there is no look-ahead and no bulk delay. The declared latency is the largest group delay in the band. An
+/// - Delay: there is no look-ahead and no bulk delay. The latency is the largest group delay in the band. An
 ///   actuator that is itself minimum-phase cancels this delay where it is fully compensated.
 ///
-/// Reads no field of the contact. The number of filter sections and the cost per sample are the same at every rate.
+/// The number of filter sections and the cost per sample are the same at every rate.
 class Compensation final : public Effect {
 public:
     static constexpr double maximumCutDecibels = 24.0;
@@ -38,7 +38,6 @@ public:
     /// std::invalid_argument for a rate outside 8-192 kHz and for settings out of range.
     Compensation(const ActuatorProfile& profile, double sampleRateHz, const CompensationSettings& settings = {});
 
-    [[nodiscard]] EffectDeclaration declaration() const noexcept override;
     void process(std::span<float> samplesMps2) noexcept override;
     void reset() noexcept override;
     [[nodiscard]] bool isIdle() const noexcept override;
@@ -50,6 +49,9 @@ public:
     [[nodiscard]] double groupDelaySeconds(double frequencyHz) const noexcept;
     /// The magnitude, in the profile's decibels, to which the actuator is levelled in the band.
     [[nodiscard]] double levelDecibels() const noexcept { return levelDecibels_; }
+    /// The largest group delay in the band, and for how long the filter sounds after its input.
+    [[nodiscard]] double latencySeconds() const noexcept { return latencySeconds_; }
+    [[nodiscard]] double tailSeconds() const noexcept { return tailSeconds_; }
     /// The part of the band that the profile covers.
     [[nodiscard]] std::array<double, 2> bandHz() const noexcept { return bandHz_; }
 

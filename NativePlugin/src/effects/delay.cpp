@@ -31,26 +31,11 @@ void Delay::setDelaySeconds(double seconds) noexcept {
     if (isIdle()) {
         current_ = requested_;
         faded_ = fade_.size();
-        declare();
     }
 }
 
 double Delay::delaySeconds() const noexcept {
     return static_cast<double>(requested_) / sampleRateHz_;
-}
-
-EffectDeclaration Delay::declaration() const noexcept {
-    const double seconds = declaredSeconds_.load(std::memory_order_relaxed);
-    return {.kind = EffectKind::delay,
-            .reads = contact_field::none,
-            .latencySeconds = seconds,
-            .tailSeconds = seconds,
-            .memoryBytes = sizeof(Delay) + (line_.capacity() + fade_.capacity()) * sizeof(float)};
-}
-
-void Delay::declare() noexcept {
-    const std::size_t longer = faded_ < fade_.size() ? std::max(current_, previous_) : current_;
-    declaredSeconds_.store(static_cast<double>(longer) / sampleRateHz_, std::memory_order_relaxed);
 }
 
 void Delay::write(float sample) noexcept {
@@ -70,16 +55,13 @@ void Delay::startFadeIfRequested() noexcept {
         previous_ = current_;
         current_ = requested_;
         faded_ = 0;
-        declare();
     }
 }
 
 float Delay::nextFadeSample() noexcept {
     const float weight = fade_[faded_];
     const float out = weight * tap(current_) + (1.0F - weight) * tap(previous_);
-    if (++faded_ == fade_.size()) {
-        declare();
-    }
+    ++faded_;
     return out;
 }
 
@@ -96,7 +78,6 @@ void Delay::reset() noexcept {
     silent_ = maximumSamples_ + 1;
     current_ = requested_;
     faded_ = fade_.size();
-    declare();
 }
 
 bool Delay::isIdle() const noexcept {

@@ -3,7 +3,6 @@
 #include "effects/effect.hpp"
 
 #include <array>
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -22,8 +21,8 @@ namespace haptoflow::effects {
 ///   during a crossfade waits for its end; of several, the newest counts. While the line holds only silence, a change
 ///   takes effect at once.
 ///
-/// Non-finite samples enter the line as 0. Construction and `declaration` excepted, everything runs on the audio
-/// thread: allocates nothing, waits for nothing.
+/// Non-finite samples enter the line as 0. Construction excepted, everything runs on the audio thread: allocates
+/// nothing, waits for nothing.
 class Delay final : public Effect {
 public:
     static constexpr double maximumSeconds = 0.5;
@@ -37,8 +36,6 @@ public:
     /// The delay set last, rounded to a sample. The crossfade to it may still be waiting or in progress.
     [[nodiscard]] double delaySeconds() const noexcept;
 
-    /// Latency and tail equal the delay; during a crossfade, the longer of the two delays.
-    [[nodiscard]] EffectDeclaration declaration() const noexcept override;
     void process(std::span<float> samplesMps2) noexcept override;
     void reset() noexcept override;
     /// True only while the whole line, up to the maximum delay, holds silence.
@@ -49,7 +46,6 @@ private:
     [[nodiscard]] float tap(std::size_t delaySamples) const noexcept;
     void startFadeIfRequested() noexcept;
     [[nodiscard]] float nextFadeSample() noexcept;
-    void declare() noexcept;
 
     double sampleRateHz_;
     std::size_t maximumSamples_;
@@ -66,7 +62,6 @@ private:
     std::size_t previous_ = 0;
     /// Completed steps of the crossfade; its length if none is in progress.
     std::size_t faded_;
-    std::atomic<double> declaredSeconds_{0.0};
 };
 
 }  // namespace haptoflow::effects

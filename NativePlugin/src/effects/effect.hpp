@@ -31,29 +31,6 @@ using EffectMask = std::uint32_t;
     return EffectMask{1} << static_cast<unsigned>(kind);
 }
 
-/// Bits for the fields of a contact state that an effect reads.
-namespace contact_field {
-inline constexpr std::uint32_t none = 0;
-inline constexpr std::uint32_t touch = 1;
-inline constexpr std::uint32_t approachSpeed = 2;
-inline constexpr std::uint32_t velocity = 4;
-inline constexpr std::uint32_t force = 8;
-inline constexpr std::uint32_t material = 16;
-}  // namespace contact_field
-
-/// Properties of an effect besides its run time.
-struct EffectDeclaration {
-    EffectKind kind{};
-    /// Bits of `contact_field`.
-    std::uint32_t reads = contact_field::none;
-    /// Delay of the signal; 0 for an effect that only adds to it.
-    double latencySeconds = 0.0;
-    /// Maximum time that the effect sounds after its input has ended.
-    double tailSeconds = 0.0;
-    /// Memory allocated at construction.
-    std::size_t memoryBytes = 0;
-};
-
 /// A stage of a voice's chain for one output rate. The constructor designs and allocates, so it runs on a thread that
 /// may wait. All other functions run on the audio thread: they allocate nothing, wait for nothing and take bounded
 /// time.
@@ -64,8 +41,6 @@ public:
     Effect& operator=(const Effect&) = delete;
     virtual ~Effect() = default;
 
-    /// Any thread.
-    [[nodiscard]] virtual EffectDeclaration declaration() const noexcept = 0;
     /// Processes the next samples in place, m/s^2. A source adds to them.
     virtual void process(std::span<float> samplesMps2) noexcept = 0;
     /// Clears all signal state; settings stay.

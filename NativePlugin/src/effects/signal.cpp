@@ -33,14 +33,6 @@ void Signal::begin() noexcept {
     gate_.open();
 }
 
-EffectDeclaration Signal::declaration() const noexcept {
-    return {.kind = EffectKind::signal,
-            .reads = contact_field::touch | contact_field::velocity,
-            .latencySeconds = 0.0,
-            .tailSeconds = rampSeconds,
-            .memoryBytes = sizeof(Signal)};
-}
-
 void Signal::process(std::span<float> samplesMps2) noexcept {
     for (float& sample : samplesMps2) {
         const float amplitudeMps2 = gate_.nextGain() * amplitudeMps2_.next();

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "dsp/gate.hpp"
-#include "dsp/level_smoother.hpp"
 #include "effects/effect.hpp"
 
 #include <span>
@@ -41,7 +40,6 @@ public:
     /// True from `begin` until `end` or `reset`.
     [[nodiscard]] bool isOn() const noexcept { return gate_.isOpening(); }
 
-    [[nodiscard]] EffectDeclaration declaration() const noexcept override;
     void process(std::span<float> samplesMps2) noexcept override;
     void reset() noexcept override;
     [[nodiscard]] bool isIdle() const noexcept override { return gate_.isClosed(); }

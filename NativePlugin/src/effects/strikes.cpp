@@ -2,8 +2,44 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace haptoflow::effects {
+
+void DecayingSinusoid::start(double frequencyHz, double decayPerSecond, double amplitudeMps2,
+                             double sampleRateHz) noexcept {
+    stop();
+    const bool isAudible = frequencyHz > 0.0 && frequencyHz <= 0.45 * sampleRateHz && decayPerSecond > 0.0 &&
+                           std::isfinite(decayPerSecond) && amplitudeMps2 > 0.0 && std::isfinite(amplitudeMps2);
+    if (!isAudible) {
+        return;
+    }
+    const double turn = 2.0 * std::numbers::pi * frequencyHz / sampleRateHz;
+    decay_ = std::exp(-decayPerSecond / sampleRateHz);
+    feedback_ = 2.0 * decay_ * std::cos(turn);
+    damping_ = decay_ * decay_;
+    // The two past values of the same sinusoid, so that the next sample is its zero crossing.
+    newest_ = -amplitudeMps2 * std::sin(turn) / decay_;
+    previous_ = -amplitudeMps2 * std::sin(2.0 * turn) / damping_;
+    envelopeMps2_ = amplitudeMps2;
+}
+
+void DecayingSinusoid::addTo(std::span<float> samplesMps2) noexcept {
+    if (isIdle()) {
+        return;
+    }
+    for (float& sample : samplesMps2) {
+        const double value = feedback_ * newest_ - damping_ * previous_;
+        previous_ = newest_;
+        newest_ = value;
+        envelopeMps2_ *= decay_;
+        sample += static_cast<float>(value);
+    }
+    if (isIdle()) {
+        stop();
+    }
+}
+
 namespace {
 
 // Acceleration that returns a rebounding tip to the surface. It exceeds gravity because the hand presses the stylus.
@@ -14,8 +50,8 @@ constexpr double maximumAmplitudeMps2 = 1e5;
 
 }  // namespace
 
-Strikes::Strikes(EffectKind kind, double sampleRateHz, double decayFactor) noexcept
-    : kind_(kind), sampleRateHz_(sampleRateHz), decayFactor_(decayFactor) {}
+Strikes::Strikes(double sampleRateHz, double decayFactor) noexcept
+    : sampleRateHz_(sampleRateHz), decayFactor_(decayFactor) {}
 
 void Strikes::strike(double speedMps, const ImpactResponse& response) noexcept {
     if (!(speedMps > 0.0)) {
@@ -56,19 +92,6 @@ void Strikes::planRebound(double speedMps, const ImpactResponse& response) noexc
     const double flightSeconds = 2.0 * rebound_.speedMps / returnAccelerationMps2;
     rebound_.samplesLeft = 1 + static_cast<std::uint64_t>(flightSeconds * sampleRateHz_);
     isIdle_ = false;
-}
-
-EffectDeclaration Strikes::declaration() const noexcept {
-    // The time in which the strongest and slowest mode decays to silence, after the last rebound's flight.
-    const double ringSeconds = std::log(maximumAmplitudeMps2 / imperceptibleMps2) / minimumDecayPerSecond;
-    const double flightsSeconds = static_cast<double>(rebounds) * 2.0 * ImpactResponse::maximumRestitution *
-                                  maximumStrikeMps / returnAccelerationMps2;
-    return {.kind = kind_,
-            .reads = contact_field::touch | contact_field::material |
-                     (kind_ == EffectKind::impact ? contact_field::approachSpeed : contact_field::velocity),
-            .latencySeconds = 0.0,
-            .tailSeconds = ringSeconds / decayFactor_ + flightsSeconds,
-            .memoryBytes = sizeof(Strikes)};
 }
 
 void Strikes::process(std::span<float> samplesMps2) noexcept {

@@ -1,12 +1,36 @@
 #pragma once
 
-#include "effects/decaying_sinusoid.hpp"
 #include "effects/effect.hpp"
 
 #include <array>
 #include <cstdint>
+#include <span>
 
 namespace haptoflow::effects {
+
+/// One vibration mode, amplitude e^(-decay t) sin(2 pi frequency t), computed by a recursion with two multiplications
+/// per sample. Audio thread: allocates nothing, waits for nothing.
+class DecayingSinusoid {
+public:
+    /// Replaces the present sinusoid from the next sample on. A frequency above 0.45 of the rate, or an argument that
+    /// is not finite and above 0, gives silence.
+    void start(double frequencyHz, double decayPerSecond, double amplitudeMps2, double sampleRateHz) noexcept;
+    void stop() noexcept { *this = DecayingSinusoid(); }
+    /// Adds the next samples of the sinusoid to `samplesMps2`.
+    void addTo(std::span<float> samplesMps2) noexcept;
+
+    [[nodiscard]] bool isIdle() const noexcept { return envelopeMps2_ < imperceptibleMps2; }
+    /// The present amplitude of the decaying envelope.
+    [[nodiscard]] double envelopeMps2() const noexcept { return envelopeMps2_; }
+
+private:
+    double newest_ = 0.0;
+    double previous_ = 0.0;
+    double feedback_ = 0.0;
+    double damping_ = 0.0;
+    double decay_ = 0.0;
+    double envelopeMps2_ = 0.0;
+};
 
 /// Response of a material to a blow: a sum of decaying sinusoids with amplitudes proportional to the speed of the blow
 /// (Okamura, Cutkosky, Dennerlein 2001: a(t) = A(v) e^(-Bt) sin(2 pi f t)).
@@ -37,12 +61,11 @@ public:
     static constexpr std::size_t rebounds = 2;
 
     /// `decayFactor` multiplies the decay of the responses, which makes edges shorter than landings.
-    Strikes(EffectKind kind, double sampleRateHz, double decayFactor = 1.0) noexcept;
+    explicit Strikes(double sampleRateHz, double decayFactor = 1.0) noexcept;
 
     /// Starts a blow with the next sample; its rebounds follow. Ignores a speed that is not above 0.
     void strike(double speedMps, const ImpactResponse& response) noexcept;
 
-    [[nodiscard]] EffectDeclaration declaration() const noexcept override;
     void process(std::span<float> samplesMps2) noexcept override;
     void reset() noexcept override;
     [[nodiscard]] bool isIdle() const noexcept override { return isIdle_; }
@@ -57,7 +80,6 @@ private:
     void ring(double speedMps, const ImpactResponse& response) noexcept;
     void planRebound(double speedMps, const ImpactResponse& response) noexcept;
 
-    EffectKind kind_;
     double sampleRateHz_;
     double decayFactor_;
     std::array<DecayingSinusoid, capacity> ringing_{};

@@ -2,7 +2,7 @@
 
 #include "engine/surface_phases.hpp"
 #include "inference/gaussian_noise.hpp"
-#include "skeleton/rib_rates.hpp"
+#include "skeleton/condition.hpp"
 
 #include <algorithm>
 #include <cmath>

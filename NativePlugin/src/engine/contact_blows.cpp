@@ -1,6 +1,6 @@
 #include "engine/contact_blows.hpp"
 
-#include "engine/impact_responses.hpp"
+#include "engine/tap_pieces.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,12 @@
 #pragma once
 
-#include "engine/blow_list.hpp"
+#include "effects/effect.hpp"
 #include "engine/contact_messages.hpp"
 #include "engine/material_library.hpp"
 #include "engine/voice_channels.hpp"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace haptoflow::engine {

@@ -1,7 +1,8 @@
 #pragma once
 
 #include "dsp/gate.hpp"
-#include "dsp/level_smoother.hpp"
+#include "dsp/waveform_resampler.hpp"
+#include "effects/actuator_profile.hpp"
 #include "effects/delay.hpp"
 #include "effects/effect.hpp"
 #include "effects/exposure_guard.hpp"
@@ -146,6 +147,43 @@ private:
     std::unique_ptr<effects::ExposureGuard> guard_;
     std::size_t fadeSamples_;
     std::size_t fadeRemaining_ = 0;
+};
+
+/// The processors that a voice uses.
+struct ProcessorSettings {
+    /// Increases by 1 at each change; 0 if there was never a change.
+    std::uint64_t version = 0;
+    bool hasDelay = false;
+    bool hasExposureGuard = false;
+    /// Profile of the actuator to compensate; null for no compensation.
+    std::shared_ptr<const effects::ActuatorProfile> actuator;
+    /// Acceleration that is +-1 at the output of a voice that is made audible; 0 for a voice that is not.
+    double listenFullScaleMps2 = 0.0;
+};
+
+/// Designs and allocates the processors, which takes milliseconds: not on the audio thread. Null for version 0. With
+/// `keepsExposure` there is a guard even if the settings switch it off, for the exposure that it has measured. Throws
+/// std::invalid_argument for a rate outside 8-192 kHz, std::bad_alloc.
+[[nodiscard]] std::unique_ptr<Processors> makeProcessors(const ProcessorSettings& settings, double rateHz,
+                                                         double delaySeconds, double actuatorGain, bool keepsExposure);
+
+/// The parts of a voice that depend on the output rate. Construction allocates, so another thread than the callback's
+/// makes one for each new rate.
+struct OutputStage {
+    /// Throws std::invalid_argument for a rate outside 8-192 kHz.
+    explicit OutputStage(double outputRateHz)
+        : rateHz(outputRateHz),
+          resampler(outputRateHz),
+          gate(outputRateHz),
+          effects(outputRateHz),
+          strength(outputRateHz) {}
+
+    double rateHz;
+    dsp::WaveformResampler resampler;
+    /// Gate of the texture only.
+    dsp::Gate gate;
+    EffectStage effects;
+    dsp::LevelSmoother strength;
 };
 
 }  // namespace haptoflow::engine

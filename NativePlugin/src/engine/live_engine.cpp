@@ -2,7 +2,7 @@
 
 #include "dsp/denormals.hpp"
 #include "engine/worker_thread.hpp"
-#include "inference/inference_error.hpp"
+#include "inference/load_limits.hpp"
 
 #include <algorithm>
 #include <array>
@@ -272,11 +272,11 @@ void LiveEngine::setQuality(const QualitySettings& quality) {
         throw std::invalid_argument("quality: expected a tier of the model and a budget above 0 ms");
     }
     requireServedQuality(quality, settings_.hasWorker);
+    if (!isLoaded(quality)) {
+        throw std::invalid_argument("quality: the tier needs ONNX Runtime, which this engine was created without");
+    }
     {
         const std::lock_guard lock(qualityMutex_);
-        if (!isLoaded(quality)) {
-            throw std::invalid_argument("quality: the tier is not loaded");
-        }
         requestedQuality_.draft() = quality;
         requestedQuality_.post();
     }
@@ -288,18 +288,6 @@ bool LiveEngine::isLoaded(const QualitySettings& quality) const {
         return *quality.fixedTier < tiers_.size() && tiers_[*quality.fixedTier] != nullptr;
     }
     return std::ranges::all_of(tiers_, [](const auto& tier) { return tier != nullptr; });
-}
-
-void LiveEngine::addTier(std::size_t tier, std::unique_ptr<inference::SegmentGenerator> generator) {
-    const std::lock_guard lock(qualityMutex_);
-    if (tiers_.at(tier) == nullptr) {
-        tiers_[tier] = std::move(generator);
-    }
-}
-
-bool LiveEngine::hasTier(std::size_t tier) const {
-    const std::lock_guard lock(qualityMutex_);
-    return tiers_.at(tier) != nullptr;
 }
 
 TierTimes LiveEngine::tierTimes(std::size_t tier) const noexcept {

@@ -116,9 +116,6 @@ public:
     /// Takes effect with the next round. Throws std::invalid_argument for a tier that the model does not have or that
     /// is not loaded, and for automatic quality without a worker.
     void setQuality(const QualitySettings& quality);
-    /// Adds a loaded tier for a later setQuality. Does nothing if the tier is already loaded.
-    void addTier(std::size_t tier, std::unique_ptr<inference::SegmentGenerator> generator);
-    [[nodiscard]] bool hasTier(std::size_t tier) const;
     /// Any thread; wait-free, allocates nothing.
     [[nodiscard]] const EngineStatistics& statistics() const noexcept { return figures_; }
     [[nodiscard]] std::size_t tierCount() const noexcept { return tiers_.size(); }
@@ -142,8 +139,7 @@ private:
     [[nodiscard]] bool isLoaded(const QualitySettings& quality) const;
 
     std::shared_ptr<const model::ModelFile> model_;
-    // Entries are filled under qualityMutex_ before the worker uses them, and never change afterwards.
-    EngineTiers tiers_;
+    const EngineTiers tiers_;
     LiveEngineSettings settings_;
     std::unique_ptr<MaterialLibrary> library_;
 
@@ -153,7 +149,7 @@ private:
     std::atomic<std::uint32_t> voiceCount_{0};
 
     // Several threads may set the quality; the worker fetches the newest without waiting.
-    mutable std::mutex qualityMutex_;
+    std::mutex qualityMutex_;
     Mailbox<QualitySettings> requestedQuality_;
 
     mutable std::mutex failureMutex_;

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "dsp/tone_cepstrum.hpp"
+#include "dsp/tone_filter.hpp"
 #include "engine/material_library.hpp"
-#include "engine/object_embedding.hpp"
+#include "engine/prepared_material.hpp"
 #include "engine/rib_phase.hpp"
-#include "model/model_file.hpp"
+#include "model/model_header.hpp"
 
 #include <array>
 #include <optional>

@@ -1,18 +1,34 @@
 #pragma once
 
-#include "engine/level_grid.hpp"
-#include "engine/seed_retrieval.hpp"
+#include "engine/onset_levels.hpp"
 #include "inference/prepared_tone.hpp"
-#include "model/material_file.hpp"
 #include "model/model_file.hpp"
+#include "model/model_header.hpp"
 
 #include <array>
-#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
 
 namespace haptoflow::engine {
+
+/// A recorded waveform that is played at touch-down, with the motion at which it was recorded.
+struct Seed {
+    std::array<double, 2> velocityMps{};
+    double forceNewtons = 0.0;
+    std::array<double, 2> ribPhase{};
+    /// RMS of the played seed relative to the level.
+    float gain = 1.0F;
+    std::span<const float, model::seedSamples> samples;
+    /// Embedding of the recorded material; the rib phase refers to its wave vectors.
+    std::span<const float, model::embeddingSize> embedding;
+};
+
+/// The seed recorded at the motion nearest to `motion`, compared by the logarithms of speed and force and by the
+/// direction of the line of motion (forwards and backwards are equal). Null if there is none. Source: HaptoFlow,
+/// section 4.1 (first previous waveform retrieved from the training recordings).
+[[nodiscard]] const Seed* retrieveSeed(std::span<const Seed> seeds, const std::array<float, 3>& motion) noexcept;
 
 inline constexpr std::array<float, model::embeddingSize> noEmbedding{};
 
@@ -35,5 +51,23 @@ struct PreparedMaterial {
     /// Exponent of the level's growth with force beyond the trained range.
     [[nodiscard]] double forceExponent() const noexcept;
 };
+
+/// Which object of its labels a surface is: ContactState::surfaceSeed and ContactState::variation.
+struct ObjectIdentity {
+    std::uint32_t surfaceSeed = 0;
+    /// 0 to 1.
+    float variation = 0.0F;
+};
+
+/// The embedding of a material for one object: the material's own plus an offset drawn by the seed, so that objects
+/// have the mean and, at a variation of 1, the covariance of the recorded pieces. With the offsets e_s of S pieces,
+/// which add up to zero, that is variation * sum_s n_s e_s / sqrt(S - 1), where n_s are independent numbers of mean 0
+/// and variance 1: normal ones, limited so that freaks are rare. The same seed draws the same numbers for every
+/// label and on every platform. Wave vectors have no offset; a material without recorded pieces, or with a single
+/// one, has none at all.
+///
+/// Any thread; allocates nothing.
+[[nodiscard]] std::array<float, model::embeddingSize> embeddingOf(const PreparedMaterial& material,
+                                                                  ObjectIdentity object) noexcept;
 
 }  // namespace haptoflow::engine

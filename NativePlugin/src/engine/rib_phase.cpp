@@ -1,6 +1,6 @@
 #include "engine/rib_phase.hpp"
 
-#include "skeleton/rib_rates.hpp"
+#include "skeleton/condition.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,86 @@
 #include "engine/seam_statistics.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstddef>
 
 namespace haptoflow::engine {
+namespace {
+
+// For non-negative floats, the order of the bit patterns equals the order of the values. The bin is the exponent and
+// the first ten bits of the fraction.
+constexpr unsigned droppedBits = 13;
+constexpr std::size_t binCount = std::size_t{1} << (31U - droppedBits);
+
+std::size_t binOf(float value) noexcept {
+    return value > 0.0F ? std::bit_cast<std::uint32_t>(value) >> droppedBits : 0;
+}
+
+}  // namespace
+
+ValueHistogram::ValueHistogram() : bins_(binCount, 0) {}
+
+void ValueHistogram::add(float value) noexcept {
+    ++bins_[binOf(value)];
+    ++count_;
+}
+
+float ValueHistogram::valueAtShare(double share) const noexcept {
+    if (count_ == 0) {
+        return 0.0F;
+    }
+    const auto rank = static_cast<std::uint64_t>(share * static_cast<double>(count_ - 1));
+    std::uint64_t below = 0;
+    for (std::size_t bin = 0; bin < bins_.size(); ++bin) {
+        below += bins_[bin];
+        if (below > rank) {
+            return std::bit_cast<float>(static_cast<std::uint32_t>(bin << droppedBits));
+        }
+    }
+    return 0.0F;
+}
+
+std::uint64_t ValueHistogram::countAbove(float value) const noexcept {
+    std::uint64_t above = 0;
+    for (std::size_t bin = binOf(value) + 1; bin < bins_.size(); ++bin) {
+        above += bins_[bin];
+    }
+    return above;
+}
+
+namespace {
+
+/// What a label says of one of its wave vectors; nothing if the label does not have it.
+model::RibWander wanderIn(const PreparedMaterial& material, const WaveVector& vector) noexcept {
+    const WaveVectors own = waveVectorsOf(material.embedding);
+    for (std::size_t slot = 0; slot < own.size() && slot < material.label->ribWander.size(); ++slot) {
+        if (own[slot] == vector) {
+            return material.label->ribWander[slot];
+        }
+    }
+    return {};
+}
+
+}  // namespace
+
+WaveStatistics waveStatisticsOf(const Ingredients& ingredients, const WaveVectors& vectors) noexcept {
+    WaveStatistics statistics;
+    double heaviest = 0.0;
+    for (const Ingredient& each : ingredients.all()) {
+        const model::Label& label = *each.material->label;
+        if (label.stickSlip && each.weight > heaviest) {
+            statistics.slip = *label.stickSlip;
+            heaviest = each.weight;
+        }
+        for (std::size_t slot = 0; slot < vectors.size(); ++slot) {
+            if (!vectors[slot].isNone() && statistics.ribs[slot].turns == 0.0) {
+                statistics.ribs[slot] = wanderIn(*each.material, vectors[slot]);
+            }
+        }
+    }
+    return statistics;
+}
 
 SeamMeter::SeamMeter(std::size_t spliceSamples)
     : spliceSamples_(static_cast<std::int64_t>(std::max<std::size_t>(spliceSamples, 1))) {}

@@ -1,13 +1,50 @@
 #pragma once
 
-#include "engine/value_histogram.hpp"
+#include "engine/material_library.hpp"
+#include "engine/rib_phase.hpp"
+#include "inference/segment_generator.hpp"
+#include "model/model_header.hpp"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <span>
+#include <vector>
 
 namespace haptoflow::engine {
+
+/// Percentiles of a stream of values in a fixed 2 MiB. Values that differ by less than 0.1 % may share a bin.
+/// Construction allocates: not on the audio thread.
+class ValueHistogram {
+public:
+    ValueHistogram();
+
+    /// Negative values and NaN count as 0.
+    void add(float value) noexcept;
+    [[nodiscard]] std::uint64_t count() const noexcept { return count_; }
+    /// The value at rank `share` * (count - 1), rounded down, with `share` from 0 to 1; 0 if the histogram is empty.
+    /// The result is the lower end of the bin, at most 0.1 % below the actual value.
+    [[nodiscard]] float valueAtShare(double share) const noexcept;
+    /// Number of values in bins above that of `value`.
+    [[nodiscard]] std::uint64_t countAbove(float value) const noexcept;
+
+private:
+    std::vector<std::uint64_t> bins_;
+    std::uint64_t count_ = 0;
+};
+
+/// What the ribs and slips of a material do beyond its wave vectors.
+struct WaveStatistics {
+    /// By slot of the wave vectors; without turns for even ribs.
+    std::array<model::RibWander, inference::ribCount> ribs{};
+    /// Without length for a material that does not slip.
+    model::StickSlip slip{};
+};
+
+/// Of a material or blend whose wave vectors are `vectors` (assignRibs): ribs keep what their own material says of
+/// them; slips are those of the heaviest material that slips.
+[[nodiscard]] WaveStatistics waveStatisticsOf(const Ingredients& ingredients, const WaveVectors& vectors) noexcept;
 
 /// How much the seams between segments differ from the rest of the waveform.
 struct SeamStatistics {

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "engine/blend_balance.hpp"
-#include "engine/lead_estimator.hpp"
-#include "engine/surface_track.hpp"
+#include "engine/quality_control.hpp"
+#include "engine/surface_phases.hpp"
 #include "engine/voice_channels.hpp"
 #include "engine/waveform_timeline.hpp"
 #include "inference/segment_generator.hpp"

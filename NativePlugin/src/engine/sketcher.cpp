@@ -1,7 +1,7 @@
 #include "engine/sketcher.hpp"
 
-#include "skeleton/rib_rates.hpp"
-#include "skeleton/unit_scale.hpp"
+#include "skeleton/condition.hpp"
+#include "skeleton/skeleton_layout.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "engine/contact_messages.hpp"
-#include "engine/segment_queue.hpp"
-#include "engine/surface_track.hpp"
+#include "engine/mailbox.hpp"
+#include "engine/surface_phases.hpp"
 #include "engine/waveform_timeline.hpp"
 #include "skeleton/skeleton.hpp"
 

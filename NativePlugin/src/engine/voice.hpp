@@ -1,12 +1,10 @@
 #pragma once
 
-#include "dsp/high_pass.hpp"
-#include "dsp/level_smoother.hpp"
+#include "dsp/gate.hpp"
 #include "dsp/limiter.hpp"
 #include "dsp/rate_warp.hpp"
 #include "dsp/tone_filter.hpp"
-#include "engine/level_follower.hpp"
-#include "engine/output_stage.hpp"
+#include "engine/effect_stage.hpp"
 #include "engine/sketcher.hpp"
 #include "engine/waveform_timeline.hpp"
 

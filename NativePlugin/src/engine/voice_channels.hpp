@@ -2,12 +2,10 @@
 
 #include "effects/signal.hpp"
 #include "engine/contact_messages.hpp"
+#include "engine/effect_stage.hpp"
 #include "engine/mailbox.hpp"
-#include "engine/output_stage.hpp"
-#include "engine/processor_settings.hpp"
-#include "engine/segment_queue.hpp"
 #include "engine/silence.hpp"
-#include "engine/surface_track.hpp"
+#include "engine/surface_phases.hpp"
 #include "engine/waveform_timeline.hpp"
 
 #include <array>

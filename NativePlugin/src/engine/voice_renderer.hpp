@@ -1,7 +1,6 @@
 #pragma once
 
 #include "engine/silence.hpp"
-#include "engine/staleness.hpp"
 #include "engine/voice.hpp"
 #include "engine/voice_channels.hpp"
 

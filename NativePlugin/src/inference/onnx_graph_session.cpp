@@ -1,9 +1,7 @@
 #include "inference/graph_session.hpp"
-#include "inference/inference_error.hpp"
+#include "inference/load_limits.hpp"
 #include "inference/onnx_runtime.hpp"
 #include "inference/onnx_session.hpp"
-#include "inference/onnx_signature.hpp"
-#include "inference/time_limit.hpp"
 #include "model/model_error.hpp"
 
 #include <onnxruntime_c_api.h>
@@ -34,9 +32,8 @@ public:
 private:
     void bind(std::size_t batch) override;
     void bind(const TensorSignature& tensor, std::size_t batch, std::vector<float>& buffer, bool isInput);
-    /// Loads the graph with the given optimisation and runs it once with `batch` requests within the limits.
-    void probe(std::span<const std::byte> graph, Optimisation optimisation, std::size_t batch,
-               const LoadLimits& limits);
+    /// Loads the graph and runs it once with maximumBatch_ requests within the limits.
+    void probe(std::span<const std::byte> graph, const LoadLimits& limits);
     void execute(const OrtRunOptions* options, const std::string& what);
 
     std::shared_ptr<const Runtime> runtime_;
@@ -55,27 +52,19 @@ OnnxGraphSession::OnnxGraphSession(std::shared_ptr<const Runtime> runtime, std::
       binding_(nullptr, nullptr) {
     try {
         memory_ = createMemoryInfo(*runtime_);
-        // First without optimisation, because a run can be limited in time and cancelled, and the folding of constants
-        // while loading cannot.
-        probe(graph, Optimisation::none, maximumBatch_, limits);
-        probe(graph, Optimisation::all, 1, limits);
+        probe(graph, limits);
     } catch (const InferenceError& error) {
         throw model::ModelError(model::ModelStatus::inconsistent, name_ + ": " + error.what());
     }
 }
 
-void OnnxGraphSession::probe(std::span<const std::byte> graph, Optimisation optimisation, std::size_t batch,
-                             const LoadLimits& limits) {
+void OnnxGraphSession::probe(std::span<const std::byte> graph, const LoadLimits& limits) {
     const OrtApi& api = runtime_->api();
     const std::size_t memoryBytes = memoryOfAnyGraph + memoryOfRequest * maximumBatch_ + copiesOfWeights * graph.size();
-    binding_.reset();
-    // Release the old session before the new one takes as much memory.
-    session_.reset();
-    session_ = createSession(*runtime_, graph, optimisation, memoryBytes, limits);
+    session_ = createSession(*runtime_, graph, memoryBytes, limits);
     present_ = matchSignature(*runtime_, *session_, signature_, name_);
     binding_ = createBinding(*runtime_, *session_);
-    batch_ = 0;
-    setBatch(batch);
+    setBatch(maximumBatch_);
 
     OrtRunOptions* created = nullptr;
     runtime_->check(api.CreateRunOptions(&created), "run options");
@@ -85,20 +74,20 @@ void OnnxGraphSession::probe(std::span<const std::byte> graph, Optimisation opti
             api.ReleaseStatus(status);
         }
     };
-    const std::size_t parts = (batch + probeBatch - 1) / probeBatch;
+    const std::size_t parts = (maximumBatch_ + probeBatch - 1) / probeBatch;
     const double limitMs = limits.probeLimitMs * static_cast<double>(parts);
     const CancellationAction cancelled(limits.cancellation.get(), terminate);
     const TimeLimit limit(limitMs, terminate);
     const auto explain = [&] {
         limits.check();
         if (limit.hasPassed()) {
-            throw TierTooSlow(name_ + ": a run of " + std::to_string(batch) + " took longer than " +
+            throw TierTooSlow(name_ + ": a run of " + std::to_string(maximumBatch_) + " took longer than " +
                               std::to_string(static_cast<std::int64_t>(std::ceil(limitMs))) +
                               " ms; choose a smaller tier or model, or a higher probe_limit_ms");
         }
     };
     try {
-        execute(options.get(), "a run of " + std::to_string(batch) + " with at most " +
+        execute(options.get(), "a run of " + std::to_string(maximumBatch_) + " with at most " +
                                    std::to_string(memoryBytes >> 20U) + " MiB failed");
     } catch (const InferenceError&) {
         explain();

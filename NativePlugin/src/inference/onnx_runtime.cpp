@@ -1,6 +1,6 @@
 #include "inference/onnx_runtime.hpp"
 
-#include "inference/inference_error.hpp"
+#include "inference/load_limits.hpp"
 
 #include <onnxruntime_c_api.h>
 

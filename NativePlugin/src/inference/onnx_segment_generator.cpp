@@ -2,8 +2,8 @@
 
 #include "inference/gaussian_noise.hpp"
 #include "inference/generator_checks.hpp"
-#include "inference/tier_graphs.hpp"
-#include "skeleton/unit_scale.hpp"
+#include "inference/tier_generator.hpp"
+#include "skeleton/skeleton_layout.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -12,6 +12,89 @@
 #include <utility>
 
 namespace haptoflow::inference {
+
+OnnxLevelEstimator::OnnxLevelEstimator(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model,
+                                       const model::Tier& tier, const LoadLimits& limits)
+    : graph_(loadLevel(std::move(runtime), model, tier, levelBatch, limits)) {}
+
+void OnnxLevelEstimator::levels(std::span<const SegmentRequest> requests, std::span<float> levelsMps2) {
+    requireRoomForLevels(requests, levelsMps2);
+    for (std::size_t first = 0; first < requests.size(); first += levelBatch) {
+        const std::size_t count = std::min(levelBatch, requests.size() - first);
+        estimate(requests.subspan(first, count), levelsMps2.subspan(first, count));
+    }
+}
+
+void OnnxLevelEstimator::estimate(std::span<const SegmentRequest> requests, std::span<float> levelsMps2) {
+    if (std::ranges::all_of(requests, [](const SegmentRequest& each) { return each.levelMps2.has_value(); })) {
+        std::ranges::transform(requests, levelsMps2.begin(),
+                               [](const SegmentRequest& each) { return *each.levelMps2; });
+        return;
+    }
+    graph_.setBatch(requests.size());
+    const auto embeddings = graph_.input(level_input::embedding);
+    const auto motions = graph_.input(level_input::motion);
+    for (std::size_t index = 0; index < requests.size(); ++index) {
+        std::ranges::copy(requests[index].embedding, embeddings.subspan(index * embeddingSize).begin());
+        std::ranges::copy(levelMotionOf(requests[index]), motions.subspan(index * 3).begin());
+    }
+    graph_.run();
+    for (std::size_t index = 0; index < requests.size(); ++index) {
+        const SegmentRequest& request = requests[index];
+        levelsMps2[index] =
+            request.levelMps2 ? *request.levelMps2 : levelOf(request, graph_.output()[index], "level graph");
+    }
+}
+
+OnnxVelocityField::OnnxVelocityField(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model,
+                                     const model::Tier& tier, std::size_t maximumBatch, const LoadLimits& limits,
+                                     SharedSessions* sessions)
+    : field_(loadField(runtime, model, tier, maximumBatch, limits, sessions)),
+      takesInterval_(tier.kind == model::TierKind::averageVelocity) {
+    if (tier.representation == model::TierRepresentation::latent && field_.hasInput(field_input::previous)) {
+        encoder_.emplace(loadEncoder(runtime, model, tier, maximumBatch, limits, sessions));
+    }
+}
+
+void OnnxVelocityField::setBatch(std::size_t batch) {
+    field_.setBatch(batch);
+    if (encoder_) {
+        encoder_->setBatch(batch);
+    }
+}
+
+std::span<float> OnnxVelocityField::embeddings() {
+    return field_.input(field_input::embedding);
+}
+
+std::span<float> OnnxVelocityField::motions() {
+    return field_.input(field_input::motion);
+}
+
+void OnnxVelocityField::setPhases(std::size_t request, const skeleton::Phases& phases) {
+    std::ranges::copy(phases, field_.input(field_input::phases).subspan(request * phases.size()).begin());
+}
+
+void OnnxVelocityField::setPrevious(std::span<const float> waveforms) {
+    if (encoder_) {
+        std::ranges::copy(waveforms, encoder_->input(0).begin());
+        encoder_->run();
+        std::ranges::copy(encoder_->output(), field_.input(field_input::previous).begin());
+    } else if (field_.hasInput(field_input::previous)) {
+        std::ranges::copy(waveforms, field_.input(field_input::previous).begin());
+    }
+}
+
+void OnnxVelocityField::evaluate(std::span<const float> point, float time, float interval, std::span<float> velocity) {
+    std::ranges::copy(point, field_.input(field_input::noisy).begin());
+    std::ranges::fill(field_.input(field_input::time), time);
+    if (takesInterval_) {
+        std::ranges::fill(field_.input(field_input::interval), interval);
+    }
+    field_.run();
+    std::ranges::copy(field_.output(), velocity.begin());
+}
+
 namespace {
 
 const model::Tier& requireTier(const model::ModelFile& model, std::string_view name) {
@@ -71,19 +154,6 @@ void OnnxSegmentGenerator::generate(std::span<const SegmentRequest> requests, st
 
 void OnnxSegmentGenerator::levels(std::span<const SegmentRequest> requests, std::span<float> levelsMps2) {
     level_.levels(requests, levelsMps2);
-}
-
-void OnnxSegmentGenerator::evaluateField(std::span<const SegmentRequest> requests, float time, float interval,
-                                         std::span<float> velocities) {
-    if (decoder_) {
-        throw std::invalid_argument("the field of a latent tier cannot be evaluated at a segment's noise");
-    }
-    requireSize(velocities.size(), requests.size() * segmentSamples, "velocities need room");
-    inBatches(requests.size(), maximumBatch_, [&](std::size_t first, std::size_t count) {
-        prepare(requests.subspan(first, count));
-        const std::size_t size = count * pointSize_;
-        field_.evaluate(std::span(points_).first(size), time, interval, velocities.subspan(first * pointSize_, size));
-    });
 }
 
 void OnnxSegmentGenerator::generateBatch(std::span<const SegmentRequest> requests, std::span<float> segments) {

@@ -1,12 +1,9 @@
 #pragma once
 
-#include "inference/inference_error.hpp"
+#include "inference/graph_session.hpp"
 #include "inference/load_limits.hpp"
-#include "inference/onnx_level_estimator.hpp"
 #include "inference/onnx_runtime.hpp"
-#include "inference/onnx_velocity_field.hpp"
 #include "inference/segment_generator.hpp"
-#include "inference/shared_sessions.hpp"
 #include "inference/solver.hpp"
 #include "inference/tier_generator.hpp"
 #include "model/model_file.hpp"
@@ -20,6 +17,55 @@
 #include <vector>
 
 namespace haptoflow::inference {
+
+/// A tier's level graph, run by ONNX Runtime. Used by one thread at a time; allocates.
+class OnnxLevelEstimator final : public LevelEstimator {
+public:
+    /// Loads, checks and runs the graph. The model need not outlive it. Throws what OnnxGraph's constructor throws.
+    OnnxLevelEstimator(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model, const model::Tier& tier,
+                       const LoadLimits& limits = {});
+
+    /// Does not run the graph if every request has its own level. Throws InferenceError if the graph fails or returns
+    /// an impossible level, std::invalid_argument if the spans differ in size.
+    void levels(std::span<const SegmentRequest> requests, std::span<float> levelsMps2) override;
+
+    [[nodiscard]] std::uint64_t runs() const noexcept { return graph_.runs(); }
+
+private:
+    void estimate(std::span<const SegmentRequest> requests, std::span<float> levelsMps2);
+
+    OnnxGraph graph_;
+};
+
+/// The field graph of a tier with the inputs of one batch: previous waveforms, embeddings, motions, rib phases. For a
+/// tier of kind `direct`, `evaluate` returns the generated point instead of a velocity.
+class OnnxVelocityField final : public VelocityField {
+public:
+    /// Throws what OnnxGraph's constructor throws.
+    OnnxVelocityField(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model, const model::Tier& tier,
+                      std::size_t maximumBatch, const LoadLimits& limits, SharedSessions* sessions = nullptr);
+
+    void setBatch(std::size_t batch);
+    /// Inputs of the batch, to be filled before `evaluate`: batch * 64 and batch * 3 numbers.
+    [[nodiscard]] std::span<float> embeddings();
+    [[nodiscard]] std::span<float> motions();
+    /// Phases of a request of the batch.
+    void setPhases(std::size_t request, const skeleton::Phases& phases);
+    /// Sets the previous waveforms, batch * 200 numbers in unit scale. A latent tier encodes them here, once for all
+    /// steps. Throws InferenceError.
+    void setPrevious(std::span<const float> waveforms);
+
+    /// Throws InferenceError.
+    void evaluate(std::span<const float> point, float time, float interval, std::span<float> velocity) override;
+
+    [[nodiscard]] std::uint64_t fieldRuns() const noexcept { return field_.runs(); }
+    [[nodiscard]] std::uint64_t encoderRuns() const noexcept { return encoder_ ? encoder_->runs() : 0; }
+
+private:
+    OnnxGraph field_;
+    bool takesInterval_;
+    std::optional<OnnxGraph> encoder_;
+};
 
 /// Number of runs of each graph. Tests use it to show that nothing is computed needlessly.
 struct RunCounts {
@@ -49,11 +95,6 @@ public:
 
     void generate(std::span<const SegmentRequest> requests, std::span<float> segments) override;
     void levels(std::span<const SegmentRequest> requests, std::span<float> levelsMps2) override;
-
-    /// The field's value in unit scale at the solver's starting point, the requests' noise, and at `time`. Tests use it
-    /// to compare the graph with training, without a solver. Throws std::invalid_argument for a latent tier.
-    void evaluateField(std::span<const SegmentRequest> requests, float time, float interval,
-                       std::span<float> velocities);
 
     [[nodiscard]] RunCounts runCounts() const noexcept;
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "dsp/tone_cepstrum.hpp"
+#include "dsp/tone_filter.hpp"
 #include "model/material_tables.hpp"
 
 #include <cstddef>

@@ -3,7 +3,7 @@
 #include "inference/gaussian_noise.hpp"
 #include "inference/segment_generator.hpp"
 #include "model/model_file.hpp"
-#include "skeleton/rib_rates.hpp"
+#include "skeleton/condition.hpp"
 
 #include <algorithm>
 #include <cstddef>

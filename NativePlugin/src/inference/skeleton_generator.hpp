@@ -1,12 +1,14 @@
 #pragma once
 
+#include "inference/graph_session.hpp"
 #include "inference/load_limits.hpp"
 #include "inference/tier_generator.hpp"
-#include "skeleton/level_model.hpp"
+#include "skeleton/perceptron.hpp"
 #include "skeleton/skeleton.hpp"
 #include "skeleton/skeleton_tensors.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -33,10 +35,8 @@ private:
 class SkeletonGenerator final : public TierGenerator {
 public:
     /// Throws what makeGenerator throws.
-    SkeletonGenerator(skeleton::NativeParts native, SolverSettings solver, std::size_t maximumBatch,
-                      const LoadLimits& limits = {});
+    SkeletonGenerator(skeleton::NativeParts native, std::size_t maximumBatch, const LoadLimits& limits = {});
 
-    void setSolver(SolverSettings solver) override;
     /// Allocates for the largest number of requests so far.
     void generate(std::span<const SegmentRequest> requests, std::span<float> segments) override;
     void generateFromSketches(std::span<const SegmentRequest> requests, std::span<float> segments,
@@ -46,6 +46,35 @@ public:
 private:
     SkeletonLevelEstimator level_;
     std::shared_ptr<const skeleton::Skeleton> skeleton_;
+    std::vector<float> levelsMps2_;
+};
+
+/// A tier of kind `refine`: the skeleton, and a graph that corrects it. Conditioning is native, so that a batch is one
+/// run of a small graph. Used by one thread at a time; allocates.
+class RefinedGenerator final : public TierGenerator {
+public:
+    /// Throws what makeGenerator throws.
+    RefinedGenerator(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model,
+                     skeleton::NativeParts native, const model::Tier& tier, std::size_t maximumBatch,
+                     const LoadLimits& limits = {});
+
+    void generate(std::span<const SegmentRequest> requests, std::span<float> segments) override;
+    void generateFromSketches(std::span<const SegmentRequest> requests, std::span<float> segments,
+                              const Sketched& sketched) override;
+    void levels(std::span<const SegmentRequest> requests, std::span<float> levelsMps2) override;
+
+    /// Number of runs of the graph; tests use it to show that nothing is computed needlessly.
+    [[nodiscard]] std::uint64_t graphRuns() const noexcept { return graph_.runs(); }
+
+private:
+    void sketchBatch(std::span<const SegmentRequest> requests, std::span<float> segments);
+    void refineBatch(std::span<float> segments);
+
+    std::size_t maximumBatch_;
+    SkeletonLevelEstimator level_;
+    std::shared_ptr<const skeleton::Skeleton> skeleton_;
+    skeleton::Perceptron conditioning_;
+    OnnxGraph graph_;
     std::vector<float> levelsMps2_;
 };
 

@@ -1,7 +1,6 @@
 #include "inference/surface_noise.hpp"
 
-#include "inference/hashed_numbers.hpp"
-#include "inference/surface_noise_kernel.hpp"
+#include "inference/gaussian_noise.hpp"
 
 #include <algorithm>
 #include <cmath>

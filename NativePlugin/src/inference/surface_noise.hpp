@@ -1,10 +1,44 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
 namespace haptoflow::inference {
+
+/// Slots of time into which the cells that a path passes are sorted.
+inline constexpr std::size_t noiseSlotsPerSample = 8;
+/// The filter's length on either side of a sample's middle.
+inline constexpr std::size_t noiseReachSamples = 8;
+inline constexpr double noiseRollOff = 0.25;
+
+/// Second half of the filter, which is symmetric: the root of a raised cosine with that roll-off (Proakis, "Digital
+/// communications", 9.2), in the middles of the slots, with a mean square of 1 / 16. It lets all pass below 750 Hz and
+/// nothing beyond 1250 Hz, and filtered white noise is white again at whole samples. A table, because sines differ from
+/// one platform's library to the next.
+inline constexpr std::array<float, noiseReachSamples * noiseSlotsPerSample> noiseKernelHalf{
+    1.06023896F,     0.996766269F,    0.87694478F,     0.714038253F,    0.52563411F,     0.33127442F,
+    0.149892911F,    -0.00256012613F, -0.114963688F,   -0.182094485F,   -0.204799786F,   -0.189300939F,
+    -0.145787776F,   -0.0865658F,     -0.0240717623F,  0.0309271943F,   0.0706880242F,   0.0912293792F,
+    0.0923959985F,   0.0773085952F,   0.0513546616F,   0.020937629F,    -0.00777820637F, -0.0299127977F,
+    -0.0425495766F,  -0.0449735112F,  -0.038479127F,   -0.0258357804F,  -0.0105503118F,  0.00391081721F,
+    0.0147882728F,   0.0204716232F,   0.0206578802F,   0.0162297338F,   0.00891078543F,  0.000792939099F,
+    -0.00615375163F, -0.0104865888F,  -0.0115368748F,  -0.00946364645F, -0.00512377266F, 0.000195032349F,
+    0.00510749454F,  0.00845233444F,  0.00953378342F,  0.00823802408F,  0.00501031894F,  0.000709815475F,
+    -0.00361593137F, -0.00698071998F, -0.0086768819F,  -0.00841455068F, -0.00635812012F, -0.00305937254F,
+    0.000690610381F, 0.00405234145F,  0.00632654363F,  0.00709899189F,  0.00631255843F,  0.00425543496F,
+    0.00147372636F,  -0.00136720308F, -0.00363851921F, -0.00488511613F,
+};
+
+inline constexpr std::array<float, 2 * noiseKernelHalf.size()> noiseKernel = [] {
+    std::array<float, 2 * noiseKernelHalf.size()> both{};
+    for (std::size_t index = 0; index < noiseKernelHalf.size(); ++index) {
+        both[noiseKernelHalf.size() + index] = noiseKernelHalf[index];
+        both[noiseKernelHalf.size() - 1 - index] = noiseKernelHalf[index];
+    }
+    return both;
+}();
 
 /// A sample's way at 0.2 mm/s, and at 100 m/s.
 inline constexpr double shortestStepMetres = 1e-7;

@@ -1,7 +1,7 @@
 #include "learning/closed_loop.hpp"
 
 #include "inference/gaussian_noise.hpp"
-#include "skeleton/rib_rates.hpp"
+#include "skeleton/condition.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,6 @@
 #include "learning/filter_likelihood.hpp"
 
 #include "skeleton/condition.hpp"
-#include "skeleton/rib_rates.hpp"
 
 #include <algorithm>
 #include <cmath>

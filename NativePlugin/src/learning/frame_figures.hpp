@@ -1,6 +1,6 @@
 #pragma once
 
-#include "dsp/tone_cepstrum.hpp"
+#include "dsp/tone_filter.hpp"
 #include "inference/prepared_tone.hpp"
 #include "learning/texture_figures.hpp"
 #include "model/material_tables.hpp"

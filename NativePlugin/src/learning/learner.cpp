@@ -1,8 +1,7 @@
 #include "learning/learner.hpp"
 
-#include "inference/inference_error.hpp"
+#include "inference/load_limits.hpp"
 #include "inference/tier_generator.hpp"
-#include "inference/tier_graphs.hpp"
 #include "learning/closed_loop.hpp"
 #include "learning/comparison.hpp"
 #include "learning/embedding_search.hpp"

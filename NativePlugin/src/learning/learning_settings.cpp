@@ -1,6 +1,6 @@
 #include "learning/learning_settings.hpp"
 
-#include "model/name_index.hpp"
+#include "model/header_node.hpp"
 #include "model/plain_text.hpp"
 #include "recordings/recording.hpp"
 

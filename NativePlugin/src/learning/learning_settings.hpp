@@ -1,6 +1,6 @@
 #pragma once
 
-#include "inference/cancellation.hpp"
+#include "inference/load_limits.hpp"
 #include "inference/segment_generator.hpp"
 
 #include <array>

@@ -7,6 +7,10 @@
 
 namespace haptoflow::model {
 
+/// CRC-32 of zlib and PNG: polynomial 0x04C11DB7, reflected, start and final exclusive-or 0xFFFFFFFF. Home-made: these
+/// lines save the plugin a link to zlib on every platform.
+[[nodiscard]] std::uint32_t crc32(std::span<const std::byte> bytes) noexcept;
+
 inline constexpr std::string_view fileMagic = "HAPTFLOW";
 inline constexpr std::uint32_t formatVersion = 2;
 inline constexpr std::size_t prefixBytes = 32;

@@ -1,5 +1,8 @@
 #pragma once
 
+#include "model/model_header.hpp"
+
+#include <nlohmann/json.hpp>
 #include <nlohmann/json_fwd.hpp>
 
 #include <cstddef>
@@ -7,9 +10,18 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 namespace haptoflow::model {
+
+/// Maximum nesting of objects and arrays in a document.
+inline constexpr int maximumJsonDepth = 32;
+
+/// Parses strict JSON of at most maximumJsonDepth levels in which no object has a key twice; nlohmann's parser builds
+/// the values after depth and keys have been checked. Throws ModelError: damaged for broken syntax or text that is not
+/// UTF-8, oversized for the depth, inconsistent for a repeated key. `document` is the text's name in messages.
+[[nodiscard]] nlohmann::json parseBoundedJson(std::string_view text, std::string_view document = "the JSON header");
 
 /// A value of a JSON document (a model's header, a material file) with its path, so that every error names the key.
 /// Refers to the JSON value. Each reader throws ModelError: oversized if a count or length is above its limit,
@@ -54,5 +66,42 @@ private:
     std::string path_;
     const char* document_;
 };
+
+/// Maximum length in bytes of the name of a model, label, tier or blob.
+inline constexpr std::size_t nameBytes = 128;
+
+/// Maps names to indices; refuses duplicate names.
+class NameIndex {
+public:
+    void add(const HeaderNode& node, const std::string& name, std::size_t position) {
+        if (!positions_.emplace(name, position).second) {
+            node.refuse("a name that no other element has; \"" + name + "\" appears twice");
+        }
+    }
+    [[nodiscard]] std::size_t at(const HeaderNode& node, const std::string& what) const {
+        const std::string name = node.name(nameBytes);
+        const auto found = positions_.find(name);
+        if (found == positions_.end()) {
+            node.refuse("the name of a " + what + "; there is no \"" + name + '"');
+        }
+        return found->second;
+    }
+
+private:
+    std::unordered_map<std::string, std::size_t> positions_;
+};
+
+/// Reads the keys that labels and material files have in common: all of a label but its name and its embedding row.
+/// Throws ModelError.
+void readLabelTraits(const HeaderNode& node, Label& label);
+
+/// Reads one element of the header's "labels"; its embedding row must be below `embeddingRows`. Throws ModelError.
+[[nodiscard]] Label readLabel(const HeaderNode& node, std::size_t embeddingRows);
+
+/// Reads the header's "skeleton". Throws ModelError.
+[[nodiscard]] SkeletonHeader readSkeleton(const HeaderNode& node);
+
+/// Reads one element of the header's "tiers"; the graphs that it names must be ONNX blobs. Throws ModelError.
+[[nodiscard]] Tier readTier(const HeaderNode& node, const NameIndex& blobNames, const std::vector<Blob>& blobs);
 
 }  // namespace haptoflow::model

@@ -1,6 +1,4 @@
-#include "model/header_entries.hpp"
-
-#include "model/name_index.hpp"
+#include "model/header_node.hpp"
 
 #include <algorithm>
 #include <string>

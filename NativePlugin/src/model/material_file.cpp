@@ -1,12 +1,9 @@
 #include "model/material_file.hpp"
 
-#include "model/bounded_json.hpp"
-#include "model/calendar_date.hpp"
-#include "model/header_entries.hpp"
 #include "model/header_node.hpp"
+#include "model/model_blobs.hpp"
 #include "model/model_error.hpp"
-#include "model/model_tensors.hpp"
-#include "model/name_index.hpp"
+#include "model/plain_text.hpp"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,9 +1,7 @@
 #include "model/model_file.hpp"
 
-#include "model/crc32.hpp"
 #include "model/file_layout.hpp"
 #include "model/model_blobs.hpp"
-#include "model/model_tensors.hpp"
 
 #include <algorithm>
 #include <fstream>

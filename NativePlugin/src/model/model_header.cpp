@@ -1,12 +1,8 @@
 #include "model/model_header.hpp"
 
-#include "model/bounded_json.hpp"
-#include "model/calendar_date.hpp"
-#include "model/crc32.hpp"
-#include "model/header_entries.hpp"
+#include "model/file_layout.hpp"
 #include "model/header_node.hpp"
 #include "model/model_blobs.hpp"
-#include "model/name_index.hpp"
 #include "model/plain_text.hpp"
 
 #include <algorithm>

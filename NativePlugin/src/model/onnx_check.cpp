@@ -3,7 +3,6 @@
 #include "model/model_error.hpp"
 #include "model/onnx_operators.hpp"
 #include "model/onnx_tensor.hpp"
-#include "model/wire_reader.hpp"
 
 #include <string_view>
 #include <unordered_map>

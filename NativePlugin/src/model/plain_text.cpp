@@ -1,7 +1,11 @@
 #include "model/plain_text.hpp"
 
+#include "model/letter_tables.hpp"
+
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <iomanip>
 #include <locale>
 #include <sstream>
@@ -109,6 +113,109 @@ std::string hexadecimal(std::uint32_t value) {
     stream.imbue(std::locale::classic());
     stream << std::hex << std::setw(8) << std::setfill('0') << value;
     return stream.str();
+}
+
+namespace {
+
+char32_t takeLetter(std::string_view& text) {
+    const auto byte = [&](std::size_t index) { return static_cast<unsigned char>(text[index]); };
+    const unsigned first = byte(0);
+    const std::size_t count = first < 0x80U ? 1 : first < 0xE0U ? 2 : first < 0xF0U ? 3 : 4;
+    char32_t letter = count == 1 ? first : first & (0x7FU >> count);
+    for (std::size_t index = 1; index < count; ++index) {
+        letter = letter << 6U | (byte(index) & 0x3FU);
+    }
+    text.remove_prefix(count);
+    return letter;
+}
+
+void appendLetter(std::string& text, char32_t letter) {
+    const auto append = [&text](char32_t byte) { text += static_cast<char>(static_cast<unsigned char>(byte)); };
+    if (letter < 0x80) {
+        append(letter);
+    } else if (letter < 0x800) {
+        append(0xC0 | letter >> 6U);
+        append(0x80 | (letter & 0x3F));
+    } else if (letter < 0x10000) {
+        append(0xE0 | letter >> 12U);
+        append(0x80 | (letter >> 6U & 0x3F));
+        append(0x80 | (letter & 0x3F));
+    } else {
+        append(0xF0 | letter >> 18U);
+        append(0x80 | (letter >> 12U & 0x3F));
+        append(0x80 | (letter >> 6U & 0x3F));
+        append(0x80 | (letter & 0x3F));
+    }
+}
+
+template <std::size_t Count>
+std::int32_t valueOf(const std::array<LetterRun, Count>& runs, char32_t letter) {
+    const auto run = std::ranges::find_if(runs, [letter](const LetterRun& each) {
+        return letter >= each.first && letter <= each.last && (letter - each.first) % each.step == 0;
+    });
+    return run == runs.end() ? 0 : run->value;
+}
+
+void decompose(char32_t letter, std::u32string& letters) {
+    constexpr char32_t firstSyllable = 0xAC00;
+    constexpr char32_t syllables = 11172;
+    constexpr char32_t vowels = 21;
+    constexpr char32_t finals = 28;
+    if (letter >= firstSyllable && letter < firstSyllable + syllables) {
+        const char32_t index = letter - firstSyllable;
+        letters += static_cast<char32_t>(0x1100 + index / (vowels * finals));
+        letters += static_cast<char32_t>(0x1161 + index / finals % vowels);
+        if (index % finals > 0) {
+            letters += static_cast<char32_t>(0x11A7 + index % finals);
+        }
+        return;
+    }
+    const auto* const found =
+        std::lower_bound(decompositions.begin(), decompositions.end(), letter,
+                         [](const Decomposition& each, char32_t wanted) { return each.letter < wanted; });
+    if (found == decompositions.end() || found->letter != letter) {
+        letters += letter;
+        return;
+    }
+    decompose(found->first, letters);
+    if (found->second != 0) {
+        decompose(found->second, letters);
+    }
+}
+
+/// Marks on one letter that do not touch each other come in the order of their classes.
+void orderMarks(std::u32string& letters) {
+    const auto classOf = [](char32_t letter) { return valueOf(combiningClasses, letter); };
+    for (auto first = letters.begin(); first != letters.end();) {
+        if (classOf(*first) == 0) {
+            ++first;
+            continue;
+        }
+        const auto last = std::find_if(first, letters.end(), [&](char32_t letter) { return classOf(letter) == 0; });
+        std::stable_sort(first, last, [&](char32_t a, char32_t b) { return classOf(a) < classOf(b); });
+        first = last;
+    }
+}
+
+}  // namespace
+
+std::string labelKey(std::string_view label) {
+    if (!isUtf8(label)) {
+        return std::string(label);
+    }
+    std::u32string letters;
+    while (!label.empty()) {
+        decompose(takeLetter(label), letters);
+    }
+    orderMarks(letters);
+    std::string key;
+    for (const char32_t letter : letters) {
+        const bool isSmall = letter >= U'a' && letter <= U'z';
+        appendLetter(key, isSmall
+                              ? letter - U'a' + U'A'
+                              : static_cast<char32_t>(static_cast<std::int32_t>(letter) + valueOf(capitals, letter)));
+    }
+    return key;
 }
 
 }  // namespace haptoflow::model

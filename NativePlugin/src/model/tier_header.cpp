@@ -1,4 +1,4 @@
-#include "model/header_entries.hpp"
+#include "model/header_node.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -1,6 +1,6 @@
 #include "recordings/material_words.hpp"
 
-#include "model/name_index.hpp"
+#include "model/header_node.hpp"
 #include "model/plain_text.hpp"
 #include "recordings/table_rows.hpp"
 

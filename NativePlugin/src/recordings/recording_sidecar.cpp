@@ -1,6 +1,6 @@
 #include "recordings/recording_sidecar.hpp"
 
-#include "model/bounded_json.hpp"
+#include "model/header_node.hpp"
 #include "model/model_error.hpp"
 #include "model/model_header.hpp"
 #include "model/plain_text.hpp"

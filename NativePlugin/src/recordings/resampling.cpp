@@ -1,7 +1,6 @@
 #include "recordings/resampling.hpp"
 
 #include "dsp/fourier_transform.hpp"
-#include "dsp/kaiser_window.hpp"
 #include "dsp/sample_rates.hpp"
 
 #include <algorithm>

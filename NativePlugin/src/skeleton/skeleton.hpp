@@ -1,18 +1,35 @@
 #pragma once
 
+#include "model/model_header.hpp"
 #include "skeleton/condition.hpp"
-#include "skeleton/linear_layer.hpp"
+#include "skeleton/excitation.hpp"
 #include "skeleton/perceptron.hpp"
 #include "skeleton/reflection_filter.hpp"
-#include "skeleton/rung_impulses.hpp"
 #include "skeleton/skeleton_layout.hpp"
-#include "skeleton/surface_waves.hpp"
 
 #include <array>
 #include <cstddef>
 #include <span>
 
 namespace haptoflow::skeleton {
+
+/// A material's level: a power law of speed and force whose three numbers are linear in the embedding, and a correction
+/// of at most +-0.9 by a perceptron, which also sees how fast the tip crosses the material's ribs.
+class LevelModel {
+public:
+    static constexpr std::size_t correctionInputs = model::embeddingSize + smoothFeatures + ribCount;
+
+    /// `law`: 64 inputs, 3 outputs. `correction`: 64 + 12 + 2 inputs, 1 output.
+    LevelModel(LinearLayer law, Perceptron correction);
+
+    /// The natural logarithm of the RMS in m/s^2; not finite if an argument is not. Any thread; no allocation.
+    [[nodiscard]] float logLevel(std::span<const float, model::embeddingSize> embedding,
+                                 const Motion& motion) const noexcept;
+
+private:
+    LinearLayer law_;
+    Perceptron correction_;
+};
 
 /// What a segment is made of. The spans must live while it is used.
 struct Moment {

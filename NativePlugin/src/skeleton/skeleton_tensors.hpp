@@ -1,7 +1,6 @@
 #pragma once
 
 #include "model/model_file.hpp"
-#include "skeleton/level_model.hpp"
 #include "skeleton/perceptron.hpp"
 #include "skeleton/skeleton.hpp"
 

@@ -11,18 +11,6 @@ namespace HaptoFlow.RepositoryTests
     public sealed class NativeHealthTests : OpenModelTest
     {
         [Test]
-        public void EveryReasonForSilenceHasTheLibrarysName()
-        {
-            foreach (HapticSilence silence in Enum.GetValues(typeof(HapticSilence)))
-            {
-                string name = Marshal.PtrToStringUTF8(NativeMethods.SilenceName((int)silence))!;
-                Assert.That(name.Replace("HAPTOFLOW_SILENCE_", "").Replace("_", ""),
-                    Is.EqualTo(silence.ToString()).Using((System.Collections.IComparer)StringComparer.OrdinalIgnoreCase));
-            }
-            Assert.That(Marshal.PtrToStringUTF8(NativeMethods.SilenceName(10)), Is.EqualTo("HAPTOFLOW_UNKNOWN_SILENCE"));
-        }
-
-        [Test]
         public void AVoiceReportsWhyItIsSilent()
         {
             using HapticEngine engine = Engine(default);

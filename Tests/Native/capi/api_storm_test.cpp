@@ -290,8 +290,6 @@ private:
         constexpr std::array<const char*, 4> tiers{"draft", "standard", nullptr, "no such tier"};
         haptoflow_generator_options options{};
         options.struct_size = sizeOf(sizeof(options));
-        options.solver = oneIn(2) ? HAPTOFLOW_SOLVER_OF_TIER : static_cast<haptoflow_solver>(next() % 5);
-        options.steps = options.solver == HAPTOFLOW_SOLVER_OF_TIER ? 0 : static_cast<std::int32_t>(next() % 4);
         options.runtime = handles_.runtimes.any(next());
         options.model = handles_.models.any(next());
         options.tier = tiers[next() % tiers.size()];
@@ -331,8 +329,7 @@ private:
         }
         std::vector<float> results(waveforms.size());
         float* const target = oneIn(16) ? nullptr : results.data();
-        const haptoflow_status status = oneIn(2) ? haptoflow_generator_generate(generator, &batch, target)
-                                                 : haptoflow_generator_levels(generator, &batch, target);
+        const haptoflow_status status = haptoflow_generator_generate(generator, &batch, target);
         isSound_ = isSound_ && (status != HAPTOFLOW_OK || allFinite(results));
         return status == HAPTOFLOW_INFERENCE_FAILED ? HAPTOFLOW_OK : status;
     }
@@ -401,7 +398,6 @@ private:
         haptoflow_tier_times times{};
         times.struct_size = sizeOf(sizeof(times));
         std::uint32_t place = 0;
-        std::array<float, 16> noise{};
         const bool isNull = oneIn(16);
         switch (next() % 16) {
             case 14:
@@ -434,8 +430,7 @@ private:
             case 10:
                 return haptoflow_engine_tier_times(engine, oneIn(8) ? next() : next() % 6, isNull ? nullptr : &times);
             case 11:
-                return haptoflow_noise_fill(next(), next(), next(), isNull ? nullptr : noise.data(),
-                                            oneIn(8) ? UINT64_MAX : noise.size());
+                return haptoflow_struct_size(isNull ? nullptr : "haptoflow_batch", &place);
             case 12:
                 isSound_ = isSound_ && haptoflow_last_message() != nullptr &&
                            haptoflow_status_name(static_cast<haptoflow_status>(next())) != nullptr;

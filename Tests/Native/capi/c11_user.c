@@ -48,9 +48,6 @@ int generateOneSegmentFromC(const char* onnxRuntimePath, const char* modelPath, 
         status = haptoflow_generator_create(&generatorOptions, &generator);
     }
     if (status == HAPTOFLOW_OK) {
-        status = haptoflow_noise_fill(1, 0, 0, noise, HAPTOFLOW_SEGMENT_SAMPLES);
-    }
-    if (status == HAPTOFLOW_OK) {
         status = haptoflow_generator_generate(generator, &batch, segmentMps2);
     }
     (void)haptoflow_generator_close(&generator);

@@ -1,11 +1,16 @@
 #include "open_engine.hpp"
 
+#include <gmock/gmock.h>
+
 #include <array>
 #include <chrono>
 #include <cstring>
 #include <functional>
+#include <limits>
 #include <set>
+#include <string>
 #include <thread>
+#include <vector>
 
 namespace haptoflow::capi::testing {
 namespace {
@@ -64,7 +69,7 @@ TEST(EngineApiTest, TheVoiceWritesItsChannelAndLeavesTheOthersUnchanged) {
 TEST(EngineApiTest, InvalidCallbackArgumentsAreRefusedWithoutAMessage) {
     OpenEngine open(tinyModelPath);
     std::array<float, 8> samples{};
-    (void)haptoflow_noise_fill(0, 0, 0, nullptr, 1);
+    (void)haptoflow_struct_size(nullptr, nullptr);
     const std::string before = message();
     EXPECT_EQ(haptoflow_voice_render(open.voice, nullptr, 8, 1, 0, 48000.0), HAPTOFLOW_INVALID_ARGUMENT);
     EXPECT_EQ(haptoflow_voice_render(open.voice, samples.data(), 8, 0, 0, 48000.0), HAPTOFLOW_INVALID_ARGUMENT);
@@ -161,30 +166,6 @@ TEST(EngineApiTest, AVoiceThatNobodyRendersEndsWithAQuarterOfASecondAndItsMemory
     EXPECT_EQ(haptoflow_voice_render(left, samples.data(), 64, 1, 0, 48000.0), HAPTOFLOW_INVALID_ARGUMENT);
 }
 
-TEST(EngineApiTest, VoicesThatFadeDoNotKeepNewOnesFromTheirPlaces) {
-    OpenEngine open(tinyModelPath);
-    std::vector<haptoflow_voice> voices(HAPTOFLOW_MAXIMUM_VOICES - 1);
-    std::array<float, 256> samples{};
-    const haptoflow_contact_state state = slidingState();
-    for (haptoflow_voice& voice : voices) {
-        ASSERT_EQ(haptoflow_voice_create(open.engine, 0.0, &voice), HAPTOFLOW_OK) << message();
-        ASSERT_EQ(haptoflow_voice_publish(voice, &state), HAPTOFLOW_OK);
-        ASSERT_EQ(haptoflow_voice_render(voice, samples.data(), 256, 1, 0, 48000.0), HAPTOFLOW_OK);
-        ASSERT_GT(peak({samples.begin(), samples.end()}), 0.0F);
-    }
-    for (haptoflow_voice& voice : voices) {
-        ASSERT_EQ(haptoflow_voice_destroy(&voice), HAPTOFLOW_OK);
-    }
-    for (haptoflow_voice& voice : voices) {
-        EXPECT_EQ(haptoflow_voice_create(open.engine, 0.0, &voice), HAPTOFLOW_OK) << message();
-    }
-    haptoflow_voice tooMany = 0;
-    EXPECT_EQ(haptoflow_voice_create(open.engine, 0.0, &tooMany), HAPTOFLOW_INVALID_ARGUMENT);
-    for (haptoflow_voice& voice : voices) {
-        EXPECT_EQ(haptoflow_voice_destroy(&voice), HAPTOFLOW_OK);
-    }
-}
-
 TEST(EngineApiTest, SixtyFourVoicesHaveDifferentPlacesAndTheNextIsRefused) {
     OpenEngine open(tinyModelPath);
     std::vector<haptoflow_voice> voices;
@@ -204,36 +185,6 @@ TEST(EngineApiTest, SixtyFourVoicesHaveDifferentPlacesAndTheNextIsRefused) {
     ASSERT_EQ(haptoflow_voice_destroy(&voices[5]), HAPTOFLOW_OK);
     EXPECT_EQ(open.engineStatistics().voices, 63U);
     EXPECT_EQ(haptoflow_voice_create(open.engine, 0.0, &voices[5]), HAPTOFLOW_OK);
-}
-
-TEST(EngineApiTest, DescriptorsOfOlderAndNewerCallersBothWork) {
-    OpenEngine open(tinyModelPath);
-    haptoflow_contact_state older = slidingState();
-    older.struct_size = offsetof(haptoflow_contact_state, approach_speed_mps);
-    EXPECT_EQ(haptoflow_voice_publish(open.voice, &older), HAPTOFLOW_OK) << message();
-    older.struct_size = offsetof(haptoflow_contact_state, force_newtons);
-    EXPECT_EQ(haptoflow_voice_publish(open.voice, &older), HAPTOFLOW_INVALID_ARGUMENT);
-    struct Newer {
-        haptoflow_contact_state known;
-        std::array<double, 8> unknown;
-    } newer{slidingState(), {}};
-    newer.known.struct_size = sizeof(newer);
-    EXPECT_EQ(haptoflow_voice_publish(open.voice, &newer.known), HAPTOFLOW_OK) << message();
-
-    haptoflow_voice_statistics statistics{};
-    std::memset(&statistics, 0xEE, sizeof(statistics));
-    statistics.struct_size = offsetof(haptoflow_voice_statistics, inferences);
-    ASSERT_EQ(haptoflow_voice_get_statistics(open.voice, &statistics), HAPTOFLOW_OK);
-    EXPECT_EQ(statistics.updates, 2U);
-    EXPECT_EQ(statistics.inferences, 0xEEEEEEEEEEEEEEEEU) << "nothing is written beyond the caller's struct";
-
-    haptoflow_engine_options options{};
-    options.struct_size = offsetof(haptoflow_engine_options, update_rate_hz);
-    options.runtime = open.runtime;
-    options.model = open.model;
-    haptoflow_engine* engine = nullptr;
-    EXPECT_EQ(haptoflow_engine_create(&options, &engine), HAPTOFLOW_OK) << message();
-    EXPECT_EQ(haptoflow_engine_close(&engine), HAPTOFLOW_OK);
 }
 
 TEST(EngineApiTest, OptionsOutOfRangeAreRefusedByName) {
@@ -340,6 +291,54 @@ TEST(EngineApiTest, TheWorkerServesAVoiceInRealTime) {
     EXPECT_GE(open.statistics().inferences, 10U);
     EXPECT_EQ(open.statistics().failures, 0U);
     EXPECT_GE(open.engineStatistics().rounds, 10U);
+}
+
+/// One engine, used through the C interface alone.
+class HealthTest : public ::testing::Test {
+protected:
+    OpenEngine open_{tinyModelPath};
+
+    [[nodiscard]] haptoflow_silence silence() const { return open_.statistics().silence; }
+};
+
+TEST_F(HealthTest, TheReasonForSilenceIsTold) {
+    EXPECT_EQ(silence(), HAPTOFLOW_SILENCE_REST);
+    (void)open_.update(slidingState());
+    EXPECT_EQ(silence(), HAPTOFLOW_SILENCE_NONE);
+    ASSERT_EQ(haptoflow_voice_set_muted(open_.voice, 1), HAPTOFLOW_OK);
+    (void)open_.render(256);
+    EXPECT_EQ(silence(), HAPTOFLOW_SILENCE_MUTED);
+    ASSERT_EQ(haptoflow_voice_set_muted(open_.voice, 0), HAPTOFLOW_OK);
+    ASSERT_EQ(haptoflow_voice_set_paused(open_.voice, 1), HAPTOFLOW_OK);
+    (void)open_.render(256);
+    EXPECT_EQ(silence(), HAPTOFLOW_SILENCE_PAUSED);
+    ASSERT_EQ(haptoflow_voice_set_paused(open_.voice, 0), HAPTOFLOW_OK);
+    (void)open_.render(5000);
+    EXPECT_EQ(silence(), HAPTOFLOW_SILENCE_STALE);
+    (void)open_.update(slidingState());
+    ASSERT_EQ(haptoflow_voice_panic(open_.voice), HAPTOFLOW_OK);
+    (void)open_.update(slidingState());
+    EXPECT_EQ(silence(), HAPTOFLOW_SILENCE_PANIC);
+    haptoflow_contact_state next = slidingState();
+    next.touch_counter = 2;
+    (void)open_.update(next);
+    EXPECT_EQ(silence(), HAPTOFLOW_SILENCE_NONE);
+}
+
+TEST_F(HealthTest, TheFailureTextIsEmptyAtFirstAndFitsAnyBuffer) {
+    uint64_t length = 99;
+    std::array<char, 4> text{'x', 'x', 'x', 'x'};
+    ASSERT_EQ(haptoflow_engine_last_failure(open_.engine, text.data(), text.size(), &length), HAPTOFLOW_OK);
+    EXPECT_EQ(length, 0U);
+    EXPECT_EQ(text[0], '\0');
+    EXPECT_EQ(haptoflow_engine_last_failure(open_.engine, nullptr, 0, &length), HAPTOFLOW_OK);
+    EXPECT_EQ(haptoflow_engine_last_failure(open_.engine, nullptr, 4, &length), HAPTOFLOW_INVALID_ARGUMENT);
+    EXPECT_EQ(haptoflow_engine_last_failure(nullptr, text.data(), text.size(), &length), HAPTOFLOW_INVALID_ARGUMENT);
+}
+
+TEST_F(HealthTest, ARunningEngineReportsThatItsWorkerIsAlive) {
+    EXPECT_EQ(open_.engineStatistics().worker_is_alive, 1U);
+    EXPECT_EQ(open_.engineStatistics().priority_was_refused, 0U) << "without worker no priority is requested";
 }
 
 }  // namespace

@@ -1,18 +1,21 @@
 #include "c11_user.h"
 #include "inference/rebuilt_model.hpp"
 #include "inference/rib_graph.hpp"
+#include "open_engine.hpp"
 #include "open_handles.hpp"
 #include "support/dynamic_library.hpp"
 
-#include <nlohmann/json.hpp>
-
 #include <onnxruntime_c_api.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <random>
+#include <string>
 #include <thread>
+#include <vector>
 
 namespace haptoflow::capi::testing {
 namespace {
@@ -81,10 +84,8 @@ protected:
     }
 
     void createMidpointOfThreeSteps() {
-        auto options = generatorOptions("standard");
-        options.solver = HAPTOFLOW_SOLVER_MIDPOINT;
-        options.steps = 3;
-        create(options);
+        create(generatorOptions("standard"));
+        ASSERT_EQ(haptoflow_generator_set_solver(generator_, HAPTOFLOW_SOLVER_MIDPOINT, 3), HAPTOFLOW_OK);
     }
 
     void expectGoldenSegments() {
@@ -100,14 +101,8 @@ protected:
     haptoflow_generator* generator_ = nullptr;
 };
 
-TEST_F(GeneratorApiTest, TheGoldenSegmentsAreReproduced) {
-    createMidpointOfThreeSteps();
-    expectGoldenSegments();
-}
-
 TEST_F(GeneratorApiTest, TheSolverCanBeChangedAndResetToTheTiersOwn) {
-    create(generatorOptions());
-    ASSERT_EQ(haptoflow_generator_set_solver(generator_, HAPTOFLOW_SOLVER_MIDPOINT, 3), HAPTOFLOW_OK);
+    createMidpointOfThreeSteps();
     expectGoldenSegments();
     ASSERT_EQ(haptoflow_generator_set_solver(generator_, HAPTOFLOW_SOLVER_OF_TIER, 0), HAPTOFLOW_OK);
     std::vector<float> segments(3 * samples);
@@ -119,24 +114,6 @@ TEST_F(GeneratorApiTest, TheSolverCanBeChangedAndResetToTheTiersOwn) {
     EXPECT_EQ(haptoflow_generator_set_solver(generator_, 9, 1), HAPTOFLOW_INVALID_ARGUMENT);
 }
 
-TEST_F(GeneratorApiTest, TheNoiseOfALatentIsTheCallersWhereItIsGiven) {
-    create(generatorOptions("latent"));
-    constexpr std::size_t latent = 100;
-    const std::vector<float> zeros(3 * samples);
-    const std::vector<float> latentZeros(3 * latent);
-    std::vector<float> derived(3 * samples);
-    std::vector<float> given(3 * samples);
-    std::vector<float> again(3 * samples);
-    haptoflow_batch batch = golden_.batch();
-    ASSERT_EQ(haptoflow_generator_generate(generator_, &batch, derived.data()), HAPTOFLOW_OK) << message();
-    batch.latent_noise = latentZeros.data();
-    ASSERT_EQ(haptoflow_generator_generate(generator_, &batch, given.data()), HAPTOFLOW_OK) << message();
-    batch.noise = zeros.data();
-    ASSERT_EQ(haptoflow_generator_generate(generator_, &batch, again.data()), HAPTOFLOW_OK) << message();
-    EXPECT_NE(given, derived);
-    EXPECT_EQ(given, again) << "the segment's noise must not matter";
-}
-
 TEST_F(GeneratorApiTest, TheNoiseOfALatentIsRefusedByATierThatHasNone) {
     createMidpointOfThreeSteps();
     std::vector<float> segments(3 * samples);
@@ -144,108 +121,6 @@ TEST_F(GeneratorApiTest, TheNoiseOfALatentIsRefusedByATierThatHasNone) {
     batch.latent_noise = segments.data();
     EXPECT_EQ(haptoflow_generator_generate(generator_, &batch, segments.data()), HAPTOFLOW_INVALID_ARGUMENT);
     EXPECT_THAT(message(), HasSubstr("latent_noise"));
-}
-
-/// A copy of the tiny model whose direct tier returns its rib phase.
-std::vector<std::byte> ribModelBytes() {
-    const model::ModelFile tiny = model::ModelFile::read(tinyModelPath);
-    return inference::testing::withGraphs(tiny,
-                                          {{"direct_field", inference::testing::ribField("segment", {1, samples})}});
-}
-
-TEST_F(GeneratorApiTest, AStructSizeThatEndsWithinAPointerExcludesThePointer) {
-    createMidpointOfThreeSteps();
-    const Golden golden;
-    std::vector<float> segments(3 * samples);
-    std::array<float, 3 * HAPTOFLOW_PHASES> phases{};
-    for (std::uint32_t bytes = 1; bytes < sizeof(void*); ++bytes) {
-        haptoflow_batch batch = golden.batch();
-        // Copying only the pointer's first bytes would make an invalid address.
-        batch.phases = phases.data();
-        batch.struct_size = static_cast<std::uint32_t>(offsetof(haptoflow_batch, phases)) + bytes;
-        ASSERT_EQ(haptoflow_generator_generate(generator_, &batch, segments.data()), HAPTOFLOW_OK) << bytes;
-        EXPECT_THAT(segments, ::testing::Pointwise(::testing::FloatNear(1e-4F), golden.segments)) << bytes;
-    }
-}
-
-TEST(GeneratorRibPhaseTest, TheRibPhasesOfABatchReachTheGraphAndMissingOnesAreZero) {
-    const Golden golden;
-    const std::vector<std::byte> bytes = ribModelBytes();
-    haptoflow_runtime* runtime = openRuntime();
-    const haptoflow_model_options modelOptions{sizeof(modelOptions), bytes.data(), bytes.size(), nullptr};
-    haptoflow_model* model = nullptr;
-    ASSERT_EQ(haptoflow_model_open(&modelOptions, &model), HAPTOFLOW_OK) << message();
-    haptoflow_generator_options options{};
-    options.struct_size = sizeof(options);
-    options.runtime = runtime;
-    options.model = model;
-    options.tier = "direct";
-    haptoflow_generator* generator = nullptr;
-    ASSERT_EQ(haptoflow_generator_create(&options, &generator), HAPTOFLOW_OK) << message();
-
-    std::array<float, 3 * HAPTOFLOW_PHASES> phases{};
-    constexpr std::array<std::array<float, 2>, 3> turns{{{0.25F, 0.5F}, {0.9F, 0.0F}, {0.0F, 0.75F}}};
-    for (std::size_t row = 0; row < turns.size(); ++row) {
-        std::ranges::copy(turns[row], phases.begin() + static_cast<std::ptrdiff_t>(row * HAPTOFLOW_PHASES));
-    }
-    std::vector<float> segments(3 * samples);
-    haptoflow_batch batch = golden.batch();
-    batch.phases = phases.data();
-    ASSERT_EQ(haptoflow_generator_generate(generator, &batch, segments.data()), HAPTOFLOW_OK) << message();
-    for (std::size_t i = 0; i < segments.size(); ++i) {
-        const std::size_t row = i / samples;
-        const float expected =
-            inference::testing::firstRibWeight * turns[row][0] + inference::testing::secondRibWeight * turns[row][1];
-        ASSERT_NEAR(segments[i] / golden.levels[row], expected, 1e-5F) << i;
-    }
-    // A caller compiled with a header that did not have phases.
-    batch.struct_size = offsetof(haptoflow_batch, phases);
-    ASSERT_EQ(haptoflow_generator_generate(generator, &batch, segments.data()), HAPTOFLOW_OK) << message();
-    EXPECT_THAT(segments, ::testing::Each(0.0F));
-    batch.struct_size = sizeof(batch);
-    batch.phases = nullptr;
-    ASSERT_EQ(haptoflow_generator_generate(generator, &batch, segments.data()), HAPTOFLOW_OK) << message();
-    EXPECT_THAT(segments, ::testing::Each(0.0F));
-
-    EXPECT_EQ(haptoflow_generator_close(&generator), HAPTOFLOW_OK);
-    EXPECT_EQ(haptoflow_model_close(&model), HAPTOFLOW_OK);
-    EXPECT_EQ(haptoflow_runtime_close(&runtime), HAPTOFLOW_OK);
-}
-
-TEST_F(GeneratorApiTest, LevelsNeedNoWaveforms) {
-    create(generatorOptions());
-    haptoflow_batch batch = golden_.batch();
-    batch.previous_mps2 = nullptr;
-    batch.noise = nullptr;
-    std::vector<float> levels(3);
-    ASSERT_EQ(haptoflow_generator_levels(generator_, &batch, levels.data()), HAPTOFLOW_OK) << message();
-    for (std::size_t index = 0; index < levels.size(); ++index) {
-        EXPECT_NEAR(levels[index] / golden_.levels[index], 1.0F, 1e-5F);
-    }
-    batch.struct_size = offsetof(haptoflow_batch, previous_mps2);
-    EXPECT_EQ(haptoflow_generator_levels(generator_, &batch, levels.data()), HAPTOFLOW_OK) << message();
-    EXPECT_EQ(haptoflow_generator_generate(generator_, &batch, levels.data()), HAPTOFLOW_INVALID_ARGUMENT);
-}
-
-TEST_F(GeneratorApiTest, AnOlderCallersOptionsWork) {
-    auto options = generatorOptions("standard");
-    options.struct_size = offsetof(haptoflow_generator_options, steps);
-    options.steps = 77;
-    options.maximum_batch = 99'999;
-    create(options);
-    std::vector<float> levels(3);
-    const haptoflow_batch batch = golden_.batch();
-    EXPECT_EQ(haptoflow_generator_levels(generator_, &batch, levels.data()), HAPTOFLOW_OK);
-}
-
-TEST_F(GeneratorApiTest, ANewerCallersOptionsWork) {
-    struct {
-        haptoflow_generator_options known;
-        std::array<unsigned char, 64> later;
-    } options{generatorOptions("standard"), {}};
-    options.later.fill(0xAB);
-    options.known.struct_size = sizeof(options);
-    EXPECT_EQ(haptoflow_generator_create(&options.known, &generator_), HAPTOFLOW_OK) << message();
 }
 
 TEST_F(GeneratorApiTest, AGeneratorOutlivesItsRuntimeAndItsModel) {
@@ -324,6 +199,153 @@ TEST(CUserTest, AC11ProgramGeneratesASegment) {
     ASSERT_EQ(generateOneSegmentFromC(HAPTOFLOW_TEST_ONNXRUNTIME, tinyModelPath.c_str(), segment.data()), HAPTOFLOW_OK)
         << message();
     EXPECT_TRUE(std::any_of(segment.begin(), segment.end(), [](float value) { return std::fabs(value) > 0.1F; }));
+}
+
+}  // namespace
+}  // namespace haptoflow::capi::testing
+
+// A model with the tiers `sketch` (kind `skeleton`) and `standard` (kind `refine`), with and without ONNX Runtime.
+
+namespace haptoflow::capi::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+class SkeletonApiTest : public ::testing::Test {
+protected:
+    SkeletonApiTest() {
+        const haptoflow_model_options options{sizeof(options), nullptr, 0,
+                                              HAPTOFLOW_TEST_GOLDEN_DIR "/model/skeleton.haptoflow"};
+        EXPECT_EQ(haptoflow_model_open(&options, &model_), HAPTOFLOW_OK) << message();
+    }
+    void TearDown() override {
+        EXPECT_EQ(haptoflow_engine_close(&engine_), HAPTOFLOW_OK);
+        EXPECT_EQ(haptoflow_generator_close(&generator_), HAPTOFLOW_OK);
+        EXPECT_EQ(haptoflow_model_close(&model_), HAPTOFLOW_OK);
+    }
+
+    haptoflow_status createEngine(haptoflow_quality quality, bool hasWorker = false,
+                                  const haptoflow_runtime* runtime = nullptr) {
+        haptoflow_engine_options options{};
+        options.struct_size = sizeof(options);
+        options.quality = quality;
+        options.runtime = runtime;
+        options.model = model_;
+        options.seed = 1;
+        options.without_worker = hasWorker ? 0 : 1;
+        options.fixed_lead_ms = hasWorker ? 0.0 : 8.0;
+        return haptoflow_engine_create(&options, &engine_);
+    }
+
+    /// Slides over a label for half a second; returns the sound after the first tenth.
+    std::vector<float> slide(uint32_t label, float variation = 0.0F, uint32_t surfaceSeed = 0) {
+        haptoflow_voice voice = 0;
+        EXPECT_EQ(haptoflow_voice_create(engine_, 48000.0, &voice), HAPTOFLOW_OK) << message();
+        haptoflow_contact_state state = slidingState();
+        state.labels[0] = label;
+        state.surface_seed = surfaceSeed;
+        state.variation = variation;
+        std::vector<float> sound;
+        for (int update = 0; update < 36; ++update) {
+            EXPECT_EQ(haptoflow_voice_publish(voice, &state), HAPTOFLOW_OK) << message();
+            std::vector<float> block(667);
+            EXPECT_EQ(haptoflow_voice_render(voice, block.data(), 1, 1, 0, 48000.0), HAPTOFLOW_OK);
+            EXPECT_EQ(haptoflow_engine_step(engine_), HAPTOFLOW_OK) << message();
+            EXPECT_EQ(haptoflow_voice_render(voice, block.data() + 1, 666, 1, 0, 48000.0), HAPTOFLOW_OK);
+            if (update >= 7) {
+                sound.insert(sound.end(), block.begin(), block.end());
+            }
+        }
+        haptoflow_voice_statistics statistics{};
+        statistics.struct_size = sizeof(statistics);
+        EXPECT_EQ(haptoflow_voice_get_statistics(voice, &statistics), HAPTOFLOW_OK);
+        EXPECT_EQ(statistics.inferences, 36U);
+        EXPECT_EQ(statistics.underruns, 0U);
+        sanitised_ = statistics.sanitised;
+        EXPECT_EQ(haptoflow_voice_destroy(&voice), HAPTOFLOW_OK);
+        return sound;
+    }
+
+    haptoflow_model* model_ = nullptr;
+    haptoflow_engine* engine_ = nullptr;
+    haptoflow_generator* generator_ = nullptr;
+    uint64_t sanitised_ = 0;
+};
+
+TEST_F(SkeletonApiTest, TheKindsOfTheTiersAreTold) {
+    haptoflow_tier_info info{};
+    info.struct_size = sizeof(info);
+    ASSERT_EQ(haptoflow_model_tier(model_, 0, &info), HAPTOFLOW_OK);
+    EXPECT_STREQ(info.kind, "skeleton");
+    EXPECT_EQ(info.steps, 1);
+    ASSERT_EQ(haptoflow_model_tier(model_, 1, &info), HAPTOFLOW_OK);
+    EXPECT_STREQ(info.kind, "refine");
+}
+
+TEST_F(SkeletonApiTest, ASketchLoadsAndPlaysWithoutOnnxRuntime) {
+    ASSERT_EQ(createEngine(HAPTOFLOW_QUALITY_SKETCH), HAPTOFLOW_OK) << message();
+    for (const uint32_t label : {0U, 1U}) {
+        const std::vector<float> sound = slide(label);
+        EXPECT_TRUE(allFinite(sound));
+        EXPECT_GT(peak(sound), 1e-4F) << label;
+    }
+}
+
+TEST_F(SkeletonApiTest, AutomaticQualityWithoutOnnxRuntimeTakesTheSketch) {
+    ASSERT_EQ(createEngine(HAPTOFLOW_QUALITY_AUTO, true), HAPTOFLOW_OK) << message();
+    haptoflow_engine_statistics statistics{};
+    statistics.struct_size = sizeof(statistics);
+    ASSERT_EQ(haptoflow_engine_get_statistics(engine_, &statistics), HAPTOFLOW_OK);
+    EXPECT_EQ(statistics.tier, 0U);
+    EXPECT_EQ(statistics.is_measuring, 0U);
+    EXPECT_EQ(haptoflow_engine_set_quality(engine_, HAPTOFLOW_QUALITY_AUTO), HAPTOFLOW_OK) << message();
+    EXPECT_EQ(haptoflow_engine_set_quality(engine_, HAPTOFLOW_QUALITY_STANDARD), HAPTOFLOW_INVALID_ARGUMENT);
+    EXPECT_THAT(message(), HasSubstr("\"standard\" needs ONNX Runtime"));
+}
+
+TEST_F(SkeletonApiTest, ARefinedTierWithoutOnnxRuntimeIsRefused) {
+    EXPECT_EQ(createEngine(HAPTOFLOW_QUALITY_STANDARD), HAPTOFLOW_INVALID_ARGUMENT);
+    EXPECT_THAT(message(), HasSubstr("not an open runtime handle"));
+    EXPECT_THAT(message(), HasSubstr("\"standard\" needs ONNX Runtime"));
+}
+
+TEST_F(SkeletonApiTest, ARefinedTierPlays) {
+    haptoflow_runtime* runtime = openRuntime();
+    ASSERT_EQ(createEngine(HAPTOFLOW_QUALITY_STANDARD, false, runtime), HAPTOFLOW_OK) << message();
+    const std::vector<float> sound = slide(1);
+    EXPECT_TRUE(allFinite(sound));
+    EXPECT_GT(peak(sound), 1e-4F);
+    EXPECT_EQ(haptoflow_engine_close(&engine_), HAPTOFLOW_OK);
+    EXPECT_EQ(haptoflow_runtime_close(&runtime), HAPTOFLOW_OK);
+}
+
+TEST_F(SkeletonApiTest, AGeneratorOfTheSketchReadsThePhasesOfABatch) {
+    haptoflow_generator_options options{};
+    options.struct_size = sizeof(options);
+    options.model = model_;
+    options.tier = "sketch";
+    ASSERT_EQ(haptoflow_generator_create(&options, &generator_), HAPTOFLOW_OK) << message();
+    std::mt19937 random(1);
+    std::normal_distribution<float> normal;
+    // Two requests that differ in their phases only, on the ruled label.
+    std::vector<float> embeddings(2 * HAPTOFLOW_EMBEDDING_SIZE);
+    ASSERT_EQ(haptoflow_model_embedding(model_, 1, embeddings.data()), HAPTOFLOW_OK);
+    std::copy_n(embeddings.begin(), HAPTOFLOW_EMBEDDING_SIZE, embeddings.begin() + HAPTOFLOW_EMBEDDING_SIZE);
+    const std::array<float, 6> motions{0.1F, 0.0F, 1.0F, 0.1F, 0.0F, 1.0F};
+    std::vector<float> noise(2 * HAPTOFLOW_SEGMENT_SAMPLES);
+    std::generate_n(noise.begin(), HAPTOFLOW_SEGMENT_SAMPLES, [&] { return normal(random); });
+    std::copy_n(noise.begin(), HAPTOFLOW_SEGMENT_SAMPLES, noise.begin() + HAPTOFLOW_SEGMENT_SAMPLES);
+    const std::vector<float> previous(noise.size());
+    const std::array<float, 2 * HAPTOFLOW_PHASES> phases{0.0F, 0.0F, 0.0F, 80.0F, 0.0F, 0.0F,
+                                                         0.5F, 0.0F, 0.0F, 80.0F, 0.0F, 0.0F};
+    haptoflow_batch batch{
+        sizeof(batch), 2,      embeddings.data(), motions.data(), previous.data(), noise.data(), phases.data(),
+        nullptr,       nullptr};
+    std::vector<float> segments(noise.size());
+    ASSERT_EQ(haptoflow_generator_generate(generator_, &batch, segments.data()), HAPTOFLOW_OK) << message();
+    EXPECT_FALSE(std::equal(segments.begin(), segments.begin() + HAPTOFLOW_SEGMENT_SAMPLES,
+                            segments.begin() + HAPTOFLOW_SEGMENT_SAMPLES));
+    EXPECT_EQ(haptoflow_generator_set_solver(generator_, HAPTOFLOW_SOLVER_HEUN, 4), HAPTOFLOW_OK) << message();
 }
 
 }  // namespace

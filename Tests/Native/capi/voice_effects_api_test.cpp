@@ -47,110 +47,6 @@ TEST_F(VoiceEffectsApiTest, ALandingThatRequestsItsImpactIsRenderedAndCounted) {
     EXPECT_EQ(edge.prepared + edge.runs + edge.samples + edge.events + edge.is_asked_for, 0U);
 }
 
-TEST_F(VoiceEffectsApiTest, BlowsAreAsLoudInBlocksOfEveryLengthForTwoStylusesAtOnce) {
-    for (const bool isRib : {false, true}) {
-        std::vector<double> levels;
-        for (const uint32_t block : {64U, 128U, 256U, 512U, 1024U, 2048U}) {
-            OpenEngine open(tinyModelPath);
-            haptoflow_voice second = 0;
-            ASSERT_EQ(haptoflow_voice_create(open.engine, 48000.0, &second), HAPTOFLOW_OK) << message();
-            std::vector<float> output;
-            std::vector<float> other(block);
-            // 1000 states per second: a landing every 25 ms, every second one weak, or a rib every 5 ms.
-            for (uint32_t published = 0; output.size() < 96000;) {
-                for (; 48 * published < output.size() + block; ++published) {
-                    haptoflow_contact_state given = landing(HAPTOFLOW_ASKS_FOR_IMPACT | HAPTOFLOW_ASKS_FOR_EDGE);
-                    const uint32_t event = published < 100 ? 0 : std::min((published - 100) / (isRib ? 5 : 25), 60U);
-                    if (isRib) {
-                        given.approach_speed_mps = 0.0F;
-                        given.velocity_mps[0] = 0.2F;
-                        given.edge_counter = event;
-                        given.edge_height_metres = 0.002F;
-                    } else {
-                        given.touching = event > 0 && published % 25 < 12 ? 1 : 0;
-                        given.touch_counter = event;
-                        given.approach_speed_mps = event % 2 == 0 ? 0.3F : 0.01F;
-                    }
-                    for (const haptoflow_voice voice : {open.voice, second}) {
-                        ASSERT_EQ(haptoflow_voice_publish(voice, &given), HAPTOFLOW_OK) << message();
-                    }
-                }
-                ASSERT_EQ(haptoflow_engine_step(open.engine), HAPTOFLOW_OK);
-                const std::vector<float> samples = open.render(block);
-                ASSERT_EQ(haptoflow_voice_render(second, other.data(), block, 1, 0, 48000.0), HAPTOFLOW_OK);
-                ASSERT_EQ(samples, other) << "each stylus has its own blows";
-                output.insert(output.end(), samples.begin(), samples.end());
-            }
-            EXPECT_EQ(open.statistics().lost_blows, 0U);
-            output.resize(96000);
-            levels.push_back(haptoflow::testing::levelDecibels(output));
-        }
-        for (const double level : levels) {
-            EXPECT_NEAR(level, levels.front(), 0.3) << isRib;
-        }
-    }
-}
-
-TEST_F(VoiceEffectsApiTest, ACallerThatLeavesTheTouchCounterAtZeroFeelsEachLanding) {
-    haptoflow_contact_state state = landing(HAPTOFLOW_ASKS_FOR_IMPACT);
-    state.touch_counter = 0;
-    for (uint64_t touch = 1; touch <= 3; ++touch) {
-        EXPECT_GT(peak(open_.update(state)), 0.01F);
-        EXPECT_EQ(of(HAPTOFLOW_EFFECT_IMPACT).events, touch);
-        haptoflow_contact_state lifted = liftedState();
-        lifted.touch_counter = 0;
-        (void)open_.update(lifted);
-    }
-}
-
-TEST_F(VoiceEffectsApiTest, BlowsBeyondThoseThatAreKeptAreCounted) {
-    haptoflow_contact_state state = landing(HAPTOFLOW_ASKS_FOR_IMPACT);
-    for (uint32_t touch = 1; touch <= 100; ++touch) {
-        state.touch_counter = touch + 1;
-        open_.publish(state);
-    }
-    EXPECT_EQ(open_.statistics().lost_blows, 36U);
-    (void)open_.render(1024);
-    EXPECT_EQ(of(HAPTOFLOW_EFFECT_IMPACT).events, 64U);
-}
-
-TEST_F(VoiceEffectsApiTest, AStateOfAnEarlierHeaderRequestsTheTextureAloneWhateverFollowsItInMemory) {
-    struct {
-        haptoflow_contact_state state;
-    } memory{};
-    memory.state = landing(HAPTOFLOW_ASKS_FOR_IMPACT);
-    memory.state.struct_size = offsetof(haptoflow_contact_state, effects);
-    EXPECT_EQ(peak(open_.update(memory.state)), 0.0F);
-    memory.state.velocity_mps[0] = 0.2F;
-    EXPECT_GT(peak(open_.update(memory.state)), 0.0F);
-    EXPECT_EQ(of(HAPTOFLOW_EFFECT_IMPACT).runs, 0U);
-    EXPECT_GT(of(HAPTOFLOW_EFFECT_TEXTURE).runs, 0U);
-}
-
-TEST_F(VoiceEffectsApiTest, ASurfaceThatRequestsNoEffectIsSilentAndCostsNothing) {
-    haptoflow_contact_state state = slidingState(0.3F);
-    state.approach_speed_mps = 1.0F;
-    state.effects = HAPTOFLOW_ASKS_FOR_NOTHING;
-    for (int update = 0; update < 20; ++update) {
-        EXPECT_EQ(peak(open_.update(state)), 0.0F);
-    }
-    for (haptoflow_effect effect = 0; effect < HAPTOFLOW_EFFECT_COUNT; ++effect) {
-        EXPECT_EQ(of(effect).runs + of(effect).prepared, 0U) << effect;
-    }
-}
-
-TEST_F(VoiceEffectsApiTest, ARimIsRenderedAsOftenAsItIsCounted) {
-    haptoflow_contact_state state = slidingState(0.2F);
-    state.effects = HAPTOFLOW_ASKS_FOR_EDGE;
-    state.edge_height_metres = 0.002F;
-    for (uint32_t update = 0; update < 9; ++update) {
-        state.edge_counter = update / 3;
-        (void)open_.update(state);
-    }
-    EXPECT_EQ(of(HAPTOFLOW_EFFECT_EDGE).events, 2U);
-    EXPECT_EQ(open_.statistics().inferences, 0U);
-}
-
 TEST_F(VoiceEffectsApiTest, AVoiceUsesOnlyTheProcessorsThatWereSet) {
     EXPECT_EQ(haptoflow_voice_set_delay(open_.voice, 0.01), HAPTOFLOW_OK) << message();
     EXPECT_EQ(haptoflow_voice_set_actuator(open_.voice, "voice-coil", 10), HAPTOFLOW_OK) << message();
@@ -172,32 +68,6 @@ TEST_F(VoiceEffectsApiTest, AVoiceUsesOnlyTheProcessorsThatWereSet) {
     (void)open_.update(slidingState());
     EXPECT_EQ(of(HAPTOFLOW_EFFECT_DELAY).runs, runs) << "a processor that is switched off does not run";
     EXPECT_EQ(of(HAPTOFLOW_EFFECT_DELAY).is_asked_for, 0U);
-}
-
-TEST_F(VoiceEffectsApiTest, ListenMakesAVoiceLouderIsCountedWhileItIsOnAndCostsNothingWhileItIsOff) {
-    float quiet = 0.0F;
-    for (int update = 0; update < 20; ++update) {
-        quiet = std::max(quiet, peak(open_.update(slidingState())));
-    }
-    EXPECT_EQ(of(HAPTOFLOW_EFFECT_LISTEN).prepared + of(HAPTOFLOW_EFFECT_LISTEN).runs, 0U);
-    EXPECT_EQ(haptoflow_voice_set_listen(open_.voice, 1), HAPTOFLOW_OK) << message();
-    float loud = 0.0F;
-    for (int update = 0; update < 20; ++update) {
-        loud = std::max(loud, peak(open_.update(slidingState())));
-    }
-    EXPECT_GT(loud, 4.0F * quiet);
-    EXPECT_LT(loud, 1.0F);
-    EXPECT_EQ(of(HAPTOFLOW_EFFECT_LISTEN).prepared, 1U);
-    EXPECT_EQ(of(HAPTOFLOW_EFFECT_LISTEN).is_asked_for, 1U);
-    EXPECT_GT(of(HAPTOFLOW_EFFECT_LISTEN).runs, 10U);
-    EXPECT_EQ(haptoflow_voice_set_listen(open_.voice, 0), HAPTOFLOW_OK);
-    for (int update = 0; update < 5; ++update) {
-        (void)open_.update(slidingState());
-    }
-    const uint64_t runs = of(HAPTOFLOW_EFFECT_LISTEN).runs;
-    (void)open_.update(slidingState());
-    EXPECT_EQ(of(HAPTOFLOW_EFFECT_LISTEN).runs, runs);
-    EXPECT_EQ(of(HAPTOFLOW_EFFECT_LISTEN).is_asked_for, 0U);
 }
 
 TEST_F(VoiceEffectsApiTest, AnInvalidProfileIsRefusedByKeyAndTheOldOneStays) {
@@ -270,20 +140,6 @@ TEST_F(VoiceEffectsApiTest, ASignalReplacesAllEffectsWhileTheTipMovesAndItsStart
     EXPECT_GT(turns.last_stop_latency_seconds, 0.01);
     EXPECT_EQ(turns.mean_start_latency_seconds, turns.last_start_latency_seconds);
     EXPECT_EQ(turns.mean_stop_latency_seconds, turns.last_stop_latency_seconds);
-}
-
-TEST_F(VoiceEffectsApiTest, WithASignalOfAmplitudeZeroTheTextureSoundsAsBefore) {
-    ASSERT_EQ(haptoflow_voice_set_signal(open_.voice, 200.0, 6.0), HAPTOFLOW_OK);
-    for (int update = 0; update < 5; ++update) {
-        (void)open_.update(slidingState());
-    }
-    EXPECT_EQ(of(HAPTOFLOW_EFFECT_TEXTURE).runs, 0U);
-    ASSERT_EQ(haptoflow_voice_set_signal(open_.voice, 0.0, 0.0), HAPTOFLOW_OK) << message();
-    for (int update = 0; update < 5; ++update) {
-        (void)open_.update(slidingState());
-    }
-    EXPECT_GT(of(HAPTOFLOW_EFFECT_TEXTURE).runs, 0U);
-    EXPECT_EQ(of(HAPTOFLOW_EFFECT_SIGNAL).is_asked_for, 0U);
 }
 
 TEST_F(VoiceEffectsApiTest, ASignalOutOfRangeIsRefusedByNameAndTheOldOneStays) {

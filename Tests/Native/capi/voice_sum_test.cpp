@@ -77,13 +77,6 @@ protected:
         return wave;
     }
 
-    static uint64_t limitedSamples(haptoflow_voice voice) {
-        haptoflow_voice_statistics statistics{};
-        statistics.struct_size = sizeof(statistics);
-        EXPECT_EQ(haptoflow_voice_get_statistics(voice, &statistics), HAPTOFLOW_OK);
-        return statistics.limited_samples;
-    }
-
     haptoflow_runtime* runtime_ = openRuntime();
     haptoflow_model* model_ = nullptr;
     std::vector<haptoflow_engine*> engines_;
@@ -110,33 +103,11 @@ TEST_F(VoiceSumTest, ThreeVoicesOfDifferentFullScalesEachKeepTheirOwn) {
     }
 }
 
-TEST_F(VoiceSumTest, AVoiceAloneAndOneBesideSilentOnesHaveTheBytesOfItsOwnRender) {
-    const std::vector<float> own = alone(slidingVoice(loudMps2));
-    EXPECT_GT(peak(own), 0.7F);
-    EXPECT_EQ(sumOf({slidingVoice(loudMps2)}), own);
-    const haptoflow_voice sliding = slidingVoice(loudMps2);
-    haptoflow_voice resting = 0;
-    ASSERT_EQ(haptoflow_voice_create(engines_.back(), 48000.0, &resting), HAPTOFLOW_OK);
-    EXPECT_EQ(sumOf({resting, sliding}), own);
-    const haptoflow_voice gone = ~haptoflow_voice{0};
-    EXPECT_EQ(sumOf({gone, slidingVoice(loudMps2), 0, gone}), own);
-}
-
 TEST_F(VoiceSumTest, TheLowestCeilingLimitsTheSumAndACeilingOf0SilencesItsOwnVoiceOnly) {
     EXPECT_LT(peak(sumOf({slidingVoice(loudMps2), slidingVoice(loudMps2, 0.25F)})), 0.25F);
     const std::vector<float> own = alone(slidingVoice(loudMps2));
     EXPECT_EQ(sumOf({slidingVoice(loudMps2, 0.0F), slidingVoice(loudMps2)}), own);
     EXPECT_THAT(sumOf({slidingVoice(loudMps2, 0.0F), slidingVoice(loudMps2, 0.0F)}), Each(0.0F));
-}
-
-TEST_F(VoiceSumTest, TheLimitedSamplesOfASumAreCountedByItsFirstVoice) {
-    std::vector<haptoflow_voice> voices{slidingVoice(3.0), slidingVoice(3.0)};
-    const std::vector<float> sum = sumOf(voices);
-    const auto limited = std::ranges::count_if(sum, [](float sample) { return std::abs(sample) > 0.7F; });
-    EXPECT_GT(limited, 0);
-    (void)sumOf(voices);
-    EXPECT_GE(limitedSamples(voices[0]), static_cast<uint64_t>(limited));
-    EXPECT_EQ(limitedSamples(voices[1]), 0U);
 }
 
 TEST_F(VoiceSumTest, WithoutAVoiceZerosAreWrittenAndWhatHasEndedIsForgotten) {

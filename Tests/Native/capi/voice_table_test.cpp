@@ -1,7 +1,6 @@
 // Concurrent uses of a voice. A sink holds a thread inside a render, which the C interface does not allow; therefore
 // the tests use the voice table and the rendering functions directly.
 #include "capi/voice_table.hpp"
-#include "capi/voice_rendering.hpp"
 #include "engine/fake_generators.hpp"
 #include "engine/simulated_device.hpp"
 #include "engine/test_model.hpp"

@@ -73,53 +73,12 @@ TEST_F(WaveFeaturesApiTest, FramesEqualThoseOfTheEffectsLibrary) {
     }
 }
 
-TEST_F(WaveFeaturesApiTest, AWaveAt8KilohertzHasTheFramesOfTheSameWaveAt2KilohertzThreeSamplesLater) {
-    create(options(8000, 0.005));
-    const auto taken = process(swellingTone(8000.0, 1.0), 111);
-    ASSERT_GE(taken.size(), 195U);
-    for (std::size_t i = 20; i < taken.size(); ++i) {
-        const double time = (static_cast<double>(taken[i].first_sample) + 5.0 - 3.0) / 2000.0;
-        const double envelope = 3.0 + 2.0 * std::sin(2.0 * std::numbers::pi * 2.0 * time);
-        EXPECT_NEAR(static_cast<double>(taken[i].amplitude_mps2), envelope, 0.3 * envelope) << i;
-        EXPECT_NEAR(static_cast<double>(taken[i].centroid_hz), 150.0, 12.0);
-    }
-}
-
 TEST_F(WaveFeaturesApiTest, ADeviceWithOneFrequencyGetsItFromTheNextFrameOn) {
     create(options());
     (void)process(swellingTone(2000.0, 0.2), 400);
     ASSERT_EQ(haptoflow_wave_features_set_range(features_, 216.0, 216.0), HAPTOFLOW_OK);
     for (const haptoflow_wave_frame& frame : process(swellingTone(2000.0, 0.2), 400, 100)) {
         EXPECT_EQ(frame.frequency_hz, 216.0F);
-    }
-}
-
-TEST_F(WaveFeaturesApiTest, AResetClearsTheHistory) {
-    create(options(4000));
-    const auto first = process(swellingTone(4000.0, 0.3), 100);
-    ASSERT_EQ(haptoflow_wave_features_reset(features_), HAPTOFLOW_OK);
-    const auto second = process(swellingTone(4000.0, 0.3), 100);
-    ASSERT_EQ(first.size(), second.size());
-    for (std::size_t i = 0; i < first.size(); ++i) {
-        EXPECT_EQ(first[i].amplitude_mps2, second[i].amplitude_mps2);
-    }
-}
-
-TEST_F(WaveFeaturesApiTest, FramesBeyondTheCapacityAreLostAndTheWaveContinues) {
-    create(options());
-    EXPECT_TRUE(process(swellingTone(2000.0, 0.2), 400, 0).empty());
-    const auto taken = process(swellingTone(2000.0, 0.2), 10);
-    ASSERT_FALSE(taken.empty());
-    EXPECT_GE(taken.front().first_sample, 380U);
-}
-
-TEST_F(WaveFeaturesApiTest, NumbersThatAreNotFiniteCountAsSilence) {
-    create(options(8000));
-    std::vector<float> wave(8000, std::numeric_limits<float>::quiet_NaN());
-    wave[4000] = std::numeric_limits<float>::infinity();
-    for (const haptoflow_wave_frame& frame : process(wave, 64)) {
-        EXPECT_EQ(frame.amplitude_mps2, 0.0F);
-        EXPECT_TRUE(std::isfinite(frame.centroid_hz));
     }
 }
 

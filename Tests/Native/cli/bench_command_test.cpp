@@ -282,7 +282,7 @@ TEST(BenchLatencyTest, ALabelChangeIsFoundAtTheFirstSampleThatOnlyTheLoudLabelHa
 TEST(BenchLatencyTest, AMarkingSkeletonIsWhiteNoiseAtTheLevelOfItsLabel) {
     const auto model = model::ModelFile::read(goldenSkeleton);
     const skeleton::NativeParts marking = bench::markingParts(model, 0, 1);
-    inference::SkeletonGenerator generator(marking, {}, 1);
+    inference::SkeletonGenerator generator(marking, 1);
     std::array<float, 200> noise{};
     noise.fill(0.5F);
     const std::array<float, 200> silence{};

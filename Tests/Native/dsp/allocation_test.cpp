@@ -4,7 +4,6 @@
 
 #include "dsp/denormals.hpp"
 #include "dsp/gate.hpp"
-#include "dsp/level_smoother.hpp"
 #include "dsp/limiter.hpp"
 #include "dsp/rate_warp.hpp"
 #include "dsp/splice.hpp"

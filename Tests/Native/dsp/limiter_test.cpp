@@ -1,13 +1,16 @@
 #include "dsp/limiter.hpp"
 
+#include "dsp/denormals.hpp"
+#include "test_signals.hpp"
+
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 #include <vector>
-
-#include "test_signals.hpp"
 
 namespace haptoflow::dsp {
 namespace {
@@ -78,13 +81,6 @@ TEST(LimiterTest, ACeilingOfZeroSilencesAndCeilingsOutsideZeroToOneAreClamped) {
     EXPECT_EQ(limiter.limit(0.6F), 0.0F);
 }
 
-TEST(LimiterTest, FarAboveTheKneeALouderInputStillGivesALouderOutput) {
-    const SoftLimiter limiter(60.0F);
-    for (float input = 40.0F; input < 6000.0F; input *= 1.05F) {
-        ASSERT_GT(limiter.limit(input * 1.05F), limiter.limit(input)) << "at " << input << " m/s^2";
-    }
-}
-
 TEST(LimiterTest, ValueAndSlopeAreContinuousAtTheKnee) {
     const SoftLimiter limiter(1.0F);
     const double step = 1e-3;
@@ -94,13 +90,6 @@ TEST(LimiterTest, ValueAndSlopeAreContinuousAtTheKnee) {
     const double above = (at(0.7 + step) - at(0.7)) / step;
     EXPECT_NEAR(below, 1.0, 1e-3);
     EXPECT_NEAR(above, 1.0, 5e-3);
-}
-
-TEST(LimiterTest, TheCurveIsOdd) {
-    const SoftLimiter limiter(60.0F);
-    for (float input = 0.01F; input < 1e8F; input *= 1.01F) {
-        ASSERT_EQ(limiter.limit(-input), -limiter.limit(input));
-    }
 }
 
 TEST(LimiterTest, NonFiniteSamplesBecomeZeroAndAreCounted) {
@@ -123,6 +112,85 @@ TEST(LimiterTest, AFullScaleThatIsNotPositiveIsRejected) {
     for (const float fullScale : {0.0F, -60.0F, notANumber, infinity}) {
         EXPECT_THROW(SoftLimiter{fullScale}, std::invalid_argument) << fullScale;
     }
+}
+
+double gainDbAt(double frequencyHz) {
+    HighPass filter;
+    std::vector<float> wave(8000);
+    for (std::size_t i = 0; i < wave.size(); ++i) {
+        wave[i] = static_cast<float>(
+            std::sin(2.0 * std::numbers::pi * frequencyHz * static_cast<double>(i) / waveformRateHz));
+    }
+    filter.process(wave);
+    double squares = 0.0;
+    for (std::size_t i = 4000; i < wave.size(); ++i) {
+        squares += static_cast<double>(wave[i]) * static_cast<double>(wave[i]);
+    }
+    return 10.0 * std::log10(squares / 2000.0);
+}
+
+TEST(HighPassTest, TheRecordingsBandIsKeptAndWhatLiesBelowIsRemoved) {
+    EXPECT_LT(gainDbAt(4.0), -9.0);
+    EXPECT_NEAR(gainDbAt(7.0), -3.0, 0.1);
+    EXPECT_GT(gainDbAt(10.0), -1.0);
+    EXPECT_NEAR(gainDbAt(20.0), 0.0, 0.1);
+    EXPECT_NEAR(gainDbAt(500.0), 0.0, 0.01);
+}
+
+TEST(HighPassTest, AConstantDecaysAndTheBlocksDoNotMatter) {
+    HighPass whole;
+    HighPass cut;
+    std::vector<float> wave(1000, 5.0F);
+    std::vector<float> pieces = wave;
+    whole.process(wave);
+    for (std::size_t first = 0; first < pieces.size(); first += 7) {
+        cut.process(std::span(pieces).subspan(first, std::min<std::size_t>(7, pieces.size() - first)));
+    }
+    EXPECT_EQ(wave, pieces);
+    EXPECT_NEAR(wave.back(), 0.0F, 1e-4F);
+}
+
+TEST(HighPassTest, AfterAResetThePastIsForgotten) {
+    HighPass filter;
+    std::vector<float> loud(100, 100.0F);
+    filter.process(loud);
+    filter.reset();
+    std::vector<float> silence(100);
+    filter.process(silence);
+    EXPECT_EQ(std::ranges::count(silence, 0.0F), 100);
+}
+
+// Volatile operands keep the compiler from evaluating the arithmetic at compile time.
+float halfOfTheSmallestNormal() {
+    volatile float smallest = std::numeric_limits<float>::min();
+    volatile float half = 0.5F;
+    return smallest * half;
+}
+
+float denormalTimesALot() {
+    volatile float denormal = std::numeric_limits<float>::denorm_min();
+    volatile float lot = 1e30F;
+    return denormal * lot;
+}
+
+TEST(DenormalsTest, DenormalResultsAndOperandsAreFlushedOnlyWithinTheScope) {
+    if (!ScopedFlushDenormals::isSupported) {
+        GTEST_SKIP() << "this processor has no mode for it";
+    }
+    ASSERT_GT(halfOfTheSmallestNormal(), 0.0F);
+    ASSERT_GT(denormalTimesALot(), 0.0F);
+    {
+        const ScopedFlushDenormals flush;
+        EXPECT_EQ(halfOfTheSmallestNormal(), 0.0F);
+        EXPECT_EQ(denormalTimesALot(), 0.0F);
+        {
+            const ScopedFlushDenormals nested;
+            EXPECT_EQ(halfOfTheSmallestNormal(), 0.0F);
+        }
+        EXPECT_EQ(halfOfTheSmallestNormal(), 0.0F) << "leaving an inner scope ended the outer one";
+    }
+    EXPECT_GT(halfOfTheSmallestNormal(), 0.0F);
+    EXPECT_GT(denormalTimesALot(), 0.0F);
 }
 
 }  // namespace

@@ -1,22 +1,23 @@
 #include "effects/carrier_rendering.hpp"
-#include "effects/perceived_intensity.hpp"
 
 #include "effects/feature_signals.hpp"
+#include "effects/perceived_intensity.hpp"
+#include "effects/wave_features.hpp"
+#include "support/counting_new.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 #include <vector>
 
 namespace haptoflow::effects {
 namespace {
 
 using testing::decayingSinusoidFrom;
-using testing::featureNoise;
 using testing::featureSine;
-using testing::textureNoise;
 
 WaveFeatureOptions touchPlus() {
     WaveFeatureOptions options;
@@ -64,21 +65,6 @@ TEST(CarrierRenderingTest, ARenderedSinusoidKeepsItsIntensityAtEveryFrequency) {
     }
 }
 
-TEST(CarrierRenderingTest, RenderedNoiseKeepsItsIntensity) {
-    for (const std::vector<float>& wave : {textureNoise(5.0, 10.0, 1), textureNoise(60.0, 10.0, 2),
-                                           featureNoise(5.0, 10.0, 3), textureNoise(0.5, 10.0, 4)}) {
-        for (const CarrierShape shape : {CarrierShape::held, CarrierShape::linear}) {
-            const IntensityErrorSummary own = errorOf(wave, touchPlus(), {.shape = shape});
-            const IntensityErrorSummary motor = errorOf(wave, motorOfOneFrequency(), {.shape = shape});
-            EXPECT_LT(std::abs(own.meanDb), 0.9);
-            EXPECT_LT(own.meanMagnitudeDb, 1.3);
-            EXPECT_LT(own.percentile95Db, 3.5);
-            EXPECT_LT(motor.meanMagnitudeDb, 1.1);
-            EXPECT_LT(motor.percentile95Db, 3.0);
-        }
-    }
-}
-
 TEST(CarrierRenderingTest, ARenderedDecayingSinusoidKeepsItsIntensityInEachFrame) {
     for (const double frequencyHz : {80.0, 150.0, 250.0}) {
         for (std::size_t start = 200; start < 210; ++start) {
@@ -87,20 +73,6 @@ TEST(CarrierRenderingTest, ARenderedDecayingSinusoidKeepsItsIntensityInEachFrame
             EXPECT_LT(error.meanMagnitudeDb, 2.0) << frequencyHz << " Hz from " << start;
             EXPECT_LT(error.percentile95Db, 5.0) << frequencyHz << " Hz from " << start;
         }
-    }
-}
-
-TEST(CarrierRenderingTest, TheErrorIsTheExcessIntensityInDecibels) {
-    const std::vector<float> wave = featureSine(160.0, 20.0, 1.0);
-    for (const double factor : {0.5, 1.0, 2.0}) {
-        std::vector<float> played = wave;
-        for (float& sample : played) {
-            sample *= static_cast<float>(factor);
-        }
-        const IntensityErrorSummary error = summarise(intensityErrors(wave, played));
-        const double expected =
-            20.0 * std::log10(intensityOfSinusoid(20.0 * factor, 160.0) / intensityOfSinusoid(20.0, 160.0));
-        EXPECT_NEAR(error.meanDb, expected, 0.15) << factor;
     }
 }
 
@@ -174,6 +146,78 @@ TEST(CarrierRenderingTest, TheFramesOfAWholeWaveReachItsEnd) {
         EXPECT_GE(frames.back().firstSample + frames.back().sampleCount, length);
         EXPECT_LT(frames.back().firstSample, length);
     }
+}
+
+std::vector<float> decimated(WaveDecimation& decimation, std::size_t factor, double frequencyHz) {
+    std::vector<float> result;
+    const double inputRateHz = 2000.0 * static_cast<double>(factor);
+    for (std::size_t i = 0; i < 4000 * factor; ++i) {
+        float sample = 0.0F;
+        const double phase = 2.0 * std::numbers::pi * frequencyHz * static_cast<double>(i) / inputRateHz;
+        if (decimation.take(static_cast<float>(std::sin(phase)), sample)) {
+            result.push_back(sample);
+        }
+    }
+    return result;
+}
+
+double amplitudeOf(const std::vector<float>& wave) {
+    double power = 0.0;
+    for (std::size_t i = 100; i < wave.size(); ++i) {
+        power += std::pow(static_cast<double>(wave[i]), 2.0);
+    }
+    return std::sqrt(2.0 * power / static_cast<double>(wave.size() - 100));
+}
+
+TEST(WaveDecimationTest, PerceptibleFrequenciesPassAndAliasesAreSuppressed) {
+    for (const std::size_t factor : {2U, 3U, 4U, 24U}) {
+        WaveDecimation decimation(factor);
+        for (const double frequencyHz : {10.0, 60.0, 250.0, 500.0}) {
+            EXPECT_NEAR(amplitudeOf(decimated(decimation, factor, frequencyHz)), 1.0, 0.01) << frequencyHz;
+            decimation.reset();
+        }
+        for (const double frequencyHz : {1510.0, 1700.0, 1990.0}) {
+            EXPECT_LT(amplitudeOf(decimated(decimation, factor, frequencyHz)), 0.004) << frequencyHz;
+            decimation.reset();
+        }
+    }
+}
+
+TEST(WaveDecimationTest, AFactorOfOneLeavesTheWaveUnchanged) {
+    WaveDecimation decimation(1);
+    for (const float sample : {0.0F, 0.3F, -7.0F}) {
+        float same = 99.0F;
+        EXPECT_TRUE(decimation.take(sample, same));
+        EXPECT_EQ(same, sample);
+    }
+}
+
+TEST(WaveDecimationTest, AnImpulseIsDelayedByThreeSamplesOfTheNewRate) {
+    WaveDecimation decimation(4);
+    std::vector<float> result;
+    for (int i = 0; i < 64; ++i) {
+        float sample = 0.0F;
+        // The fourth input sample completes the first output sample.
+        if (decimation.take(i == 3 ? 1.0F : 0.0F, sample)) {
+            result.push_back(sample);
+        }
+    }
+    for (std::size_t i = 0; i < result.size(); ++i) {
+        EXPECT_NEAR(result[i], i == WaveDecimation::delaySamples ? 0.25F : 0.0F, 0.02F) << i;
+    }
+}
+
+TEST(WaveDecimationTest, FactorsOutOfRangeAreRejectedAndSamplesAllocateNothing) {
+    EXPECT_THROW(WaveDecimation(0), std::invalid_argument);
+    EXPECT_THROW(WaveDecimation(97), std::invalid_argument);
+    WaveDecimation decimation(8);
+    const std::size_t before = haptoflow::testing::allocationCount();
+    float sample = 0.0F;
+    for (int i = 0; i < 100; ++i) {
+        (void)decimation.take(1.0F, sample);
+    }
+    decimation.reset();
+    EXPECT_EQ(haptoflow::testing::allocationCount(), before);
 }
 
 }  // namespace

@@ -91,8 +91,7 @@ private:
 };
 
 // Tones with the unweighted and weighted levels of the shipped strokes on the loudest labels at 3 N.
-const std::vector<Tone> wholeSet{{160.0, 43.6}, {25.0, 12.0}};       // 32 m/s^2, weighted 6.3
-const std::vector<Tone> loudestStroke{{160.0, 70.7}, {25.0, 22.6}};  // 52.5 m/s^2, weighted 11.5
+const std::vector<Tone> wholeSet{{160.0, 43.6}, {25.0, 12.0}};  // 32 m/s^2, weighted 6.3
 const std::vector<Tone> fullScale{{160.0, 200.0}};
 
 TEST(ExposureGuardTest, AnHourOfSlidingOverTheLoudestLabelsIsNotReduced) {
@@ -103,13 +102,6 @@ TEST(ExposureGuardTest, AnHourOfSlidingOverTheLoudestLabelsIsNotReduced) {
     EXPECT_EQ(guard.report().reason, ExposureReason::none);
     EXPECT_NEAR(guard.report().shortTermMps2, 32.0, 0.5);
     EXPECT_NEAR(guard.report().dailyMps2, 6.3 * std::sqrt(1.0 / 8.0), 0.1);
-}
-
-TEST(ExposureGuardTest, TenMinutesOfTheLoudestStrokeAreNotReduced) {
-    ExposureGuard guard(voiceRateHz);
-    Session session(guard);
-    session.play(600.0, loudestStroke);
-    EXPECT_TRUE(session.untouched);
 }
 
 TEST(ExposureGuardTest, MinutesAtFullScaleAreReducedToTheShortTermLimitWithThatReason) {
@@ -140,17 +132,6 @@ TEST(ExposureGuardTest, ALevelThatUsesUpTheDailyDoseIsReducedWithThatReason) {
     EXPECT_FALSE(session.untouched);
     EXPECT_EQ(guard.report().reason, ExposureReason::dose);
     EXPECT_LE(session.steepestDbPerSecond, 1.21);
-}
-
-TEST(ExposureGuardTest, AVeryHighLevelIsReducedWithinSecondsButNotAfterOneBlow) {
-    ExposureGuard guard(voiceRateHz);
-    Session session(guard);
-    // At a weighted 40 m/s^2, a hundred seconds use up the daily dose.
-    session.play(1.0, {{16.0, 63.0}});
-    EXPECT_TRUE(session.untouched);
-    session.play(4.0, {{16.0, 63.0}});
-    EXPECT_LT(guard.report().gain, 0.9);
-    EXPECT_EQ(guard.report().reason, ExposureReason::dose);
 }
 
 TEST(ExposureGuardTest, TheGainMovesLinearlyWithinEachHundredthOfASecond) {
@@ -190,16 +171,6 @@ TEST(ExposureGuardTest, ExposureOlderThanEightHoursNoLongerCounts) {
     session.untouched = true;
     session.play(10.0, {{16.0, 1.0}});
     EXPECT_TRUE(session.untouched);
-}
-
-TEST(ExposureGuardTest, APauseDoesNotRestoreTheLevelWhileTheDoseIsUsedUp) {
-    ExposureGuard guard(voiceRateHz, shortDay());
-    Session session(guard);
-    session.play(120.0, {{16.0, 20.0}});
-    const double before = guard.report().gain;
-    session.play(60.0, {});
-    session.play(1.0, {{16.0, 20.0}});
-    EXPECT_LT(guard.report().gain, 1.3 * before);
 }
 
 TEST(ExposureGuardTest, TheGainRecoversAsSlowlyAsItFalls) {
@@ -299,33 +270,6 @@ TEST(ExposureGuardTest, TheBlockLengthsDoNotChangeTheResult) {
     }
 }
 
-TEST(ExposureGuardTest, PassedSilenceCountsLikeProcessedSilence) {
-    ExposureGuard run(voiceRateHz, shortDay());
-    ExposureGuard passed(voiceRateHz, shortDay());
-    Session first(run);
-    Session second(passed);
-    first.play(50.0, {{16.0, 20.0}});
-    second.play(50.0, {{16.0, 20.0}});
-    for (const double pause : {3.0, 20.0, 100.0, 400.0}) {
-        first.play(pause, {});
-        passed.passSilence(static_cast<std::uint64_t>(pause * voiceRateHz));
-        EXPECT_NEAR(passed.report().gain, run.report().gain, 0.02) << pause;
-        EXPECT_NEAR(passed.report().shortTermMps2, run.report().shortTermMps2, 1e-3) << pause;
-        EXPECT_NEAR(passed.report().dailyMps2, run.report().dailyMps2, 5e-3) << pause;
-        EXPECT_EQ(passed.report().reason, run.report().reason) << pause;
-    }
-}
-
-/// Plays a tone and passes silence in turn, as a hand does, and returns the longest day's exposure.
-double playDay(ExposureGuard& guard, Session& session, double seconds, const std::vector<Tone>& tones,
-               double playSeconds, double pauseSeconds) {
-    for (double at = 0.0; at < seconds; at += playSeconds + pauseSeconds) {
-        session.play(playSeconds, tones);
-        guard.passSilence(static_cast<std::uint64_t>(pauseSeconds * voiceRateHz));
-    }
-    return session.highestDailyMps2;
-}
-
 class ExposureDayTest : public ::testing::TestWithParam<double> {};
 
 TEST_P(ExposureDayTest, InSilenceTheGainNeverFallsAndReturnsWithTheDose) {
@@ -354,62 +298,7 @@ TEST_P(ExposureDayTest, InSilenceTheGainNeverFallsAndReturnsWithTheDose) {
     }
 }
 
-TEST_P(ExposureDayTest, ADayOfStrokesAndPausesStaysWithinTheDailyExposure) {
-    ExposureGuard guard(voiceRateHz);
-    guard.setActuatorGain(GetParam());
-    Session session(guard);
-    const double highest = playDay(guard, session, 10.0 * 3600.0, wholeSet, 20.0, 400.0);
-    EXPECT_LE(highest, 2.5 * 1.02);
-    EXPECT_GT(guard.report().gain, 0.0);
-}
-
-TEST_P(ExposureDayTest, PausesThatLetTheGainReturnDoNotPassTheDailyExposure) {
-    // Eight minutes of the reference time instead of eight hours: a pause lets the gain return, a stroke lowers it.
-    ExposureLaw law = shortDay();
-    law.actuatorGain = GetParam();
-    for (const double pauseSeconds : {2.0, 20.0, 70.0}) {
-        ExposureGuard guard(voiceRateHz, law);
-        Session session(guard);
-        const double highest = playDay(guard, session, 900.0, {{16.0, 1.6}}, 5.0, pauseSeconds);
-        EXPECT_LE(highest, 2.5 * 1.1) << pauseSeconds;
-    }
-}
-
-INSTANTIATE_TEST_SUITE_P(AtActuatorGain, ExposureDayTest, ::testing::Values(1.0, 2.0, 5.0, 10.0, 20.0),
-                         [](const auto& test) { return std::to_string(static_cast<int>(test.param)); });
-
-TEST(ExposureGuardTest, TheLengthOfTheBlocksDoesNotChangeADayWithPauses) {
-    const auto gainsWith = [](std::size_t block) {
-        ExposureGuard guard(48000.0);
-        guard.setActuatorGain(20.0);
-        std::vector<double> gains;
-        std::vector<float> samples(block);
-        for (int period = 0; period < 3; ++period) {
-            for (std::size_t at = 0; at < 48000 * 4; at += block) {
-                const std::size_t count = std::min(block, 48000 * 4 - at);
-                for (std::size_t i = 0; i < count; ++i) {
-                    samples[i] = (at + i) % 300 < 150 ? 40.0F : -40.0F;
-                }
-                guard.process(std::span(samples).first(count));
-            }
-            gains.push_back(guard.report().gain);
-            for (std::size_t at = 0; at < 48000 * 300; at += block) {
-                guard.passSilence(std::min(block, 48000 * 300 - at));
-            }
-            gains.push_back(guard.report().gain);
-        }
-        return gains;
-    };
-    const std::vector<double> expected = gainsWith(64);
-    EXPECT_LT(expected.front(), 0.9);
-    EXPECT_GT(expected[1], expected[0]) << "it returns in silence";
-    for (const std::size_t block : {128U, 256U, 512U, 1024U, 2048U}) {
-        const std::vector<double> gains = gainsWith(block);
-        for (std::size_t i = 0; i < gains.size(); ++i) {
-            EXPECT_NEAR(20.0 * std::log10(gains[i] / expected[i]), 0.0, 0.02) << block << ", " << i;
-        }
-    }
-}
+INSTANTIATE_TEST_SUITE_P(AtActuatorGain, ExposureDayTest, ::testing::Values(1.0, 5.0, 20.0));
 
 TEST(ExposureGuardTest, SwitchedOffItPassesTheSignalAndMeasuresOn) {
     ExposureGuard guard(voiceRateHz, shortDay());
@@ -474,43 +363,6 @@ TEST(ExposureGuardTest, InvalidLawsAndRatesAreRejected) {
     EXPECT_THROW(ExposureGuard(std::numeric_limits<double>::quiet_NaN()), std::invalid_argument);
 }
 
-TEST(ExposureGuardTest, TenMinutesOfRandomLevelsGainsAndPausesStayWithinTheLimits) {
-    ExposureLaw law = shortDay();
-    law.shortTermSeconds = 20.0;
-    law.slewDbPerSecond = 20.0;
-    ExposureGuard guard(voiceRateHz, law);
-    Session session(guard);
-    std::mt19937 random(19);
-    std::uniform_real_distribution<double> unit(0.0, 1.0);
-    for (double seconds = 0.0; seconds < 600.0;) {
-        const double length = 0.05 + 3.0 * unit(random);
-        seconds += length;
-        switch (random() % 6) {
-            case 0:
-                session.play(length, {});
-                break;
-            case 1:
-                guard.passSilence(static_cast<std::uint64_t>(length * voiceRateHz));
-                break;
-            case 2:
-                guard.setActuatorGain(0.2 + unit(random));
-                [[fallthrough]];
-            case 3:
-                guard.reset();
-                [[fallthrough]];
-            default:
-                session.play(length, {{30.0 + 400.0 * unit(random), 100.0 * unit(random)}});
-                break;
-        }
-        const ExposureReport report = guard.report();
-        ASSERT_GE(report.gain, law.minimumGain * (1.0 - 1e-9));
-        ASSERT_LE(report.gain, 1.0);
-        ASSERT_TRUE(std::isfinite(report.dailyMps2));
-        ASSERT_EQ(report.reason == ExposureReason::none, report.gain == 1.0);
-    }
-    EXPECT_LE(session.highestDailyMps2, 2.5 * 1.2);
-}
-
 TEST(ExposureGuardTest, NothingAllocates) {
     ExposureGuard guard(48000.0, shortDay());
     std::vector<float> samples(512, 150.0F);
@@ -525,13 +377,61 @@ TEST(ExposureGuardTest, NothingAllocates) {
     EXPECT_EQ(haptoflow::testing::allocationCount(), before);
 }
 
-TEST(ExposureGuardTest, DeclaresNeitherLatencyNorTail) {
-    ExposureGuard guard(48000.0);
-    EXPECT_EQ(guard.declaration().kind, EffectKind::exposureGuard);
-    EXPECT_EQ(guard.declaration().reads, contact_field::none);
-    EXPECT_EQ(guard.declaration().latencySeconds, 0.0);
-    EXPECT_EQ(guard.declaration().tailSeconds, 0.0);
-    EXPECT_EQ(guard.declaration().memoryBytes, sizeof(ExposureGuard));
+struct Factor {
+    double frequencyHz;
+    double weight;
+};
+
+// Factors of ISO 5349-1:2001, table A.2, as printed, at the exact centre frequencies of the one-third octaves.
+constexpr Factor isoTable[] = {{6.31, 0.727},   {7.943, 0.873},  {10.0, 0.951},    {12.59, 0.958},   {15.85, 0.896},
+                               {19.95, 0.782},  {25.12, 0.647},  {31.62, 0.519},   {39.81, 0.411},   {50.12, 0.324},
+                               {63.1, 0.256},   {79.43, 0.202},  {100.0, 0.160},   {125.9, 0.127},   {158.5, 0.101},
+                               {199.5, 0.0799}, {251.2, 0.0634}, {316.2, 0.0503},  {398.1, 0.0398},  {501.2, 0.0314},
+                               {631.0, 0.0245}, {794.3, 0.0186}, {1000.0, 0.0135}, {1259.0, 0.00894}};
+
+double measuredWeight(double frequencyHz, double sampleRateHz) {
+    HandArmWeighting weighting(sampleRateHz);
+    const double turn = 2.0 * std::numbers::pi * frequencyHz / sampleRateHz;
+    const auto settle = static_cast<std::size_t>(sampleRateHz);
+    const auto count = static_cast<std::size_t>(std::round(frequencyHz) * sampleRateHz / frequencyHz);
+    double squares = 0.0;
+    for (std::size_t i = 0; i < settle + count; ++i) {
+        const double weighted = weighting.next(std::sin(turn * static_cast<double>(i)));
+        squares += i < settle ? 0.0 : weighted * weighted;
+    }
+    return std::sqrt(2.0 * squares / static_cast<double>(count));
+}
+
+TEST(HandArmWeightingTest, TheWeightingMatchesTableA2OfIso5349AtEveryRate) {
+    for (const double sampleRateHz : {8000.0, 24000.0, 44100.0, 48000.0, 192000.0}) {
+        for (const Factor& factor : isoTable) {
+            // The bilinear transform deviates near half the rate: at 8 kHz, by 2 % at 800 Hz and by 8 % at 1.26 kHz.
+            const double tolerance = factor.frequencyHz * 13.0 > sampleRateHz ? 0.09 : 0.012;
+            EXPECT_NEAR(measuredWeight(factor.frequencyHz, sampleRateHz) / factor.weight, 1.0, tolerance)
+                << factor.frequencyHz << " Hz at " << sampleRateHz << " Hz";
+        }
+    }
+}
+
+TEST(HandArmWeightingTest, AConstantOffsetIsRemoved) {
+    HandArmWeighting weighting(48000.0);
+    double weighted = 1.0;
+    for (int i = 0; i < 480000; ++i) {
+        weighted = weighting.next(100.0);
+    }
+    EXPECT_NEAR(weighted, 0.0, 1e-6);
+}
+
+TEST(HandArmWeightingTest, AResetClearsTheState) {
+    HandArmWeighting used(48000.0);
+    HandArmWeighting fresh(48000.0);
+    for (int i = 0; i < 1000; ++i) {
+        static_cast<void>(used.next(i % 7));
+    }
+    used.reset();
+    for (int i = 0; i < 100; ++i) {
+        EXPECT_EQ(used.next(i % 5), fresh.next(i % 5));
+    }
 }
 
 }  // namespace

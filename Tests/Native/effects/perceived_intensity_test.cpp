@@ -51,12 +51,6 @@ TEST(PerceivedIntensityTest, TheExponentsFollowFromThresholdAndEqualVelocity) {
     EXPECT_EQ(intensityExponent(900.0), intensityExponent(400.0));
 }
 
-TEST(PerceivedIntensityTest, IntensityIsOneAtTheThresholdOfEveryFrequency) {
-    for (double frequencyHz = 5.0; frequencyHz < 1000.0; frequencyHz *= 1.3) {
-        EXPECT_NEAR(intensityOfSinusoid(detectionThresholdMps2(frequencyHz), frequencyHz), 1.0, 1e-12);
-    }
-}
-
 TEST(PerceivedIntensityTest, TheInverseGivesBackEveryAmplitude) {
     for (double frequencyHz = 10.0; frequencyHz < 1000.0; frequencyHz *= 1.21) {
         for (double amplitude = 1e-4; amplitude < 1000.0; amplitude *= 3.1) {

@@ -1,13 +1,19 @@
 #include "effects/strikes.hpp"
 
+#include "effects/signal.hpp"
 #include "support/counting_new.hpp"
+#include "support/wave_measures.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <numbers>
+#include <span>
+#include <stdexcept>
 #include <vector>
 
 namespace haptoflow::effects {
@@ -35,7 +41,7 @@ float peakOf(const std::vector<float>& samples) {
 
 TEST(StrikesTest, ABlowIsADecayingSinusoidThatStartsWithTheNextSample) {
     for (const double rate : {8000.0, 44100.0, 48000.0, 192000.0}) {
-        Strikes strikes(EffectKind::impact, rate);
+        Strikes strikes(rate);
         strikes.strike(0.2, ringing(180.0F, 90.0F, 600.0F));
         const std::vector<float> output = next(strikes, static_cast<std::size_t>(0.1 * rate), 61);
         for (std::size_t i = 0; i < output.size(); ++i) {
@@ -49,7 +55,7 @@ TEST(StrikesTest, ABlowIsADecayingSinusoidThatStartsWithTheNextSample) {
 
 TEST(StrikesTest, TheAmplitudeIsProportionalToTheSpeedFromOneCentimetreToTwoMetresASecond) {
     const auto peakAt = [](double speedMps) {
-        Strikes strikes(EffectKind::impact, rateHz);
+        Strikes strikes(rateHz);
         strikes.strike(speedMps, ringing(200.0F, 60.0F, 500.0F));
         return static_cast<double>(peakOf(next(strikes, 4800)));
     };
@@ -63,7 +69,7 @@ TEST(StrikesTest, TheAmplitudeIsProportionalToTheSpeedFromOneCentimetreToTwoMetr
 TEST(StrikesTest, ReboundsFollowTheirFlightTimesAndGetWeaker) {
     ImpactResponse response = ringing(400.0F, 2000.0F, 500.0F);
     response.restitution = 0.5F;
-    Strikes strikes(EffectKind::impact, rateHz);
+    Strikes strikes(rateHz);
     strikes.strike(0.5, response);
     const std::vector<float> output = next(strikes, 9600, 100);
     // A flight takes 2 v / (25 m/s^2): 20 ms at the remaining 0.25 m/s, then 10 ms.
@@ -81,7 +87,7 @@ TEST(StrikesTest, ReboundsFollowTheirFlightTimesAndGetWeaker) {
 }
 
 TEST(StrikesTest, TheSourceIsIdleAfterABlowHasDecayed) {
-    Strikes strikes(EffectKind::impact, rateHz);
+    Strikes strikes(rateHz);
     EXPECT_TRUE(strikes.isIdle());
     strikes.strike(2.0, ringing(100.0F, 40.0F, 1000.0F));
     EXPECT_FALSE(strikes.isIdle());
@@ -91,19 +97,8 @@ TEST(StrikesTest, TheSourceIsIdleAfterABlowHasDecayed) {
     EXPECT_EQ(next(strikes, 256), std::vector<float>(256, 0.0F));
 }
 
-TEST(StrikesTest, NoBlowSoundsLongerThanTheDeclaredTail) {
-    for (const float decay : {0.0F, 10.0F, 500.0F}) {
-        ImpactResponse response = ringing(60.0F, decay, std::numeric_limits<float>::max());
-        response.restitution = 1.0F;
-        Strikes strikes(EffectKind::impact, 8000.0);
-        strikes.strike(1e9, response);
-        next(strikes, static_cast<std::size_t>((strikes.declaration().tailSeconds + 0.1) * 8000.0));
-        EXPECT_TRUE(strikes.isIdle()) << decay;
-    }
-}
-
 TEST(StrikesTest, ManyBlowsAtOnceAreBoundedAndTheLoudestAreKept) {
-    Strikes strikes(EffectKind::impact, rateHz);
+    Strikes strikes(rateHz);
     strikes.strike(1.0, ringing(150.0F, 50.0F, 400.0F));
     for (int blow = 0; blow < 200; ++blow) {
         strikes.strike(0.001, ringing(300.0F, 50.0F, 400.0F));
@@ -116,7 +111,7 @@ TEST(StrikesTest, ManyBlowsAtOnceAreBoundedAndTheLoudestAreKept) {
 TEST(StrikesTest, InvalidBlowsMakeNoSound) {
     constexpr float nan = std::numeric_limits<float>::quiet_NaN();
     constexpr float infinity = std::numeric_limits<float>::infinity();
-    Strikes strikes(EffectKind::impact, rateHz);
+    Strikes strikes(rateHz);
     for (const double speedMps : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
         strikes.strike(speedMps, ringing(150.0F, 50.0F, 400.0F));
     }
@@ -135,7 +130,7 @@ TEST(StrikesTest, InvalidBlowsMakeNoSound) {
 TEST(StrikesTest, AResetSilencesAtOnceAndCancelsRebounds) {
     ImpactResponse response = ringing(150.0F, 50.0F, 400.0F);
     response.restitution = 0.8F;
-    Strikes strikes(EffectKind::impact, rateHz);
+    Strikes strikes(rateHz);
     strikes.strike(1.0, response);
     next(strikes, 100);
     strikes.reset();
@@ -144,8 +139,8 @@ TEST(StrikesTest, AResetSilencesAtOnceAndCancelsRebounds) {
 }
 
 TEST(StrikesTest, ASourceAddsToTheInput) {
-    Strikes alone(EffectKind::edge, rateHz, 3.0);
-    Strikes added(EffectKind::edge, rateHz, 3.0);
+    Strikes alone(rateHz, 3.0);
+    Strikes added(rateHz, 3.0);
     alone.strike(0.3, ringing(220.0F, 80.0F, 300.0F));
     added.strike(0.3, ringing(220.0F, 80.0F, 300.0F));
     std::vector<float> out(480, 2.0F);
@@ -157,7 +152,7 @@ TEST(StrikesTest, ASourceAddsToTheInput) {
 }
 
 TEST(StrikesTest, NothingAllocates) {
-    Strikes strikes(EffectKind::impact, rateHz);
+    Strikes strikes(rateHz);
     ImpactResponse response = ringing(150.0F, 50.0F, 400.0F);
     response.restitution = 0.7F;
     std::vector<float> out(512);
@@ -170,26 +165,113 @@ TEST(StrikesTest, NothingAllocates) {
     EXPECT_EQ(haptoflow::testing::allocationCount(), before);
 }
 
-TEST(StrikesTest, AWeakBlowDoesNotCancelTheReboundOfAStrongOne) {
-    ImpactResponse response;
-    response.modes[0] = {.frequencyHz = 200.0F, .decayPerSecond = 400.0F, .gainPerSecond = 100.0F};
-    response.restitution = 0.5F;
-    const auto play = [&response](bool hasWeakBlow) {
-        Strikes strikes(EffectKind::impact, 48000.0);
-        strikes.strike(0.5, response);
-        std::vector<float> samples(19200, 0.0F);
-        strikes.process(std::span(samples).first(480));
-        if (hasWeakBlow) {
-            strikes.strike(0.001, response);
+class SignalTest : public ::testing::Test {
+protected:
+    static constexpr double rateHz = 48000.0;
+    static constexpr std::size_t rampSamples = 96;
+
+    static std::vector<float> play(Signal& signal, std::size_t count, std::size_t block = 64) {
+        std::vector<float> samples(count, 0.0F);
+        for (std::size_t i = 0; i < count; i += block) {
+            signal.process(std::span(samples).subspan(i, std::min(block, count - i)));
         }
-        strikes.process(std::span(samples).subspan(480));
         return samples;
-    };
-    const std::vector<float> alone = play(false);
-    const std::vector<float> both = play(true);
-    for (std::size_t i = 0; i < alone.size(); ++i) {
-        ASSERT_NEAR(both[i], alone[i], 0.11F) << i;
     }
+
+    static double sineAt(double frequencyHz, std::size_t sample, double atRateHz = rateHz) {
+        return std::sin(2.0 * std::numbers::pi * frequencyHz * static_cast<double>(sample) / atRateHz);
+    }
+};
+
+TEST_F(SignalTest, TheSignalIsTheRequestedSinusoidAfterA2MsRampAtEveryRate) {
+    for (const double rate : {8000.0, 44100.0, 48000.0, 96000.0, 192000.0}) {
+        Signal signal(rate);
+        signal.set({.frequencyHz = 200.0F, .amplitudeMps2 = 6.0F});
+        signal.begin();
+        const std::vector<float> samples = play(signal, static_cast<std::size_t>(rate), 57);
+        const auto ramp = static_cast<std::size_t>(0.002 * rate + 1e-6);
+        for (std::size_t i = 0; i < samples.size(); ++i) {
+            const double progress = std::min(1.0, static_cast<double>(i + 1) / static_cast<double>(ramp));
+            const double gain = 0.5 - 0.5 * std::cos(std::numbers::pi * progress);
+            ASSERT_NEAR(samples[i], 6.0 * gain * sineAt(200.0, i, rate), 2e-5) << rate << " Hz, sample " << i;
+        }
+    }
+}
+
+TEST_F(SignalTest, TheSignalEndsWithin2MsWithoutAStepAndIsThenIdle) {
+    Signal signal(rateHz);
+    signal.set({.frequencyHz = 200.0F, .amplitudeMps2 = 1.0F});
+    EXPECT_TRUE(signal.isIdle());
+    signal.begin();
+    std::vector<float> samples = play(signal, 1061, 61);
+    signal.end();
+    const std::vector<float> ending = play(signal, rampSamples, 32);
+    EXPECT_TRUE(signal.isIdle());
+    samples.insert(samples.end(), ending.begin(), ending.end());
+    const std::vector<float> after = play(signal, 500);
+    EXPECT_TRUE(std::ranges::all_of(after, [](float sample) { return sample == 0.0F; }));
+    samples.insert(samples.end(), after.begin(), after.end());
+    const double steepest = 2.0 * std::numbers::pi * (200.0 + 0.25 / 0.002) / rateHz;
+    EXPECT_LT(static_cast<double>(testing::largestStep(samples)), steepest);
+}
+
+TEST_F(SignalTest, ASignalThatRestartsWhileItEndsContinuesInPhase) {
+    Signal signal(rateHz);
+    signal.set({.frequencyHz = 100.0F, .amplitudeMps2 = 1.0F});
+    signal.begin();
+    (void)play(signal, 1000);
+    signal.end();
+    (void)play(signal, rampSamples / 2);
+    EXPECT_FALSE(signal.isIdle());
+    EXPECT_FALSE(signal.isOn());
+    signal.begin();
+    const std::vector<float> samples = play(signal, 2000);
+    for (std::size_t i = rampSamples; i < samples.size(); ++i) {
+        ASSERT_NEAR(samples[i], sineAt(100.0, 1000 + rampSamples / 2 + i), 1e-5) << i;
+    }
+}
+
+TEST_F(SignalTest, ChangesOfFrequencyAndAmplitudeMakeNoStep) {
+    Signal signal(rateHz);
+    std::vector<float> samples;
+    signal.begin();
+    for (int change = 0; change < 40; ++change) {
+        signal.set({.frequencyHz = change % 2 == 0 ? 500.0F : 20.0F, .amplitudeMps2 = change % 3 == 0 ? 1.0F : 0.1F});
+        const std::vector<float> part = play(signal, 700, 50);
+        samples.insert(samples.end(), part.begin(), part.end());
+    }
+    const double steepest = 2.0 * std::numbers::pi * (500.0 + 0.25 / 0.002) / rateHz + 1.0 / 480.0;
+    EXPECT_LT(static_cast<double>(testing::largestStep(samples)), steepest);
+    EXPECT_NEAR(testing::peak(samples), 1.0F, 0.05F);
+}
+
+TEST_F(SignalTest, UnsetSettingsDoNotChangeASoundingSignal) {
+    Signal signal(rateHz);
+    Signal same(rateHz);
+    for (Signal* each : {&signal, &same}) {
+        each->set({.frequencyHz = 200.0F, .amplitudeMps2 = 1.0F});
+        each->begin();
+        (void)play(*each, 300);
+    }
+    signal.set({});
+    EXPECT_EQ(play(signal, 300), play(same, 300));
+}
+
+TEST_F(SignalTest, TheAudioThreadFunctionsAllocateNothing) {
+    Signal signal(rateHz);
+    std::array<float, 64> block{};
+    const std::size_t before = haptoflow::testing::allocationCount();
+    for (int i = 0; i < 100; ++i) {
+        signal.set({.frequencyHz = 20.0F + static_cast<float>(i), .amplitudeMps2 = 1.0F});
+        if (i % 7 == 3) {
+            signal.end();
+        } else {
+            signal.begin();
+        }
+        signal.process(block);
+    }
+    signal.reset();
+    EXPECT_EQ(haptoflow::testing::allocationCount(), before);
 }
 
 }  // namespace

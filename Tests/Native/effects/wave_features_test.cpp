@@ -1,6 +1,5 @@
 #include "effects/wave_features.hpp"
 #include "effects/perceived_intensity.hpp"
-#include "effects/threshold_filter.hpp"
 
 #include "effects/feature_signals.hpp"
 #include "support/counting_new.hpp"
@@ -130,37 +129,10 @@ double medianCarrierHz(const std::vector<float>& wave, const WaveFeatureOptions&
     return static_cast<double>(frames[frames.size() / 2].frequencyHz);
 }
 
-TEST(WaveFeaturesTest, TheCentroidIsTheMeanLogarithmOfFrequencyByEnergy) {
-    const std::vector<float> wave = sumOf(featureSine(100.0, 1.0, 1.0), featureSine(200.0, 2.0, 1.0));
-    const double expected = 100.0 * std::pow(2.0, 4.0 / 5.0);
-    for (const WaveFrame& frame : steadyFrames(wave, {})) {
-        ASSERT_NEAR(static_cast<double>(frame.centroidHz), expected, 5.0);
-    }
-}
-
 TEST(WaveFeaturesTest, WhatLiesBelowTheThresholdDoesNotMoveTheCarrier) {
     const std::vector<float> felt = featureSine(80.0, 0.6, 1.0);
     const std::vector<float> below = featureSine(400.0, 0.9 * detectionThresholdMps2(400.0), 1.0);
     EXPECT_NEAR(medianCarrierHz(sumOf(felt, below)), medianCarrierHz(felt), 2.0);
-}
-
-TEST(WaveFeaturesTest, TwoTexturesOfDifferentSpectraHaveCarriersThatAHandTellsApart) {
-    const std::vector<float> bright = textureNoise(5.0, 4.0, 1);
-    std::vector<float> dull = bright;
-    for (std::size_t i = 1; i < dull.size(); ++i) {
-        dull[i] = 0.8F * dull[i - 1] + 0.2F * bright[i];
-    }
-    EXPECT_GT(medianCarrierHz(bright), 1.25 * medianCarrierHz(dull));
-}
-
-TEST(WaveFeaturesTest, ADeviceThatCoversTexturesPlaysTheirCentroidsAsTheyAre) {
-    WaveFeatureOptions options;
-    options.minFrequencyHz = 50.0;
-    for (const double frequencyHz : {55.0, 80.0, 150.0, 240.0, 390.0}) {
-        const std::vector<float> wave = featureSine(frequencyHz, 5.0, 0.5);
-        EXPECT_NEAR(medianCarrierHz(wave, options), frequencyHz, frequencyHz / 7.0);
-    }
-    EXPECT_EQ(medianCarrierHz(featureSine(450.0, 50.0, 0.5), options), 400.0);
 }
 
 TEST(WaveFeaturesTest, ANarrowDeviceKeepsTheOrderOfTextures) {
@@ -209,34 +181,6 @@ TEST(WaveFeaturesTest, ATapOnATextureArrivesInItsOwnFrameAtFullHeight) {
             EXPECT_NEAR(decibelsBetween(static_cast<double>(own.intensity), static_cast<double>(strongest->intensity)),
                         0.0, 5.0)
                 << "the texture adds or takes away at most that; " << frequencyHz << " Hz, " << start;
-        }
-    }
-}
-
-TEST(WaveFeaturesTest, ADecayingTapIsNotProlonged) {
-    for (const double decay : {60.0, 120.0}) {
-        const std::vector<float> tap = decayingSinusoidFrom(400, 150.0, 60.0, decay, 0.6);
-        WaveFeatures features;
-        for (const WaveFrame& frame : allFrames(features, tap, 28)) {
-            const double seconds = (static_cast<double>(frame.firstSample) - 400.0) / 2000.0;
-            // The frame is lengthened by up to 2 ms before its start.
-            const double envelope = 60.0 * std::exp(-decay * (seconds - 0.002));
-            if (seconds > 0.005 && envelope > 1.0) {
-                EXPECT_LT(static_cast<double>(frame.intensity), 1.1 * intensityOfSinusoid(envelope, 150.0)) << seconds;
-            }
-        }
-    }
-}
-
-TEST(WaveFeaturesTest, ATextureThatStopsIsNotFelt55MillisecondsLater) {
-    for (std::size_t end = 3000; end < 3010; ++end) {
-        std::vector<float> wave = textureNoise(5.0, 2.0, 4);
-        std::fill(wave.begin() + static_cast<std::ptrdiff_t>(end), wave.end(), 0.0F);
-        WaveFeatures features;
-        for (const WaveFrame& frame : allFrames(features, wave, 28)) {
-            if (frame.firstSample >= end + 110) {
-                ASSERT_LT(frame.intensity, 1.0F) << frame.firstSample - end;
-            }
         }
     }
 }
@@ -352,39 +296,6 @@ TEST(WaveFeaturesTest, AnOnsetIsFoundOnceAndWithinAMillisecondWhereverItFallsInA
     }
 }
 
-TEST(WaveFeaturesTest, TheFramesBeforeATapHaveNoPerceptibleIntensity) {
-    for (const double frameSeconds : {0.004, 0.005, 0.008, 0.014}) {
-        WaveFeatureOptions options;
-        options.frameSeconds = frameSeconds;
-        for (std::size_t start = 400; start < 430; ++start) {
-            WaveFeatures features(options);
-            const std::vector<float> wave = decayingSinusoidFrom(start, 150.0, 60.0, 60.0, 0.4);
-            for (const WaveFrame& frame : allFrames(features, wave, 28)) {
-                if (frame.firstSample + frame.sampleCount <= start) {
-                    ASSERT_LT(frame.intensity, 1.0F) << "sample " << frame.firstSample << ", tap at " << start;
-                }
-            }
-        }
-    }
-}
-
-TEST(WaveFeaturesTest, ATapOnATextureIsDetectedAtItsExactTime) {
-    for (const double frequencyHz : {80.0, 180.0, 300.0}) {
-        for (std::size_t start = 2000; start < 2020; ++start) {
-            std::vector<float> wave = textureNoise(4.0, 1.5, 3);
-            const std::vector<float> tap = decayingSinusoidFrom(start, frequencyHz, 80.0, 90.0, 1.5);
-            for (std::size_t i = 0; i < wave.size(); ++i) {
-                wave[i] += tap[i];
-            }
-            std::vector<double> seconds;
-            transientsOf(wave, {}, &seconds);
-            const double at = static_cast<double>(start) / 2000.0;
-            EXPECT_EQ(std::ranges::count_if(seconds, [&](double found) { return std::abs(found - at) < 0.00105; }), 1)
-                << frequencyHz << " Hz from " << start;
-        }
-    }
-}
-
 TEST(WaveFeaturesTest, OnsetsKeepTheRefractoryTimeApart) {
     std::vector<float> wave(4000, 0.0F);
     for (std::size_t start = 200; start < 3800; start += 160) {
@@ -402,13 +313,6 @@ TEST(WaveFeaturesTest, OnsetsKeepTheRefractoryTimeApart) {
     for (std::size_t i = 1; i < seconds.size(); ++i) {
         EXPECT_GE(seconds[i] - seconds[i - 1], 0.19);
     }
-}
-
-TEST(WaveFeaturesTest, SteadyVibrationHasOneOnsetAtItsStartAndNoneAfterIt) {
-    for (const double frequencyHz : {40.0, 63.0, 100.0, 160.0, 250.0, 400.0}) {
-        EXPECT_EQ(transientsOf(featureSine(frequencyHz, 5.0, 20.0)).size(), 1U) << frequencyHz;
-    }
-    EXPECT_LE(transientsOf(featureNoise(5.0, 60.0, 4)).size(), 3U) << "at most three transients in a minute of noise";
 }
 
 TEST(WaveFeaturesTest, SilenceHasNoIntensityAndKeepsTheLastFrequency) {
@@ -499,42 +403,6 @@ TEST(WaveFeaturesTest, OptionsOutOfRangeAreRejected) {
     refused([](WaveFeatureOptions& options) { options.onsetEnergyRatio = std::nan(""); });
     refused([](WaveFeatureOptions& options) { options.onsetThresholds = -1.0; });
     refused([](WaveFeatureOptions& options) { options.refractorySeconds = std::nan(""); });
-}
-
-TEST(WaveFeaturesTest, TenMinutesAtAVaryingFrameRateGiveBoundedAndCompleteFrames) {
-    WaveFeatures features;
-    std::mt19937 random(23);
-    std::uniform_real_distribution<double> unit(0.0, 1.0);
-    std::vector<WaveFrame> frames(200);
-    std::uint64_t samples = 0;
-    std::uint64_t next = 0;
-    double phase = 0.0;
-    while (samples < 1200000) {
-        // Unity frames of 5 to 30 ms with an occasional hitch of 200 ms.
-        std::vector<float> wave(random() % 200 == 0 ? 400 : 10 + random() % 50);
-        const double frequencyHz = 20.0 + 600.0 * unit(random);
-        const double amplitude = random() % 4 == 0 ? 0.0 : 300.0 * unit(random);
-        for (float& sample : wave) {
-            phase = std::fmod(phase + frequencyHz / 2000.0, 1.0);
-            sample = static_cast<float>(amplitude * std::sin(2.0 * std::numbers::pi * phase));
-            sample = random() % 10000 == 0 ? notANumber : sample;
-        }
-        if (random() % 20 == 0) {
-            features.setDeviceRange(20.0 + 200.0 * unit(random), 250.0 + 300.0 * unit(random));
-        }
-        const WaveFeatures::Progress progress = features.process(wave, frames);
-        ASSERT_EQ(progress.samples, wave.size());
-        samples += wave.size();
-        for (std::size_t i = 0; i < progress.frames; ++i) {
-            ASSERT_EQ(frames[i].firstSample, next);
-            next += frames[i].sampleCount;
-            ASSERT_TRUE(frames[i].intensity >= 0.0F && frames[i].intensity < 1e5F) << frames[i].intensity;
-            ASSERT_TRUE(frames[i].frequencyHz >= 20.0F && frames[i].frequencyHz <= 550.0F);
-            ASSERT_TRUE(std::isfinite(frames[i].amplitudeMps2));
-            ASSERT_TRUE(frames[i].transient.offsetSeconds >= 0.0F && frames[i].transient.offsetSeconds <= 0.005F);
-        }
-    }
-    EXPECT_LE(samples - next, 10 + WaveFeatures::lookaheadSamples);
 }
 
 TEST(WaveFeaturesTest, ProcessAllocatesNothing) {

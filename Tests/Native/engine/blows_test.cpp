@@ -1,5 +1,5 @@
-#include "engine/impact_responses.hpp"
 #include "engine/offline_renderer.hpp"
+#include "engine/tap_pieces.hpp"
 #include "simulated_device.hpp"
 #include "test_model.hpp"
 
@@ -138,33 +138,6 @@ TEST_F(BlowsTest, BlowsOfOneBlockKeepTheirDistance) {
     }
 }
 
-TEST_F(BlowsTest, ALandingAndALiftOffInOneBlockSound) {
-    for (const std::size_t block : blockLengths) {
-        const std::vector<float> held = play(block, {testing::lifted(0), landing(0.5F, 1)});
-        const std::vector<float> tapped = play(block, {testing::lifted(0), landing(0.5F, 1), testing::lifted(1)});
-        EXPECT_EQ(held, tapped) << block;
-        EXPECT_GT(testing::peak(tapped), 0.01F) << block;
-    }
-}
-
-TEST_F(BlowsTest, AnEdgeAndALandingInOneBlockBothSound) {
-    for (const std::size_t block : blockLengths) {
-        SimulatedDevice device(model_, tone_, {.blockFrames = block});
-        device.publish(onRibs(0));
-        device.renderBlock();
-        ContactState rim = onRibs(1);
-        rim.effects = edge | impact;
-        device.publish(rim);
-        ContactState other = rim;
-        other.landingCounter = 1;
-        other.approachSpeedMps = 0.3F;
-        device.publish(other);
-        device.renderBlock();
-        EXPECT_EQ(events(device, EffectKind::edge), 1U) << block;
-        EXPECT_EQ(events(device, EffectKind::impact), 1U) << block;
-    }
-}
-
 TEST_F(BlowsTest, OfTwoLandingsInOneBlockAPanicBetweenSilencesTheFirst) {
     for (const std::size_t block : blockLengths) {
         const auto peakOf = [&](float before, float after) {
@@ -180,41 +153,6 @@ TEST_F(BlowsTest, OfTwoLandingsInOneBlockAPanicBetweenSilencesTheFirst) {
             return testing::peak(device.output);
         };
         EXPECT_FLOAT_EQ(peakOf(2.0F, 0.1F), peakOf(0.01F, 0.1F)) << block;
-    }
-}
-
-TEST_F(BlowsTest, ALandingInTheBlockThatAPanicFadesSoundsWithTheNextBlock) {
-    for (const std::size_t block : blockLengths) {
-        SimulatedDevice device(model_, tone_, {.blockFrames = block});
-        device.publish(landing(2.0F, 1));
-        device.renderBlock();
-        device.voice().channels.panic();
-        device.publish(landing(0.3F, 2));
-        device.renderBlock();
-        EXPECT_EQ(device.output.back(), 0.0F) << block;
-        const std::size_t next = device.output.size();
-        device.renderBlock();
-        device.renderBlock();
-        EXPECT_GT(testing::peak(std::span<const float>(device.output).subspan(next)), 0.005F) << block;
-        EXPECT_EQ(events(device, EffectKind::impact), 2U) << block;
-    }
-}
-
-TEST_F(BlowsTest, ALandingInTheFrameInWhichTheRateChangesSounds) {
-    for (const double rateHz : {16000.0, 44100.0, 96000.0}) {
-        for (const bool isRib : {false, true}) {
-            SimulatedDevice device(model_, tone_);
-            const EffectKind kind = isRib ? EffectKind::edge : EffectKind::impact;
-            device.run(0.2, [&](double) { return isRib ? onRibs(0) : testing::lifted(0); });
-            device.setRate(rateHz);
-            const std::size_t begin = device.output.size();
-            const ContactState blow = isRib ? onRibs(1) : landing(0.5F, 1);
-            device.publish(blow);
-            device.renderBlock();
-            device.run(0.2, [&](double) { return blow; });
-            EXPECT_EQ(events(device, kind), 1U) << rateHz;
-            EXPECT_GT(testing::peak(std::span<const float>(device.output).subspan(begin)), 0.005F) << rateHz;
-        }
     }
 }
 
@@ -234,23 +172,6 @@ TEST_F(BlowsTest, ABlowThatWaitedTooLongForARateIsNotPlayedLater) {
     EXPECT_EQ(testing::peak(device.output), 0.0F);
 }
 
-TEST_F(BlowsTest, ManyBlowsThatWaitForARateAreNotPlayedAllAtOnce) {
-    SimulatedDevice device(model_, tone_, {.updateHz = 1000.0});
-    device.run(0.2, [](double) { return onRibs(0); });
-    device.setRate(44100.0);
-    const float full = testing::peak(play(256, {onRibs(0), onRibs(1)}));
-    const std::size_t begin = device.output.size();
-    for (std::uint32_t edges = 1; edges <= 12; ++edges) {
-        // Without the planner, which would make the output stage.
-        device.voice().publisher.publish(onRibs(edges, edges == 5 ? 0.2F : 0.1F));
-        device.renderBlock();
-    }
-    device.run(0.1, [](double) { return onRibs(12); });
-    const float peak = testing::peak(std::span<const float>(device.output).subspan(begin));
-    EXPECT_EQ(events(device, EffectKind::edge), 1U);
-    EXPECT_NEAR(peak, full, 0.05F * full) << "the strongest";
-}
-
 TEST_F(BlowsTest, OfMoreBlowsThanAreKeptTheStrongestSoundAndTheOthersAreCounted) {
     SimulatedDevice device(model_, tone_, {.blockFrames = 2048});
     constexpr std::uint32_t published = 3 * BlowList::capacity;
@@ -266,40 +187,6 @@ TEST_F(BlowsTest, OfMoreBlowsThanAreKeptTheStrongestSoundAndTheOthersAreCounted)
     }
     strongest.renderBlock();
     EXPECT_EQ(device.output, strongest.output);
-}
-
-TEST_F(BlowsTest, AfterTheCallbackHasTakenBlowsTheirRoomIsFreeAgain) {
-    SimulatedDevice device(model_, tone_, {.blockFrames = 2048});
-    std::uint32_t touch = 0;
-    for (int block = 0; block < 20; ++block) {
-        for (std::size_t blow = 0; blow < BlowList::capacity; ++blow) {
-            device.publish(landing(0.01F, ++touch));
-        }
-        device.renderBlock();
-    }
-    EXPECT_EQ(device.counters().lostBlows, 0U);
-    EXPECT_EQ(events(device, EffectKind::impact), touch);
-}
-
-TEST_F(BlowsTest, RibsKeepTheirRhythmAcrossBlocks) {
-    // Ribs every 10 ms in blocks of 21.3 ms. Once each is late by a block, their distance is constant.
-    SimulatedDevice device(model_, tone_, {.blockFrames = 1024, .updateHz = 1000.0});
-    device.run(1.0, [](double seconds) { return onRibs(static_cast<std::uint32_t>(seconds / 0.01 + 1e-6)); });
-    std::vector<std::size_t> beginnings;
-    for (std::size_t i = 4800; i + 1 < device.output.size(); ++i) {
-        // A blow bends the wave where it begins.
-        const double bend =
-            std::abs(static_cast<double>(device.output[i + 1]) - 2.0 * static_cast<double>(device.output[i]) +
-                     static_cast<double>(device.output[i - 1]));
-        if (bend > 5e-4 && (beginnings.empty() || i > beginnings.back() + 24)) {
-            beginnings.push_back(i);
-        }
-    }
-    ASSERT_GE(beginnings.size(), 80U);
-    // The first ones give up the time that the first of all gained.
-    for (std::size_t i = 10; i < beginnings.size(); ++i) {
-        EXPECT_NEAR(static_cast<double>(beginnings[i] - beginnings[i - 1]), 480.0, 50.0) << i;
-    }
 }
 
 std::atomic<double> testSeconds{0.0};
@@ -348,22 +235,6 @@ TEST_F(BlowsTest, ACallerThatDoesNotCountTouchesFeelsEachLanding) {
     }
 }
 
-TEST_F(BlowsTest, APanicSilencesALandingOfACallerThatDoesNotCountTouches) {
-    SimulatedDevice device(model_, tone_);
-    device.publish(landing(0.5F, 0));
-    device.renderBlock();
-    device.voice().channels.panic();
-    device.renderBlock();
-    const std::size_t after = device.output.size();
-    device.run(0.1, [](double) { return landing(0.5F, 0); });
-    EXPECT_EQ(testing::peak(std::span<const float>(device.output).subspan(after)), 0.0F);
-    device.publish(testing::lifted(0));
-    device.publish(landing(0.5F, 0));
-    device.renderBlock();
-    device.renderBlock();
-    EXPECT_GT(testing::peak(std::span<const float>(device.output).subspan(after)), 0.01F);
-}
-
 class BlowLoudnessTest : public BlowsTest, public ::testing::WithParamInterface<std::tuple<Scene, double>> {};
 
 TEST_P(BlowLoudnessTest, DoesNotDependOnTheBlockLengthNorOnRenderingLiveOrOffline) {
@@ -394,6 +265,33 @@ INSTANTIATE_TEST_SUITE_P(Of, BlowLoudnessTest,
                              return std::get<0>(test.param).name + "At" +
                                     std::to_string(static_cast<int>(std::get<1>(test.param))) + "Hz";
                          });
+
+TEST_F(BlowsTest, ALandingAndALiftOffInOneBlockSound) {
+    for (const std::size_t block : blockLengths) {
+        const std::vector<float> held = play(block, {testing::lifted(0), landing(0.5F, 1)});
+        const std::vector<float> tapped = play(block, {testing::lifted(0), landing(0.5F, 1), testing::lifted(1)});
+        EXPECT_EQ(held, tapped) << block;
+        EXPECT_GT(testing::peak(tapped), 0.01F) << block;
+    }
+}
+
+TEST_F(BlowsTest, ALandingInTheFrameInWhichTheRateChangesSounds) {
+    for (const double rateHz : {16000.0, 44100.0, 96000.0}) {
+        for (const bool isRib : {false, true}) {
+            SimulatedDevice device(model_, tone_);
+            const EffectKind kind = isRib ? EffectKind::edge : EffectKind::impact;
+            device.run(0.2, [&](double) { return isRib ? onRibs(0) : testing::lifted(0); });
+            device.setRate(rateHz);
+            const std::size_t begin = device.output.size();
+            const ContactState blow = isRib ? onRibs(1) : landing(0.5F, 1);
+            device.publish(blow);
+            device.renderBlock();
+            device.run(0.2, [&](double) { return blow; });
+            EXPECT_EQ(events(device, kind), 1U) << rateHz;
+            EXPECT_GT(testing::peak(std::span<const float>(device.output).subspan(begin)), 0.005F) << rateHz;
+        }
+    }
+}
 
 }  // namespace
 }  // namespace haptoflow::engine

@@ -1,4 +1,4 @@
-#include "engine/contact_follower.hpp"
+#include "engine/contact_publisher.hpp"
 
 #include <gtest/gtest.h>
 
@@ -141,16 +141,6 @@ TEST(ContactFollowerPlaceTest, AReversalAtTheSpeedOfHandwritingIsOneStroke) {
                   90)
             << speed;
     }
-}
-
-TEST(ContactFollowerPlaceTest, AnotherSurfaceOfTheSameTouchDoesNotInterruptTheStroke) {
-    ContactFollower follower;
-    ContactState state = sliding(0.1F);
-    state.hasPlace = 1;
-    EXPECT_EQ(follower.update(state, 0.0), ContactAction::onset);
-    state.surfaceSeed = 9;
-    state.placeMetres = {5.0F, 0.0F, 0.0F};
-    EXPECT_EQ(follower.update(state, 0.01), ContactAction::slide);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -11,6 +12,93 @@
 
 namespace haptoflow::engine {
 namespace {
+
+using testing::FakeGenerator;
+using testing::SimulatedDevice;
+
+ContactState touch(std::uint32_t number, std::uint32_t label = 0) {
+    ContactState state = testing::sliding();
+    state.touchCounter = number;
+    state.material.labels[0] = label;
+    return state;
+}
+
+class PanicTest : public ::testing::Test {
+protected:
+    model::ModelFile model_ = testing::smallModel();
+    FakeGenerator tone_{testing::continueTone};
+
+    static void panic(SimulatedDevice& device) { device.voice().channels.panic(); }
+    static std::span<const float> from(const SimulatedDevice& device, std::size_t frame) {
+        return std::span<const float>(device.output).subspan(frame);
+    }
+};
+
+constexpr float audible = 0.2F / 60.0F;
+
+TEST_F(PanicTest, ATouchAfterAPanicInSilenceSoundsInTheNextBlock) {
+    for (const std::uint32_t number : {0U, 1U, 7U}) {
+        SimulatedDevice device(model_, tone_);
+        device.run(0.05, [](double) { return testing::lifted(0); });
+        panic(device);
+        device.publish(touch(number));
+        const std::size_t begin = device.output.size();
+        device.renderBlock();
+        EXPECT_GT(testing::peak(from(device, begin)), audible) << "touch " << number;
+    }
+}
+
+TEST_F(PanicTest, ANewTouchInTheSameBlockSoundsAfterTheOldOneIsSilent) {
+    SimulatedDevice device(model_, tone_);
+    device.run(0.3, [](double) { return touch(1); });
+    const float ordinaryStep = testing::largestStep(device.output);
+    panic(device);
+    device.publish(touch(2, 1));
+    const std::size_t begin = device.output.size();
+    device.renderBlock();
+    EXPECT_EQ(device.output.back(), 0.0F) << "the old touch must end with its block";
+    device.renderBlock();
+    EXPECT_GT(testing::peak(from(device, begin + 256)), audible) << "the new touch must sound with the next block";
+    EXPECT_LE(testing::largestStep(from(device, begin - 1)), 3.0F * ordinaryStep);
+}
+
+TEST_F(PanicTest, TouchesWithoutACounterAreSeparatedByLiftOff) {
+    SimulatedDevice device(model_, tone_);
+    device.run(0.3, [](double) { return touch(0); });
+    panic(device);
+    device.run(0.1, [](double) { return touch(0); });
+    device.run(0.05, [](double) { return testing::lifted(0); });
+    const std::size_t begin = device.output.size();
+    device.run(0.1, [](double) { return touch(0); });
+    EXPECT_GT(testing::peak(from(device, begin)), audible);
+}
+
+TEST_F(PanicTest, ASecondPanicAlsoSilencesTheTouchBetween) {
+    SimulatedDevice device(model_, tone_);
+    device.run(0.3, [](double) { return touch(1); });
+    panic(device);
+    device.publish(touch(2));
+    panic(device);
+    const std::size_t begin = device.output.size();
+    device.run(0.2, [](double) { return touch(2); });
+    EXPECT_EQ(testing::peak(from(device, begin + 256)), 0.0F);
+    const std::size_t again = device.output.size();
+    device.run(0.1, [](double) { return touch(3); });
+    EXPECT_GT(testing::peak(from(device, again)), audible);
+}
+
+TEST_F(PanicTest, AnEmptyBlockDoesNotEndAPanic) {
+    SimulatedDevice device(model_, tone_);
+    device.run(0.3, [](double) { return touch(1); });
+    const float ordinaryStep = testing::largestStep(device.output);
+    panic(device);
+    device.voice().renderer.render({}, 48000.0);
+    const std::size_t begin = device.output.size();
+    device.renderBlock();
+    EXPECT_LE(testing::largestStep(from(device, begin - 1)), 3.0F * ordinaryStep)
+        << "the output must fade without a step";
+    EXPECT_EQ(device.output.back(), 0.0F);
+}
 
 using testing::DeviceSettings;
 using testing::FakeGenerator;
@@ -128,29 +216,6 @@ TEST_P(InterruptionTest, AStrengthSetInSilenceAppliesFromTheFirstSample) {
     EXPECT_EQ(testing::peak(std::span<const float>(device.output).subspan(end)), 0.0F);
 }
 
-TEST_P(InterruptionTest, ACeilingSetInSilenceAppliesFromTheFirstSample) {
-    SimulatedDevice device(model_, generator_, {.fullScaleMps2 = 0.01F});
-    const std::size_t end = interrupt(device);
-    device.controls().ceiling = 0.1F;
-    device.run(0.2, [this](double) { return motion().after; });
-    const float loudest = testing::peak(std::span<const float>(device.output).subspan(end));
-    EXPECT_LT(loudest, 0.1F);
-    EXPECT_GT(loudest, 0.05F);
-}
-
-TEST_P(InterruptionTest, AfterAPanicInSilenceOnlyTheNextTouchSounds) {
-    SimulatedDevice device(model_, generator_);
-    const std::size_t end = interrupt(device);
-    device.voice().channels.panic();
-    device.run(0.2, [this](double) { return motion().after; });
-    EXPECT_EQ(testing::peak(std::span<const float>(device.output).subspan(end)), 0.0F);
-    ContactState next = motion().after;
-    next.touchCounter = 2;
-    const std::size_t again = device.output.size();
-    device.run(0.2, [&next](double) { return next; });
-    EXPECT_GT(testing::peak(std::span<const float>(device.output).subspan(again)), 1e-4F);
-}
-
 TEST_P(InterruptionTest, ResumptionsAreCountedSeparatelyFromTouches) {
     SimulatedDevice device(model_, generator_);
     (void)interrupt(device);
@@ -165,17 +230,6 @@ INSTANTIATE_TEST_SUITE_P(Of, InterruptionTest,
                          ::testing::Combine(::testing::ValuesIn(interruptions()), ::testing::ValuesIn(motions())),
                          [](const auto& test) { return std::get<0>(test.param).name + std::get<1>(test.param).name; });
 
-TEST(StrengthTest, AStrengthOfZeroBeforeTheFirstTouchSilencesIt) {
-    const model::ModelFile model = testing::smallModel();
-    MotionGenerator generator;
-    SimulatedDevice device(model, generator);
-    device.renderBlock();
-    device.controls().strength = 0.0F;
-    device.publish(moving(0.3F, 2.0F));
-    device.run(0.1, [](double) { return moving(0.3F, 2.0F); });
-    EXPECT_EQ(testing::peak(device.output), 0.0F);
-}
-
 TEST(StrengthTest, AChangeOfStrengthWhileSoundingDoesNotClick) {
     const model::ModelFile model = testing::smallModel();
     FakeGenerator tone(testing::continueTone);
@@ -189,6 +243,26 @@ TEST(StrengthTest, AChangeOfStrengthWhileSoundingDoesNotClick) {
     const auto gliding = std::span<const float>(device.output).subspan(begin - 1);
     EXPECT_LE(testing::largestStep(gliding), 1.3F * ordinaryStep);
     EXPECT_EQ(testing::peak(gliding.subspan(481)), 0.0F) << "the change must end after 10 ms";
+}
+
+TEST_F(PanicTest, AFirstTouchWithCounterZeroIsSilenced) {
+    SimulatedDevice device(model_, tone_);
+    device.run(0.3, [](double) { return touch(0); });
+    ASSERT_GT(testing::peak(device.output), audible);
+    panic(device);
+    const std::size_t begin = device.output.size();
+    device.run(0.3, [](double) { return touch(0); });
+    EXPECT_EQ(testing::peak(from(device, begin + 256)), 0.0F);
+}
+
+TEST_P(InterruptionTest, ACeilingSetInSilenceAppliesFromTheFirstSample) {
+    SimulatedDevice device(model_, generator_, {.fullScaleMps2 = 0.01F});
+    const std::size_t end = interrupt(device);
+    device.controls().ceiling = 0.1F;
+    device.run(0.2, [this](double) { return motion().after; });
+    const float loudest = testing::peak(std::span<const float>(device.output).subspan(end));
+    EXPECT_LT(loudest, 0.1F);
+    EXPECT_GT(loudest, 0.05F);
 }
 
 }  // namespace

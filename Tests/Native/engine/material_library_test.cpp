@@ -56,16 +56,6 @@ TEST(MaterialLibraryTest, ARegisteredMaterialHasAnIndexAfterTheLabels) {
     EXPECT_EQ(small.ingredients({{4, 1.0F}}).heaviest().index, 0U) << "no material is registered at that index yet";
 }
 
-TEST(MaterialLibraryTest, AMaterialOfAnotherModelIsRejectedAndTakesNoIndex) {
-    SmallLibrary small;
-    const auto foreign = [&] { return materialOf(small.model, [](json& text) { text["space"] = "00000000"; }); };
-    EXPECT_THROW((void)small.library.add(foreign(), small.levels()), model::MaterialMismatch);
-    EXPECT_EQ(small.library.registeredCount(), 0U);
-    (void)small.library.add(materialOf(small.model), small.levels());
-    EXPECT_THROW(small.library.replace(2, foreign(), small.levels()), model::MaterialMismatch);
-    EXPECT_EQ(nameOf(small.library, 2), "denim");
-}
-
 TEST(MaterialLibraryTest, AFullLibraryAndInvalidIndicesAreRejected) {
     SmallLibrary small;
     for (std::size_t count = 0; count < MaterialLibrary::maximumRegistered; ++count) {
@@ -76,14 +66,6 @@ TEST(MaterialLibraryTest, AFullLibraryAndInvalidIndicesAreRejected) {
         EXPECT_THROW(small.library.replace(index, materialOf(small.model), small.levels()), std::invalid_argument);
         EXPECT_THROW((void)nameOf(small.library, index), std::invalid_argument);
     }
-}
-
-TEST(MaterialLibraryTest, AReplacedMaterialIsUsedAtTheNextLookup) {
-    SmallLibrary small;
-    (void)small.library.add(materialOf(small.model), small.levels());
-    small.library.replace(2, materialOf(small.model, [](json& text) { text["embedding"][5] = -2.0; }), small.levels());
-    EXPECT_EQ(resolveMaterial(small.ingredients({{2, 1.0F}})).embedding[5], -2.0F);
-    EXPECT_EQ(small.library.registeredCount(), 1U);
 }
 
 TEST(MaterialLibraryTest, OnlyAMaterialWithoutItsOwnLevelUsesTheLevelGraph) {
@@ -121,26 +103,6 @@ TEST(MaterialLibraryTest, ABlendsLevelIsTheMeanOfItsMaterialsInDecibels) {
     const float graph = small.ingredients({{0, 1.0F}}).levelMps2(motion);
     EXPECT_NEAR(small.ingredients({{0, 0.75F}, {2, 0.25F}}).levelMps2(motion),
                 std::pow(own, 0.25F) * std::pow(graph, 0.75F), 1e-4F);
-}
-
-TEST(MaterialLibraryTest, AMaterialWithoutSeedsUsesThoseOfTheNearestLabel) {
-    SmallLibrary small;
-    const auto without = [&](float numbers, float wave) {
-        return materialOf(small.model, [numbers, wave](json& text) {
-            text.erase("seeds");
-            text["embedding"] = std::vector<float>(60, numbers);
-            text["embedding"].insert(text["embedding"].end(), 4, wave);
-        });
-    };
-    // The embedding of "oak" has values from 0 to 0.63, that of "metal mesh" from 0.64 on.
-    (void)small.library.add(without(0.3F, 1.2F), small.levels());
-    (void)small.library.add(without(1.0F, 0.0F), small.levels());
-    (void)small.library.add(materialOf(small.model), small.levels());
-    EXPECT_EQ(small.ingredients({{2, 1.0F}}).heaviest().material->seeds.size(), 2U);
-    EXPECT_EQ(small.ingredients({{3, 1.0F}}).heaviest().material->seeds.size(), 1U);
-    const auto& own = small.ingredients({{4, 1.0F}}).heaviest().material->seeds;
-    ASSERT_EQ(own.size(), 1U);
-    EXPECT_EQ(own[0].ribPhase[0], 0.25);
 }
 
 TEST(MaterialLibraryTest, LevelsAndKernelsMatchTheGoldenFiles) {

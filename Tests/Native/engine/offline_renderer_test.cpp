@@ -1,13 +1,18 @@
+// Precision of time after a day. The simulated device uses steps of powers of two, so that its own sums stay exact.
+
 #include "engine/offline_renderer.hpp"
 
 #include "fake_generators.hpp"
-#include "inference/inference_error.hpp"
+#include "inference/load_limits.hpp"
+#include "simulated_device.hpp"
 #include "test_model.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstdlib>
 #include <functional>
 #include <limits>
 #include <numbers>
@@ -101,22 +106,6 @@ TEST(OfflineRendererTest, AStreamedRenderArrivesPerUpdateAndHasTheSameStatistics
     EXPECT_EQ(streamed.seamStatistics.jumpRatio, whole.seamStatistics.jumpRatio);
 }
 
-TEST(OfflineRendererTest, TouchesWithoutASoundAreCounted) {
-    const model::ModelFile model = testing::smallModel();
-    FakeGenerator generator(whiteNoise);
-    std::vector<TimedContactState> states = slide(0.99);
-    for (std::size_t i = 0; i < states.size(); ++i) {
-        // Three touches of 20 states with gaps of 4 states; the tip rests in the second touch.
-        const std::size_t touch = i / 24;
-        states[i].touching = i % 24 < 20;
-        states[i].touchCounter = static_cast<std::uint32_t>(touch + 1);
-        states[i].velocityMps = {touch == 1 ? 0.0F : 0.1F, 0.0F};
-    }
-    const OfflineRender render = renderOffline(model, generator, states, {});
-    EXPECT_EQ(render.touches, 3U);
-    EXPECT_EQ(render.silentTouches, 1U);
-}
-
 TEST(OfflineRendererTest, EverySegmentContinuesTheCommittedSamples) {
     const model::ModelFile model = testing::smallModel();
     FakeGenerator generator(continueTone);
@@ -144,18 +133,6 @@ TEST(OfflineRendererTest, WithoutTouchNothingIsGeneratedAndTheOutputIsZero) {
     EXPECT_EQ(generator.generated, 0);
     EXPECT_EQ(render.peak, 0.0);
     EXPECT_TRUE(render.waveformMps2.empty());
-}
-
-TEST(OfflineRendererTest, ATipAtRestOnTheSurfaceNeedsNoInference) {
-    const model::ModelFile model = testing::smallModel();
-    FakeGenerator generator(whiteNoise);
-    std::vector<TimedContactState> states = slide(1.0);
-    for (ContactState& state : states) {
-        state.velocityMps = {0.0F, 0.0F};
-    }
-    const OfflineRender render = renderOffline(model, generator, states, {});
-    EXPECT_EQ(generator.generated, 0);
-    EXPECT_EQ(render.skipped, states.size());
 }
 
 TEST(OfflineRendererTest, AfterAFailedRunTheOutputFadesAndTheFailureIsCounted) {
@@ -206,46 +183,6 @@ TEST(OfflineRendererTest, InvalidStatesAreSanitisedAndCountedAndTheOutputIsFinit
     EXPECT_TRUE(std::ranges::all_of(render.samples, [](float sample) { return std::abs(sample) < 1.0F; }));
 }
 
-class UpdateRateTest : public ::testing::TestWithParam<double> {};
-
-TEST_P(UpdateRateTest, EveryUpdateOfASlideGivesOneSegmentAndNoUnderrun) {
-    const model::ModelFile model = testing::smallModel();
-    FakeGenerator generator(continueTone);
-    const std::vector<TimedContactState> states = slide(1.0, GetParam());
-    const OfflineRender render = renderOffline(model, generator, states, {});
-    EXPECT_EQ(generator.generated, static_cast<int>(states.size()));
-    EXPECT_EQ(render.underruns, 0U);
-}
-
-INSTANTIATE_TEST_SUITE_P(Hertz, UpdateRateTest, ::testing::Values(30.0, 45.0, 72.0, 90.0, 120.0, 500.0, 1000.0),
-                         [](const auto& rate) { return std::to_string(static_cast<int>(rate.param)); });
-
-TEST(OfflineRendererTest, ANewLabelIsAudibleAfterTheLead) {
-    const model::ModelFile model = testing::smallModel();
-    // The network outputs silence until the label changes, then a constant, so that the first non-zero sample shows the
-    // change.
-    const auto answer = [&model](const inference::SegmentRequest& request, std::span<float> segment) {
-        const bool mesh = request.embedding[3] == model.embedding(1)[3];
-        std::ranges::fill(segment, mesh ? 1.0F : 0.0F);
-    };
-    std::vector<TimedContactState> states = slide(1.0);
-    for (std::size_t i = 36; i < states.size(); ++i) {
-        states[i].material.labels[0] = 1;
-    }
-    for (const double leadMs : {2.0, 8.0, 20.0}) {
-        FakeGenerator generator(answer);
-        const OfflineRender render = renderOffline(model, generator, states, {.leadMs = leadMs});
-        const auto from = static_cast<std::size_t>(states[30].timeSeconds * 48000.0);
-        const auto first = std::find_if(render.samples.begin() + static_cast<std::ptrdiff_t>(from),
-                                        render.samples.end(), [](float sample) { return sample > 1e-3F; });
-        const double audibleMs = 1000.0 * static_cast<double>(first - render.samples.begin()) / 48000.0;
-        const double changedMs = 1000.0 * states[36].timeSeconds;
-        // The tolerance covers 5 ms of reading ahead and up to 2 ms for splice and resampler.
-        EXPECT_GE(audibleMs - changedMs, leadMs);
-        EXPECT_LE(audibleMs - changedMs, leadMs + 9.0);
-    }
-}
-
 TEST(OfflineRendererTest, SettingsOutOfRangeAreRejected) {
     const model::ModelFile model = testing::smallModel();
     FakeGenerator generator(whiteNoise);
@@ -253,6 +190,101 @@ TEST(OfflineRendererTest, SettingsOutOfRangeAreRejected) {
     EXPECT_THROW((void)renderOffline(model, generator, states, {.leadMs = -1.0}), std::invalid_argument);
     EXPECT_THROW((void)renderOffline(model, generator, states, {.outputRateHz = 4000.0}), std::invalid_argument);
     EXPECT_THROW((void)renderOffline(model, generator, states, {.fullScaleMps2 = 0.0F}), std::invalid_argument);
+}
+
+using testing::FakeGenerator;
+using testing::SimulatedDevice;
+
+constexpr double daySeconds = 86'400.0;
+
+/// Time for which a voice with a reading rate of four sounds before the comparison, from
+/// HAPTOFLOW_TEST_SOUNDING_SECONDS; the soak test sets a quarter of a day.
+double soundingSeconds() {
+    const char* setting = std::getenv("HAPTOFLOW_TEST_SOUNDING_SECONDS");
+    return setting != nullptr ? std::strtod(setting, nullptr) : 60.0;
+}
+
+class LongRunTest : public ::testing::Test {
+protected:
+    static testing::DeviceSettings settings() {
+        testing::DeviceSettings settings;
+        settings.rateHz = 8192.0;
+        settings.blockFrames = 64;
+        settings.updateHz = 64.0;
+        settings.latencySeconds = [](double) { return 1.0 / 512.0; };
+        settings.fixedLeadSamples = 60;
+        return settings;
+    }
+
+    /// The output of two seconds of sliding and half a second after lift-off.
+    static std::vector<float> touch(SimulatedDevice& device, std::uint32_t counter) {
+        device.output.clear();
+        device.run(2.0, [counter](double) {
+            ContactState state = testing::sliding();
+            state.touchCounter = counter;
+            return state;
+        });
+        device.run(0.5, [counter](double) { return testing::lifted(counter); });
+        return device.output;
+    }
+
+    /// The output of a new voice.
+    std::vector<float> ofANewVoice() {
+        SimulatedDevice fresh(model_, tone_, settings());
+        std::vector<float> output = touch(fresh, 1);
+        EXPECT_GT(testing::peak(output), 0.5F / 60.0F);
+        return output;
+    }
+
+    model::ModelFile model_ = testing::smallModel();
+    FakeGenerator tone_{testing::continueTone};
+};
+
+TEST_F(LongRunTest, AVoiceWithAClockOneDayAheadSoundsLikeANewVoice) {
+    SimulatedDevice device(model_, tone_, settings());
+    // Only reading advances a voice's clock, so this sets it forward by a day and by an odd number of samples, which
+    // changes the position in the ring.
+    auto& timeline = const_cast<WaveformTimeline&>(device.voice().renderer.voice().timeline());
+    constexpr std::int64_t day = 86'400LL * 2000 + 333;
+    TimelineView view;
+    timeline.view(view);
+    view.head += day;
+    view.coveredUntil += day;
+    timeline.restore(view);
+    EXPECT_EQ(touch(device, 1), ofANewVoice());
+    EXPECT_GT(timeline.head(), day + 4000);
+    EXPECT_EQ(device.counters().underruns, 0U);
+}
+
+TEST_F(LongRunTest, AStrokeRenderedOfflineADayLaterGivesTheSameBits) {
+    const auto renderFrom = [this](double startSeconds) {
+        std::vector<TimedContactState> states;
+        for (int update = 0; update < 144; ++update) {
+            states.push_back(
+                {testing::sliding(0.1F + 0.001F * static_cast<float>(update)), startSeconds + update / 72.0});
+        }
+        FakeGenerator noise(testing::whiteNoise);
+        return renderOffline(model_, noise, states, {}).samples;
+    };
+    const std::vector<float> now = renderFrom(0.0);
+    EXPECT_GT(testing::peak(now), 0.5F / 60.0F);
+    EXPECT_EQ(renderFrom(daySeconds), now);
+}
+
+TEST_F(LongRunTest, AVoiceAfterALongTouchSoundsLikeANewVoice) {
+    SimulatedDevice device(model_, tone_, settings());
+    const auto seconds = static_cast<int>(soundingSeconds());
+    for (int second = 0; second < seconds; ++second) {
+        device.run(1.0, [](double) { return testing::sliding(19.0F); });
+        device.output.clear();
+        device.waveform.samples.clear();
+        device.waveform.seams.clear();
+    }
+    // The head advances by four times 2,000 samples a second, except at the beginning.
+    EXPECT_GT(device.voice().renderer.voice().timeline().head(), 7900LL * seconds);
+    device.run(1.0, [](double) { return testing::lifted(1); });
+    EXPECT_EQ(touch(device, 2), ofANewVoice());
+    EXPECT_EQ(device.counters().underruns, 0U);
 }
 
 }  // namespace

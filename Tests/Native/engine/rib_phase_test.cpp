@@ -163,28 +163,6 @@ TEST_F(RibPhaseTest, AtConstantSpeedTheRibsContinueTheSeedsWithoutAJump) {
     }
 }
 
-TEST_F(RibPhaseTest, PhasesAreInTheRangeFromZeroToBelowOne) {
-    SimulatedDevice device(model_, generator_);
-    device.run(3.0, [](double t) { return onLabel(0, t < 1.5 ? 0.37F : -0.29F); });
-    ASSERT_GT(phases_.size(), 100U);
-    for (const auto& phase : phases_) {
-        EXPECT_GE(std::min(phase[0], phase[1]), 0.0F);
-        EXPECT_LT(std::max(phase[0], phase[1]), 1.0F);
-    }
-}
-
-TEST_F(RibPhaseTest, RatesBelongToEmbeddingAndMotionAndAreNegativeBackwards) {
-    SimulatedDevice device(model_, generator_);
-    device.run(3.0, [](double t) { return onLabel(0, t < 1.5 ? 0.37F : -0.29F); });
-    ASSERT_GT(ratesHz_.size(), 100U);
-    for (std::size_t i = 0; i < ratesHz_.size(); ++i) {
-        EXPECT_NEAR(ratesHz_[i][0], 2000.0 * turns_[i], 1e-3);
-        EXPECT_EQ(ratesHz_[i][0] < 0.0F, speedsMps_[i] < 0.0F);
-        EXPECT_EQ(ratesHz_[i][1], 0.0F) << "the tip moves along the second family's ribs";
-        EXPECT_EQ(ratesHz_[i][2], 0.0F);
-    }
-}
-
 TEST_F(RibPhaseTest, AReversedStrokeCrossesTheSameRibsBackwards) {
     SimulatedDevice device(model_, generator_);
     device.run(1.0, slide);
@@ -198,29 +176,6 @@ TEST_F(RibPhaseTest, AReversedStrokeCrossesTheSameRibsBackwards) {
     for (std::size_t n = 5; n < 1500; ++n) {
         ASSERT_NEAR(played[turn + n], played[turn - n], 3e-3F) << n << " samples from the turn";
     }
-}
-
-TEST_F(RibPhaseTest, TheSecondWaveVectorHasItsOwnPhase) {
-    SimulatedDevice device(model_, generator_);
-    // The tip moves along y, the direction of the second wave vector: 0.4 cycles per millimetre at 0.05 m/s.
-    device.run(0.5, [](double) {
-        ContactState state = onLabel(0, 0.0F);
-        state.velocityMps = {0.0F, 0.05F};
-        return state;
-    });
-    ASSERT_GT(phases_.size(), 20U);
-    // The seed was recorded along x, so the first phase changes only until the first segment.
-    for (const auto& phase : phases_) {
-        EXPECT_NEAR(phase[0], phases_.front()[0], 1e-4F);
-    }
-    EXPECT_NEAR(phases_.front()[1], 0.125F, 1e-6F);
-    // 667 frames at 48 kHz are 27 or 28 waveform samples; blocks of 256 frames round that up or down.
-    double turns = 0.0;
-    for (std::size_t i = 1; i < phases_.size(); ++i) {
-        const double step = static_cast<double>(phases_[i][1]) - static_cast<double>(phases_[i - 1][1]);
-        turns += step - std::floor(step);
-    }
-    EXPECT_NEAR(turns / static_cast<double>(phases_.size() - 1), 0.4 * 50.0 / 72.0, 0.01);
 }
 
 TEST_F(RibPhaseTest, SpeedChangesAtEveryUpdateMakeNoPhaseJump) {
@@ -242,79 +197,6 @@ TEST_F(RibPhaseTest, SpeedChangesAtEveryUpdateMakeNoPhaseJump) {
     }
 }
 
-TEST_F(RibPhaseTest, AReplacementSegmentContinuesThePhaseBeforeTheReplacedOne) {
-    // Several states with different speeds are published during one long block, and only the last of them sounds.
-    // Beyond the range the lead is longer, so that a later state can take over earlier.
-    for (const float fastMps : {0.15F, 1.1F}) {
-        DeviceSettings settings;
-        settings.blockFrames = 4096;
-        settings.updateHz = 120.0;
-        forget();
-        SimulatedDevice device(model_, generator_, settings);
-        int update = 0;
-        device.run(3.0, [&update, fastMps](double) { return onLabel(0, ++update % 3 == 0 ? 0.05F : fastMps); });
-        const std::vector<std::int64_t>& starts = device.waveform.seams;
-        ASSERT_GT(std::ranges::count_if(std::views::iota(std::size_t{1}, starts.size()),
-                                        [&starts](std::size_t i) { return starts[i] <= starts[i - 1]; }),
-                  60);
-        expectEachPhaseToFollow(device, seedPhase, 0.01);
-    }
-}
-
-TEST_F(RibPhaseTest, ChainedSegmentsContinueThePhase) {
-    DeviceSettings settings;
-    settings.updateHz = 11.0;
-    settings.fixedLeadSamples = 60;
-    SimulatedDevice device(model_, generator_, settings);
-    device.run(3.0, [](double t) { return onLabel(0, t < 1.5 ? 0.1F : 0.06F); });
-    ASSERT_GT(device.counters().inferences, 3 * 11 + 20U)
-        << "the updates have segments and further segments chained to them";
-    expectEachPhaseToFollow(device, seedPhase, 0.01);
-    EXPECT_LT(testing::largestStep(device.waveform.samples), largestStepWithoutAJump);
-}
-
-TEST_F(RibPhaseTest, BeyondTheRangeThePhaseFollowsTheClampedMotion) {
-    // At twice the maximum speed of the range, the waveform is read faster and the network receives 0.4 m/s.
-    SimulatedDevice device(model_, generator_);
-    device.run(1.0, [](double) { return onLabel(0, 0.8F); });
-    ASSERT_GT(device.waveform.seams.size(), 10U);
-    const auto first = static_cast<std::size_t>(device.waveform.seams.front());
-    const std::span<const float> played = std::span<const float>(device.waveform.samples).subspan(first + 4);
-    const double phaseThere = seedPhase + 0.01 * static_cast<double>(first);
-    ASSERT_GT(played.size(), 1500U);
-    EXPECT_LT(largestError(played.first(1500), phaseThere + 4 * 0.04, 0.04), 5e-3);
-}
-
-TEST_F(RibPhaseTest, ALabelChangeWithinATouchMakesNoPhaseJump) {
-    SimulatedDevice device(model_, generator_);
-    device.run(3.0, [](double t) {
-        ContactState state = onLabel(t < 0.5 || t > 2.5 ? 0 : 1);
-        if (t > 1.0 && t < 2.0) {
-            const auto share = static_cast<float>(t - 1.0);
-            state.material = testing::blendOf({{0, share}, {1, 1.0F - share}});
-        }
-        return state;
-    });
-    EXPECT_EQ(device.counters().onsets, 1U);
-    expectEachPhaseToFollow(device, seedPhase, 0.01);
-    EXPECT_LT(testing::largestStep(device.waveform.samples), largestStepWithoutAJump);
-}
-
-TEST_F(RibPhaseTest, ABlendKeepsThePitchOfItsHeaviestMaterial) {
-    SimulatedDevice device(model_, generator_);
-    device.run(1.5, [](double) {
-        ContactState state = onLabel(0);
-        state.material = testing::blendOf({{0, 0.25F}, {1, 0.75F}});
-        return state;
-    });
-    const auto first = static_cast<std::size_t>(device.waveform.seams.front());
-    // The second label has the larger weight, so the seed belongs to it.
-    const double phaseThere = otherSeedPhase + 0.0175 * static_cast<double>(first);
-    const double turns = 0.0175;
-    const std::span<const float> played = std::span<const float>(device.waveform.samples).subspan(first + 4);
-    EXPECT_LT(largestError(played.first(2000), phaseThere + 4 * turns, turns), 5e-3);
-}
-
 TEST_F(RibPhaseTest, ATouchBeginsWithThePhaseOfItsSeed) {
     SimulatedDevice device(model_, generator_);
     device.run(0.3, [](double) { return onLabel(1, 0.03F); });
@@ -323,37 +205,6 @@ TEST_F(RibPhaseTest, ATouchBeginsWithThePhaseOfItsSeed) {
     EXPECT_NEAR(phases_.front()[0], expected - std::floor(expected), 1e-5);
     EXPECT_NEAR(phases_.front()[1], 0.125F, 1e-6F)
         << "the seed was recorded without motion along the second wave vector";
-}
-
-TEST_F(RibPhaseTest, AResumedTouchBeginsWithThePhaseOfItsSeed) {
-    SimulatedDevice device(model_, generator_);
-    device.run(0.537, slide);
-    device.controls().muted = true;
-    device.run(0.2, slide);
-    const std::size_t seamsBefore = device.waveform.seams.size();
-    const std::size_t begin = device.waveform.samples.size();
-    device.controls().muted = false;
-    device.run(0.5, slide);
-    ASSERT_EQ(device.counters().resumptions, 1U);
-    ASSERT_GT(device.waveform.seams.size(), seamsBefore + 10);
-    const auto resumed = std::span<const float>(device.waveform.samples).subspan(begin);
-    EXPECT_LT(largestError(resumed, seedPhase, 0.01), 2e-3);
-}
-
-TEST_F(RibPhaseTest, ASecondTouchBeginsWithThePhaseOfItsSeed) {
-    SimulatedDevice device(model_, generator_);
-    device.run(0.537, slide);
-    device.run(0.1, [](double) { return testing::lifted(); });
-    const std::size_t begin = device.waveform.samples.size();
-    const auto second = [](double) {
-        ContactState state = onLabel(1);
-        state.touchCounter = 2;
-        return state;
-    };
-    device.run(0.5, second);
-    const auto played = std::span<const float>(device.waveform.samples).subspan(begin);
-    ASSERT_GT(played.size(), 800U);
-    EXPECT_LT(largestError(played, otherSeedPhase, 0.0175), 3e-3);
 }
 
 TEST_F(RibPhaseTest, AFailedRunDoesNotAdvanceThePhase) {
@@ -368,19 +219,6 @@ TEST_F(RibPhaseTest, AFailedRunDoesNotAdvanceThePhase) {
     device.run(2.0, [](double t) { return onLabel(0, t < 1.0 ? 0.1F : 0.04F); });
     ASSERT_GT(device.counters().failures, 20U);
     EXPECT_LT(testing::largestStep(device.waveform.samples), largestStepWithoutAJump);
-}
-
-TEST_F(RibPhaseTest, SeedsWithoutAPhaseBeginAtZero) {
-    const model::ModelFile model = testing::smallModel();
-    SimulatedDevice device(model, generator_);
-    device.run(0.3, slide);
-    const auto first = static_cast<double>(device.waveform.seams.front());
-    const auto row = model.embedding(0);
-    const model::SeedEntry& seed = model.header().seeds[0];
-    const std::array<float, 3> seedMotion{static_cast<float>(seed.velocityMps[0]),
-                                          static_cast<float>(seed.velocityMps[1]), 1.0F};
-    const double expected = first * turnsPerSample(row.subspan(60, 2), seedMotion);
-    EXPECT_NEAR(phases_.front()[0], expected - std::floor(expected), 1e-4);
 }
 
 TEST_F(RibPhaseTest, LiveVoiceAndOfflineRendererHaveTheSameRibPhases) {
@@ -409,62 +247,6 @@ TEST_F(RibPhaseTest, LiveVoiceAndOfflineRendererHaveTheSameRibPhases) {
     EXPECT_LT(largest, std::numbers::sqrt2 * 2.0 * std::numbers::pi * 0.05);
     EXPECT_LT(testing::largestStep(std::span<const float>(offline.waveformMps2).first(common)),
               largestStepWithoutAJump);
-}
-
-TEST_F(RibPhaseTest, EachVoiceOfABatchHasItsOwnPhase) {
-    const auto model = std::make_shared<const model::ModelFile>(ribModel());
-    std::vector<std::vector<std::array<float, 2>>> rounds;
-    class Recording final : public inference::SegmentGenerator {
-    public:
-        explicit Recording(std::vector<std::vector<std::array<float, 2>>>& rounds) : rounds_(rounds) {}
-        void generate(std::span<const SegmentRequest> requests, std::span<float> segments) override {
-            rounds_.emplace_back();
-            for (std::size_t i = 0; i < requests.size(); ++i) {
-                rounds_.back().push_back({requests[i].phases[0], requests[i].phases[1]});
-                ribsOf(requests[i], segments.subspan(i * inference::segmentSamples, inference::segmentSamples));
-            }
-        }
-        void levels(std::span<const SegmentRequest>, std::span<float> levels) override {
-            std::ranges::fill(levels, 1.0F);
-        }
-
-    private:
-        std::vector<std::vector<std::array<float, 2>>>& rounds_;
-    };
-    EngineTiers tiers;
-    tiers.push_back(std::make_unique<Recording>(rounds));
-    LiveEngineSettings settings;
-    settings.quality.fixedTier = 0;
-    settings.hasWorker = false;
-    settings.fixedLeadMs = 8.0;
-    LiveEngine engine(model, std::move(tiers), 0, settings);
-    const std::array<std::shared_ptr<LiveVoice>, 3> voices{engine.addVoice(48000.0), engine.addVoice(48000.0),
-                                                           engine.addVoice(48000.0)};
-    const std::array<ContactState, 3> states{onLabel(0), onLabel(1), onLabel(0, 0.05F)};
-    std::array<float, 960> block{};
-    for (int update = 0; update < 20; ++update) {
-        for (std::size_t i = 0; i < voices.size(); ++i) {
-            engine.publish(*voices[i], states[i]);
-            voices[i]->renderer.render({}, 48000.0);
-        }
-        (void)engine.step();
-        for (const auto& voice : voices) {
-            voice->renderer.render(block, 48000.0);
-        }
-    }
-    ASSERT_EQ(rounds.size(), 20U);
-    // A hop has 40 samples.
-    const std::array<double, 3> hopTurns{0.4, 0.7, 0.2};
-    for (std::size_t round = 2; round < rounds.size(); ++round) {
-        ASSERT_EQ(rounds[round].size(), 3U);
-        for (std::size_t i = 0; i < voices.size(); ++i) {
-            const double step = static_cast<double>(rounds[round][i][0]) - static_cast<double>(rounds[round - 1][i][0]);
-            EXPECT_NEAR(step - std::floor(step), hopTurns[i], 1e-4) << "voice " << i << ", round " << round;
-        }
-    }
-    for (const auto& voice : voices) {
-        engine.removeVoice(*voice);
-    }
 }
 
 }  // namespace

@@ -108,17 +108,6 @@ TEST_F(SignalVoiceTest, ASignalReplacesTextureImpactEdgeAndToneWithoutInference)
     EXPECT_GT(of(EffectKind::signal).samples, 7U * 4800U / 2U);
 }
 
-TEST_F(SignalVoiceTest, WithoutASignalNoSampleChangesAndNothingIsCounted) {
-    SimulatedDevice plain(model_, generator_);
-    const auto hand = [](double seconds) { return seconds < 0.4 ? sliding() : lifted(); };
-    plain.run(0.6, hand);
-    setSignal({.frequencyHz = 200.0F, .amplitudeMps2 = 0.0F});
-    device_.run(0.6, hand);
-    EXPECT_EQ(plain.output, device_.output);
-    EXPECT_EQ(of(EffectKind::signal).prepared + of(EffectKind::signal).runs, 0U);
-    EXPECT_EQ(device_.counters().signalStarts.count, 0U);
-}
-
 TEST_F(SignalVoiceTest, TheSignalBeginsAndEndsWithin2MsOfItsBlockWithoutAStep) {
     setSignal(tone200);
     device_.publish(lifted(0));
@@ -135,29 +124,6 @@ TEST_F(SignalVoiceTest, TheSignalBeginsAndEndsWithin2MsOfItsBlockWithoutAStep) {
     EXPECT_GT(testing::peak(ended.first(40)), 0.0F);
     EXPECT_EQ(testing::peak(ended.subspan(96)), 0.0F);
     const double steepest = 0.1 * 2.0 * std::numbers::pi * (200.0 + 0.25 / 0.002) / 48000.0;
-    EXPECT_LT(static_cast<double>(testing::largestStep(device_.output)), steepest);
-}
-
-TEST_F(SignalVoiceTest, ASignalReplacesASoundingTextureWithoutAStep) {
-    play(0.3, sliding());
-    const std::uint64_t onsets = device_.counters().onsets;
-    setSignal(tone200);
-    device_.renderBlock();
-    play(0.3, sliding());
-    EXPECT_TRUE(isTone(played(0.02), 200.0, 6.0 / fullScaleMps2));
-    const std::uint64_t inferences = device_.counters().inferences;
-    play(0.3, sliding());
-    EXPECT_EQ(device_.counters().inferences, inferences);
-    setSignal({});
-    device_.renderBlock();
-    play(0.3, sliding());
-    EXPECT_GT(device_.counters().inferences, inferences);
-    EXPECT_EQ(device_.counters().onsets, onsets + 1);
-    EXPECT_TRUE(isTone(played(0.1), testing::toneHz, 1.0 / 60.0) || testing::peak(played(0.1)) > 0.01F);
-    EXPECT_EQ(device_.counters().signalStarts.count + device_.counters().signalStops.count, 0U)
-        << "no contact state switched the signal";
-    const double steepest = 0.1 * 2.0 * std::numbers::pi * (200.0 + 0.25 / 0.002) / 48000.0 +
-                            haptoflow::testing::steepestStep(48000.0) / 60.0;
     EXPECT_LT(static_cast<double>(testing::largestStep(device_.output)), steepest);
 }
 
@@ -199,29 +165,6 @@ TEST_F(SignalVoiceTest, MutePausePanicAndMissingStatesInterruptTheSignal) {
     EXPECT_EQ(device_.counters().signalStops.count, 0U);
 }
 
-TEST_F(SignalVoiceTest, AnImpactAfterAMuteHasItsFullAttack) {
-    SimulatedDevice fresh(model_, generator_);
-    fresh.publish(lifted(0));
-    fresh.renderBlock();
-    setSignal(tone200);
-    play(0.1, sliding());
-    device_.controls().muted = true;
-    play(0.05, sliding());
-    device_.controls().muted = false;
-    setSignal({});
-    play(0.05, lifted());
-    ContactState landing = everything(0.0F, 2);
-    const std::size_t before = device_.output.size();
-    const std::size_t beforeFresh = fresh.output.size();
-    device_.publish(landing);
-    device_.renderBlock();
-    fresh.publish(landing);
-    fresh.renderBlock();
-    EXPECT_TRUE(
-        std::ranges::equal(std::span(device_.output).subspan(before), std::span(fresh.output).subspan(beforeFresh)));
-    EXPECT_GT(testing::peak(std::span<const float>(device_.output).subspan(before)), 0.0F);
-}
-
 TEST_F(SignalVoiceTest, TheLatencyIsMeasuredFromTheStateToTheBlockOfTheChange) {
     setSignal(tone200);
     nowSeconds = 100.0;
@@ -257,61 +200,6 @@ TEST_F(SignalVoiceTest, TheLatencyIsMeasuredFromTheStateToTheBlockOfTheChange) {
     device_.renderBlock();
     EXPECT_EQ(starts.count, 2U);
     EXPECT_EQ(stops.count, 1U);
-}
-
-TEST_F(SignalVoiceTest, ADelayAddsToTheLatencyAndToTheOutput) {
-    device_.controls().delaySeconds = 0.05;
-    device_.voice().channels.changeProcessors([](ProcessorSettings& settings) { return settings.hasDelay = true; });
-    setSignal(tone200);
-    play(0.1, lifted(0));
-    const std::size_t start = device_.output.size();
-    nowSeconds = 1.0;
-    device_.publish(sliding(0.15F));
-    nowSeconds = 1.003;
-    for (int block = 0; block < 15; ++block) {
-        device_.renderBlock();
-    }
-    EXPECT_NEAR(device_.counters().signalStarts.lastSeconds, 0.053, 1e-9);
-    const std::span<const float> output = std::span<const float>(device_.output).subspan(start);
-    EXPECT_EQ(testing::peak(output.first(2400)), 0.0F);
-    EXPECT_GT(testing::peak(output.subspan(2400, 40)), 0.0F);
-    EXPECT_TRUE(isTone(output.subspan(2400 + 96), 200.0, 6.0 / fullScaleMps2));
-    nowSeconds = 2.0;
-    device_.publish(lifted());
-    const std::size_t end = device_.output.size();
-    for (int block = 0; block < 15; ++block) {
-        device_.renderBlock();
-    }
-    const std::span<const float> ended = std::span<const float>(device_.output).subspan(end);
-    EXPECT_TRUE(isTone(ended.first(2400), 200.0, 6.0 / fullScaleMps2));
-    EXPECT_EQ(testing::peak(ended.subspan(2400 + 96)), 0.0F);
-    EXPECT_NEAR(device_.counters().signalStops.lastSeconds, 0.05, 1e-9);
-}
-
-TEST_F(SignalVoiceTest, TheSignalIsTheSameAfterARateChange) {
-    setSignal(tone200);
-    play(0.1, sliding());
-    device_.setRate(96000.0);
-    begin_ = device_.output.size();
-    device_.run(0.5, [](double) { return sliding(); });
-    const std::span<const float> later = std::span<const float>(device_.output).last(9600);
-    std::size_t crossings = 0;
-    for (std::size_t i = 1; i < later.size(); ++i) {
-        crossings += later[i - 1] <= 0.0F && later[i] > 0.0F ? 1U : 0U;
-    }
-    EXPECT_EQ(crossings, 20U);
-    EXPECT_NEAR(testing::peak(later), 0.1F, 1e-4F);
-}
-
-TEST_F(SignalVoiceTest, StrengthAndCeilingApplyToTheSignal) {
-    setSignal({.frequencyHz = 100.0F, .amplitudeMps2 = 60.0F});
-    device_.controls().strength = 0.25F;
-    play(0.2, sliding());
-    EXPECT_NEAR(testing::peak(played(0.05)), 0.25F, 1e-4F);
-    device_.controls().strength = 1.0F;
-    device_.controls().ceiling = 0.5F;
-    play(0.2, sliding());
-    EXPECT_LE(testing::peak(played(0.05)), 0.5F);
 }
 
 }  // namespace

@@ -81,18 +81,6 @@ TEST_F(SilenceTest, AStrengthOrACeilingOfZeroIsAReason) {
     }
 }
 
-TEST_F(SilenceTest, AnImpactAtStrengthZeroIsSilentForThatReason) {
-    SimulatedDevice device(model_, tone_);
-    device.controls().strength = 0.0F;
-    ContactState landing = testing::sliding(0.0F);
-    landing.approachSpeedMps = 1.0F;
-    landing.effects = effects::maskOf(effects::EffectKind::impact);
-    device.publish(landing);
-    device.renderBlock();
-    EXPECT_EQ(reason(device), Silence::turnedDown);
-    EXPECT_EQ(testing::peak(device.output), 0.0F);
-}
-
 TEST_F(SilenceTest, OfSeveralReasonsTheMostPersistentIsReported) {
     SimulatedDevice device(model_, tone_);
     device.run(0.2, slide);
@@ -118,31 +106,6 @@ TEST_F(SilenceTest, OfSeveralReasonsTheMostPersistentIsReported) {
     EXPECT_EQ(next([] {}), Silence::panic);
 }
 
-TEST_F(SilenceTest, AnyCombinationOfControlsIsBoundedAndSilentIfAReasonHolds) {
-    SimulatedDevice device(model_, tone_);
-    device.run(0.2, slide);
-    std::uint32_t number = 1;
-    for (unsigned mixture = 0; mixture < 64; ++mixture) {
-        device.controls().muted = (mixture & 1U) != 0;
-        device.controls().paused = (mixture & 2U) != 0;
-        device.workerAlive = (mixture & 4U) == 0;
-        device.setRate((mixture & 8U) != 0 ? 96000.0 : 48000.0);
-        if ((mixture & 16U) != 0) {
-            device.voice().channels.panic();
-        }
-        // A new touch on another label with a jump of pose begins in the same block.
-        number += (mixture & 32U) != 0 ? 1 : 0;
-        ContactState state = testing::sliding((mixture & 32U) != 0 ? -19.0F : 0.1F, 2.0F);
-        state.touchCounter = number;
-        state.material.labels[0] = mixture % 2;
-        device.publish(state);
-        device.run(0.06, [&state](double) { return state; });
-        const auto last = std::span<const float>(device.output).last(480);
-        EXPECT_LE(testing::peak(last), 1.0F) << mixture;
-        EXPECT_EQ(reason(device) == Silence::none, testing::peak(last) > 0.0F) << mixture;
-    }
-}
-
 TEST_F(SilenceTest, AnUnsupportedRateIsCountedAndDoesNotWakeTheWorker) {
     for (const double impossible : {0.0, 1.0, -5.0, 7999.0, 192001.0, 1e9, std::numeric_limits<double>::quiet_NaN(),
                                     std::numeric_limits<double>::infinity()}) {
@@ -160,31 +123,6 @@ TEST_F(SilenceTest, AnUnsupportedRateIsCountedAndDoesNotWakeTheWorker) {
         device.run(0.1, slide);
         EXPECT_EQ(reason(device), Silence::none) << "back at a supported rate";
         EXPECT_TRUE(device.voice().channels.isRateSupported);
-    }
-}
-
-TEST_F(SilenceTest, ATapAtAnUnsupportedRateIsNotPlayedLater) {
-    SimulatedDevice device(model_, tone_);
-    device.run(0.05, [](double) { return testing::lifted(0); });
-    device.setRate(1.0e6);
-    device.publish(testing::sliding());
-    device.publish(testing::lifted(1));
-    device.run(0.05, [](double) { return testing::lifted(1); });
-    device.setRate(48000.0);
-    device.run(0.1, [](double) { return testing::lifted(1); });
-    EXPECT_EQ(testing::peak(device.output), 0.0F) << "the tap is not played later";
-    EXPECT_EQ(device.counters().taps, 0U);
-    const std::size_t next = device.output.size();
-    ContactState touch = testing::sliding();
-    touch.touchCounter = 2;
-    device.run(0.05, [&touch](double) { return touch; });
-    EXPECT_GT(testing::peak(std::span<const float>(device.output).subspan(next)), 0.2F / 60.0F);
-}
-
-TEST_F(SilenceTest, CreatingAVoiceForAnUnsupportedRateIsRejected) {
-    FakeGenerator tone(testing::continueTone);
-    for (const double impossible : {0.0, 7999.0, 192001.0, std::numeric_limits<double>::quiet_NaN()}) {
-        EXPECT_THROW(SimulatedDevice(model_, tone, {.rateHz = impossible}), std::invalid_argument) << impossible;
     }
 }
 
@@ -208,14 +146,6 @@ TEST_F(SilenceTest, ATapInTheFirstPublishedStateSounds) {
     device.renderBlock();
     EXPECT_GT(testing::peak(device.output), 0.2F / 60.0F);
     EXPECT_EQ(device.counters().taps, 1U);
-}
-
-TEST_F(SilenceTest, AFirstStateWithOnlyEarlierTouchesIsSilent) {
-    SimulatedDevice device(model_, tone_);
-    device.publish(testing::lifted(9));
-    device.renderBlock();
-    EXPECT_EQ(testing::peak(device.output), 0.0F);
-    EXPECT_EQ(device.counters().taps, 0U);
 }
 
 TEST_F(SilenceTest, CrossingTheEdgeOfTheRangeDoesNotClick) {

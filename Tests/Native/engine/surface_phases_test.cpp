@@ -1,6 +1,5 @@
 #include "engine/surface_phases.hpp"
 
-#include "engine/surface_wander.hpp"
 #include "model/model_file.hpp"
 #include "small_library.hpp"
 
@@ -166,15 +165,6 @@ TEST_F(WaveStatisticsTest, ALabelBringsItsOwnWanderAndSlips) {
     EXPECT_EQ(statistics.slip.lengthMetres, 0.0);
     EXPECT_NEAR(statistics.ribs[0].turns, 0.12, 1e-9);
     EXPECT_EQ(statistics.ribs[1].turns, 0.0);
-}
-
-TEST_F(WaveStatisticsTest, RibsKeepTheirWanderInABlendAndInAnotherSlot) {
-    const Ingredients blend = library_.ingredients({{0, 0.8F}, {1, 0.2F}});
-    const WaveVectors own = waveVectorsOf(blend.entries[1].material->embedding);
-    const WaveStatistics statistics = waveStatisticsOf(blend, {own[1], own[0]});
-    EXPECT_NEAR(statistics.slip.lengthMetres, 0.0011, 1e-9);
-    EXPECT_EQ(statistics.ribs[0].turns, 0.0);
-    EXPECT_NEAR(statistics.ribs[1].turns, 0.12, 1e-9);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "engine/impact_responses.hpp"
+#include "engine/tap_pieces.hpp"
 #include "simulated_device.hpp"
 #include "test_model.hpp"
 
@@ -65,32 +65,6 @@ TEST_F(VoiceEffectsTest, AnImpactAtRestSoundsWithoutInference) {
     EXPECT_EQ(device.counters().onsets, 0U);
 }
 
-TEST_F(VoiceEffectsTest, AnImpactStartsWithTheNextBlockWithoutARamp) {
-    SimulatedDevice device(model_, tone_);
-    device.publish(landing(0.3F, impact));
-    device.renderBlock();
-    const auto firstRise = static_cast<double>(device.output[1]) * 60.0;
-    const effects::ImpactResponse response = impactResponse(model_.header().labels[0]);
-    double expected = 0.0;
-    for (const effects::ImpactResponse::Mode& mode : response.modes) {
-        const double turn = 2.0 * 3.14159265358979 * static_cast<double>(mode.frequencyHz) / 48000.0;
-        expected += 0.3 * static_cast<double>(mode.gainPerSecond) * std::sin(turn);
-    }
-    EXPECT_NEAR(firstRise, expected, 0.02);
-}
-
-TEST_F(VoiceEffectsTest, ATapBetweenTwoStatesGivesOneImpact) {
-    SimulatedDevice device(model_, tone_);
-    device.run(0.05, [](double) { return testing::lifted(0); });
-    ContactState gone = landing(0.4F, texture | impact, 1);
-    gone.touching = false;
-    const std::size_t begin = device.output.size();
-    device.run(1.0, [&gone](double) { return gone; });
-    EXPECT_EQ(of(device, EffectKind::impact).events, 1U);
-    EXPECT_GT(testing::peak(from(device, begin)), 0.05F);
-    EXPECT_LT(testing::peak(from(device, begin + 40000)), silence);
-}
-
 TEST_F(VoiceEffectsTest, EffectsThatASurfaceLacksNeverRun) {
     SimulatedDevice device(model_, tone_);
     int update = 0;
@@ -105,17 +79,6 @@ TEST_F(VoiceEffectsTest, EffectsThatASurfaceLacksNeverRun) {
         EXPECT_EQ(counters.prepared + counters.runs + counters.samples + counters.nanoseconds + counters.events, 0U);
     }
     EXPECT_GT(device.counters().inferences, 10U);
-}
-
-TEST_F(VoiceEffectsTest, ASurfaceWithoutTextureNeedsNoInference) {
-    SimulatedDevice device(model_, tone_);
-    device.run(0.5, [](double) {
-        ContactState state = testing::sliding(0.4F);
-        state.effects = impact | edge;
-        return state;
-    });
-    EXPECT_EQ(device.counters().inferences, 0U);
-    EXPECT_EQ(testing::peak(device.output), 0.0F);
 }
 
 TEST_F(VoiceEffectsTest, ATextureCanBeSwitchedOffAndOnWhileSliding) {
@@ -177,51 +140,6 @@ TEST_F(VoiceEffectsTest, APanicSilencesAnImpactAndTheNextTouchSounds) {
     device.publish(landing(0.5F, impact, 2));
     renderBlocks(device, 2);
     EXPECT_GT(testing::peak(from(device, after)), 0.01F);
-}
-
-TEST_F(VoiceEffectsTest, AnImpactSilencedByAPanicIsNotPlayedLater) {
-    SimulatedDevice device(model_, tone_);
-    device.publish(landing(0.5F, impact, 1));
-    device.voice().channels.panic();
-    renderBlocks(device, 10);
-    EXPECT_EQ(testing::peak(device.output), 0.0F);
-}
-
-TEST_F(VoiceEffectsTest, MutePauseAndStalenessSilenceAnImpactWithinFiveMilliseconds) {
-    for (const int reason : {0, 1, 2}) {
-        SimulatedDevice device(model_, tone_);
-        device.publish(landing(2.0F, impact));
-        renderBlocks(device, 2);
-        device.controls().muted = reason == 0;
-        device.controls().paused = reason == 1;
-        if (reason == 2) {
-            // 100 ms without a state; the impact would sound longer.
-            renderBlocks(device, 19);
-        }
-        const std::size_t begin = device.output.size();
-        renderBlocks(device, 3);
-        EXPECT_EQ(testing::peak(from(device, begin + 256)), 0.0F) << reason;
-        device.controls().muted = false;
-        device.controls().paused = false;
-        const std::size_t later = device.output.size();
-        device.publish(landing(2.0F, impact));
-        renderBlocks(device, 20);
-        EXPECT_EQ(testing::peak(from(device, later)), 0.0F) << reason;
-        EXPECT_LT(testing::largestStep(device.output), 0.3F) << reason;
-    }
-}
-
-TEST_F(VoiceEffectsTest, ARateChangeFadesAnImpactAndTheNextOneSounds) {
-    SimulatedDevice device(model_, tone_);
-    std::uint32_t touch = 1;
-    device.run(0.02, [&touch](double) { return landing(0.5F, impact, touch); });
-    device.setRate(24000.0);
-    device.run(0.1, [&touch](double) { return landing(0.5F, impact, touch); });
-    touch = 2;
-    const std::size_t begin = device.output.size();
-    device.run(0.1, [&touch](double) { return landing(0.5F, impact, touch); });
-    EXPECT_GT(testing::peak(from(device, begin)), 0.01F);
-    EXPECT_EQ(of(device, EffectKind::impact).events, 2U);
 }
 
 /// A state that alternates between two labels every 100 ms.
@@ -313,37 +231,6 @@ TEST_F(VoiceEffectsTest, ALandingWithinATouchGivesAnImpactAndTheTextureContinues
     EXPECT_EQ(device.counters().onsets, 1U);
 }
 
-TEST_F(VoiceEffectsTest, ATouchDownWithALandingCounterGivesOneImpact) {
-    SimulatedDevice device(model_, tone_);
-    device.run(0.1, [](double) { return testing::lifted(0); });
-    ContactState state = landing(0.3F, impact);
-    state.landingCounter = 4;
-    device.run(0.3, [&state](double) { return state; });
-    EXPECT_EQ(of(device, EffectKind::impact).events, 1U);
-}
-
-TEST_F(VoiceEffectsTest, SlidingOffARimGivesAnEdgeAtTheLastSpeed) {
-    const auto peakAt = [this](float speedMps, std::uint32_t edgesAfter) {
-        SimulatedDevice device(model_, tone_);
-        device.run(0.2, [speedMps](double) {
-            ContactState state = testing::sliding(speedMps);
-            state.effects = edge;
-            return state;
-        });
-        const std::size_t off = device.output.size();
-        device.run(0.3, [edgesAfter](double) {
-            ContactState state = testing::lifted(1);
-            state.edgeCounter = edgesAfter;
-            state.edgeHeightMetres = 0.001F;
-            return state;
-        });
-        return static_cast<double>(testing::peak(from(device, off)));
-    };
-    EXPECT_GT(peakAt(0.2F, 1), 0.0);
-    EXPECT_NEAR(peakAt(0.4F, 1) / peakAt(0.2F, 1), 2.0, 0.05);
-    EXPECT_EQ(peakAt(0.2F, 0), 0.0);
-}
-
 TEST_F(VoiceEffectsTest, OnARoundedRimTheEdgeUsesTheSpeedBeforeIt) {
     // On the rim, the normal points along the motion for a few states, so the speed along the surface is zero.
     const auto peakAt = [this](float speedMps, bool leaves) {
@@ -376,66 +263,11 @@ TEST_F(VoiceEffectsTest, OnARoundedRimTheEdgeUsesTheSpeedBeforeIt) {
     }
 }
 
-TEST_F(VoiceEffectsTest, AnApproachSpeedOfNaNGivesNoImpact) {
-    SimulatedDevice device(model_, tone_);
-    std::uint32_t touch = 0;
-    for (const float speed : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), -1.0F}) {
-        device.publish(landing(speed, impact, ++touch));
-        renderBlocks(device, 3);
-    }
-    EXPECT_EQ(testing::peak(device.output), 0.0F);
-    EXPECT_GE(device.counters().sanitised, 2U);
-}
-
-TEST_F(VoiceEffectsTest, TenMinutesOfBlowsAndInterruptionsStayBoundedAndEndInSilence) {
-    std::mt19937 random(7);
-    SimulatedDevice device(model_, tone_);
-    std::uint32_t touch = 1;
-    std::uint32_t edges = 0;
-    bool touching = true;
-    double peak = 0.0;
-    for (int second = 0; second < 600; ++second) {
-        device.run(1.0, [&](double) {
-            const auto draw = static_cast<std::uint32_t>(random());
-            touching = draw % 16 != 0 ? touching : !touching;
-            touch += draw % 23 == 0 ? 1 : 0;
-            edges += draw % 31 == 0 ? 1 : 0;
-            ContactState state = testing::sliding(static_cast<float>(draw % 100) * 0.01F);
-            state.touching = touching;
-            state.touchCounter = touch;
-            state.effects = (draw >> 8) % 8;
-            state.approachSpeedMps = static_cast<float>((draw >> 12) % 300) * 0.01F;
-            state.material.labels[0] = (draw >> 20) % 3;
-            state.edgeCounter = edges;
-            state.edgeHeightMetres = static_cast<float>((draw >> 22) % 100) * 0.001F;
-            device.controls().muted = draw % 97 == 0;
-            if (draw % 211 == 0) {
-                device.voice().channels.panic();
-            }
-            return state;
-        });
-        for (const float sample : device.output) {
-            ASSERT_TRUE(std::isfinite(sample));
-        }
-        peak = std::max(peak, static_cast<double>(testing::peak(device.output)));
-        device.output.clear();
-    }
-    EXPECT_LE(peak, 1.0);
-    EXPECT_GT(of(device, EffectKind::impact).events, 100U);
-    EXPECT_GT(of(device, EffectKind::edge).events, 100U);
-    device.controls().muted = false;
-    device.run(2.0, [&](double) { return testing::lifted(touch); });
-    device.output.clear();
-    device.run(0.1, [&](double) { return testing::lifted(touch); });
-    EXPECT_EQ(testing::peak(device.output), 0.0F);
-}
-
 /// Inverts the signal and counts its instances.
 class Inverter final : public effects::Effect {
 public:
     explicit Inverter(int& alive, float gain = -1.0F) : alive_(alive), gain_(gain) { ++alive_; }
     ~Inverter() override { --alive_; }
-    [[nodiscard]] effects::EffectDeclaration declaration() const noexcept override { return {}; }
     void process(std::span<float> samples) noexcept override {
         std::ranges::transform(samples, samples.begin(), [this](float sample) { return gain_ * sample; });
     }
@@ -487,18 +319,6 @@ TEST_F(ProcessorsTest, ProcessorsAreSwitchedOnAndOffWithoutAClick) {
     EXPECT_EQ(of(device, EffectKind::compensation).runs, runs) << "a processor that is switched off must not run";
 }
 
-TEST_F(ProcessorsTest, AtRestProcessorsAreTakenAtOnceAndDoNotRun) {
-    SimulatedDevice device(model_, tone_);
-    for (int offered = 0; offered < 5; ++offered) {
-        offer(device, -1.0F);
-        renderBlocks(device, 3);
-        collect(device);
-    }
-    EXPECT_EQ(alive_, 1);
-    EXPECT_EQ(of(device, EffectKind::compensation).runs, 0U);
-    EXPECT_EQ(testing::peak(device.output), 0.0F);
-}
-
 /// Changes the processors like LiveEngine::changeProcessors.
 void ask(SimulatedDevice& device, const std::function<void(ProcessorSettings&)>& change) {
     VoiceChannels& channels = device.voice().channels;
@@ -528,25 +348,6 @@ TEST_F(ProcessorsTest, ADelayDelaysAnImpactByExactSamples) {
     }
 }
 
-TEST_F(ProcessorsTest, LiftOffActsBeforeTheDelayAndPanicAfterIt) {
-    SimulatedDevice device(model_, tone_);
-    device.controls().delaySeconds = 0.2;
-    ask(device, [](ProcessorSettings& settings) { settings.hasDelay = true; });
-    device.run(0.6, [](double) { return testing::sliding(); });
-    const std::size_t lifted = device.output.size();
-    device.run(0.3, [](double) { return testing::lifted(1); });
-    EXPECT_GT(testing::peak(from(device, lifted + 9000)), 0.5F / 60.0F) << "the delayed texture must still sound";
-    EXPECT_LT(testing::peak(from(device, lifted + 9600 + 240 + 512)), silence);
-    ContactState again = testing::sliding();
-    again.touchCounter = 2;
-    device.run(0.4, [&again](double) { return again; });
-    device.voice().channels.panic();
-    device.renderBlock();
-    const std::size_t panicked = device.output.size();
-    device.run(0.4, [&again](double) { return again; });
-    EXPECT_EQ(testing::peak(from(device, panicked)), 0.0F);
-}
-
 TEST_F(ProcessorsTest, ProcessorChangesAtAnyTimeDoNotClick) {
     std::mt19937 random(11);
     SimulatedDevice device(model_, tone_);
@@ -569,86 +370,6 @@ TEST_F(ProcessorsTest, ProcessorChangesAtAnyTimeDoNotClick) {
     for (const EffectKind kind : {EffectKind::delay, EffectKind::compensation, EffectKind::exposureGuard}) {
         EXPECT_GT(of(device, kind).prepared, 20U);
         EXPECT_GT(of(device, kind).runs, 100U);
-    }
-}
-
-TEST_F(ProcessorsTest, ListenSwitchedWhileATextureSoundsFadesWithoutAClick) {
-    SimulatedDevice device(model_, tone_);
-    const auto slide = [](double) { return testing::sliding(); };
-    const auto isOn = [](bool on) {
-        return [on](ProcessorSettings& settings) { settings.listenFullScaleMps2 = on ? 60.0 : 0.0; };
-    };
-    device.run(0.5, slide);
-    const float quiet = testing::peak(from(device, device.output.size() - 4800));
-    EXPECT_EQ(of(device, EffectKind::listen).prepared + of(device, EffectKind::listen).runs, 0U);
-    ask(device, isOn(true));
-    device.run(0.5, slide);
-    const auto settled = from(device, device.output.size() - 4800);
-    const float loud = testing::peak(settled);
-    const float tone = testing::largestStep(settled);
-    EXPECT_GT(loud, 2.0F * quiet);
-    EXPECT_LT(loud, 1.0F);
-    std::mt19937 random(12);
-    for (int change = 0; change < 200; ++change) {
-        ask(device, isOn(change % 2 == 1));
-        device.run(0.003 * static_cast<double>(random() % 20), slide);
-    }
-    EXPECT_LT(testing::largestStep(device.output), 1.5F * tone);
-    ask(device, isOn(false));
-    device.run(0.1, slide);
-    const std::uint64_t runs = of(device, EffectKind::listen).runs;
-    device.run(0.3, slide);
-    EXPECT_EQ(of(device, EffectKind::listen).runs, runs) << "Listen that is switched off must not run";
-    EXPECT_NEAR(testing::peak(from(device, device.output.size() - 4800)), quiet, 0.05F * quiet);
-}
-
-TEST_F(ProcessorsTest, TheDelaysSignalSurvivesAChangeOfOtherProcessors) {
-    SimulatedDevice device(model_, tone_);
-    const auto profile =
-        std::make_shared<const effects::ActuatorProfile>(*effects::ActuatorProfile::builtIn("voice-coil"));
-    device.controls().delaySeconds = 0.2;
-    ask(device, [](ProcessorSettings& settings) { settings.hasDelay = true; });
-    const auto slide = [](double) { return testing::sliding(); };
-    device.run(0.5, slide);
-    for (const bool isCompensated : {true, false}) {
-        ask(device, [&](ProcessorSettings& settings) { settings.actuator = isCompensated ? profile : nullptr; });
-        const std::size_t changed = device.output.size();
-        device.run(0.19, slide);
-        for (std::size_t window = changed; window + 480 < device.output.size(); window += 480) {
-            const std::span<const float> output(device.output.data() + window, 480);
-            EXPECT_GT(testing::peak(output), 0.05F / 60.0F) << isCompensated << ", " << window - changed;
-        }
-    }
-}
-
-TEST_F(ProcessorsTest, AStrengthActsOnADelayedSoundWithinItsRampAndWithoutAClick) {
-    for (const bool isCompensated : {false, true}) {
-        for (const float strength : {0.0F, 0.1F}) {
-            SimulatedDevice device(model_, tone_);
-            device.controls().delaySeconds = 0.4;
-            ask(device, [&](ProcessorSettings& settings) {
-                settings.hasDelay = true;
-                if (isCompensated) {
-                    settings.actuator = std::make_shared<const effects::ActuatorProfile>(
-                        *effects::ActuatorProfile::builtIn("voice-coil"));
-                }
-            });
-            const auto slide = [](double) { return testing::sliding(); };
-            device.run(1.0, slide);
-            const float loud = testing::peak(from(device, device.output.size() - 4800));
-            const float tone = testing::largestStep(from(device, device.output.size() - 4800));
-            device.controls().strength = strength;
-            const std::size_t weaker = device.output.size();
-            device.run(0.7, slide);
-            // A block, in which it is noticed, and 10 ms.
-            EXPECT_NEAR(testing::peak(from(device, weaker + 480)), strength * loud, 0.02F * loud) << strength;
-            EXPECT_LE(testing::largestStep(from(device, weaker - 1)), 1.3F * tone) << strength;
-            device.controls().strength = 1.0F;
-            const std::size_t again = device.output.size();
-            device.run(0.1, slide);
-            EXPECT_NEAR(testing::peak(from(device, again + 480)), loud, 0.05F * loud) << "the delay holds the sound";
-            EXPECT_LE(testing::largestStep(from(device, again - 1)), 1.3F * tone) << strength;
-        }
     }
 }
 
@@ -696,24 +417,6 @@ TEST_F(ProcessorsTest, TheGuardMeasuresTheLevelAfterTheStrength) {
     EXPECT_EQ(shortTermAt(0.0F), 0.0);
 }
 
-TEST_F(ProcessorsTest, AGuardIsSwitchedOffWithoutAStepAndItsReportEnds) {
-    SimulatedDevice device(model_, tone_);
-    device.controls().actuatorGain = 1000.0;
-    ask(device, [](ProcessorSettings& settings) { settings.hasExposureGuard = true; });
-    const auto slide = [](double) { return testing::sliding(); };
-    device.run(30.0, slide);
-    const engine::VoiceChannels& channels = device.voice().channels;
-    ASSERT_LT(channels.exposureGain, 0.2);
-    device.output.clear();
-    ask(device, [](ProcessorSettings& settings) { settings.hasExposureGuard = false; });
-    device.run(0.5, slide);
-    EXPECT_EQ(channels.exposureGain, 1.0);
-    EXPECT_EQ(channels.exposureReason, effects::ExposureReason::none);
-    EXPECT_EQ(channels.exposureDailyMps2, 0.0);
-    const float tone = testing::largestStep(from(device, device.output.size() - 4800));
-    EXPECT_LT(testing::largestStep(device.output), 1.2F * tone);
-}
-
 TEST_F(ProcessorsTest, AGuardSwitchedOffAndOnRemembersTheDay) {
     for (const double awaySeconds : {0.2, 5.0, 60.0}) {
         for (const bool changesRate : {false, true}) {
@@ -743,25 +446,6 @@ TEST_F(ProcessorsTest, AGuardSwitchedOffAndOnRemembersTheDay) {
     }
 }
 
-TEST_F(ProcessorsTest, AVoiceThatNeverHadAGuardMeasuresNothing) {
-    SimulatedDevice device(model_, tone_);
-    ask(device, [](ProcessorSettings& settings) { settings.hasDelay = true; });
-    device.run(0.5, [](double) { return testing::sliding(); });
-    EXPECT_EQ(of(device, EffectKind::exposureGuard).runs, 0U);
-    EXPECT_EQ(of(device, EffectKind::exposureGuard).prepared, 0U);
-}
-
-TEST_F(VoiceEffectsTest, ATouchInterruptedByAnUnlabelledSurfaceGivesOneImpact) {
-    SimulatedDevice device(model_, tone_);
-    const ContactState touching = landing(0.3F, impact);
-    ContactState unfelt = touching;
-    unfelt.touching = false;
-    device.run(0.1, [&](double) { return touching; });
-    device.run(0.1, [&](double) { return unfelt; });
-    device.run(0.1, [&](double) { return touching; });
-    EXPECT_EQ(of(device, EffectKind::impact).events, 1U);
-}
-
 TEST_F(ProcessorsTest, AfterARateChangeTheProcessorsApplyFromTheFirstSound) {
     SimulatedDevice device(model_, tone_);
     ask(device, [](ProcessorSettings& settings) { settings.hasExposureGuard = true; });
@@ -777,34 +461,23 @@ TEST_F(ProcessorsTest, AfterARateChangeTheProcessorsApplyFromTheFirstSound) {
     EXPECT_GT(of(device, EffectKind::exposureGuard).runs, runs);
 }
 
-TEST_F(ProcessorsTest, ProcessorsOfAnotherRateAreNotTaken) {
+TEST_F(ProcessorsTest, LiftOffActsBeforeTheDelayAndPanicAfterIt) {
     SimulatedDevice device(model_, tone_);
-    offer(device, -1.0F, 44100.0);
-    renderBlocks(device, 2);
-    EXPECT_EQ(of(device, EffectKind::compensation).prepared, 0U);
-    collect(device);
-    EXPECT_EQ(alive_, 0);
-}
-
-TEST_F(ProcessorsTest, PanicAndMuteSilenceTheProcessorsToo) {
-    SimulatedDevice device(model_, tone_);
-    offer(device, 0.5F);
-    device.run(0.2, [](double) { return testing::sliding(); });
+    device.controls().delaySeconds = 0.2;
+    ask(device, [](ProcessorSettings& settings) { settings.hasDelay = true; });
+    device.run(0.6, [](double) { return testing::sliding(); });
+    const std::size_t lifted = device.output.size();
+    device.run(0.3, [](double) { return testing::lifted(1); });
+    EXPECT_GT(testing::peak(from(device, lifted + 9000)), 0.5F / 60.0F) << "the delayed texture must still sound";
+    EXPECT_LT(testing::peak(from(device, lifted + 9600 + 240 + 512)), silence);
+    ContactState again = testing::sliding();
+    again.touchCounter = 2;
+    device.run(0.4, [&again](double) { return again; });
     device.voice().channels.panic();
     device.renderBlock();
-    const std::size_t after = device.output.size();
-    device.run(0.2, [](double) { return testing::sliding(); });
-    EXPECT_EQ(testing::peak(from(device, after)), 0.0F);
-    device.run(0.1, [](double) { return testing::lifted(1); });
-    ContactState next = testing::sliding();
-    next.touchCounter = 2;
-    const std::size_t resumed = device.output.size();
-    device.run(0.2, [&next](double) { return next; });
-    EXPECT_GT(testing::peak(from(device, resumed)), 0.1F / 60.0F);
-    device.controls().muted = true;
-    const std::size_t muted = device.output.size();
-    device.run(0.2, [&next](double) { return next; });
-    EXPECT_EQ(testing::peak(from(device, muted + 768)), 0.0F);
+    const std::size_t panicked = device.output.size();
+    device.run(0.4, [&again](double) { return again; });
+    EXPECT_EQ(testing::peak(from(device, panicked)), 0.0F);
 }
 
 }  // namespace

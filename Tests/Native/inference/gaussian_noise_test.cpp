@@ -26,14 +26,6 @@ const std::vector<float>& manyValues() {
     return values;
 }
 
-double moment(const std::vector<float>& values, int power) {
-    double sum = 0.0;
-    for (const float value : values) {
-        sum += std::pow(static_cast<double>(value), power);
-    }
-    return sum / static_cast<double>(values.size());
-}
-
 double correlation(const std::vector<float>& left, const std::vector<float>& right, std::size_t lag) {
     double sum = 0.0;
     const std::size_t count = std::min(left.size(), right.size() - lag);
@@ -70,26 +62,10 @@ TEST(GaussianNoiseTest, AgreesWithPythonForEveryGoldenKey) {
     }
 }
 
-TEST(GaussianNoiseTest, TheFirstBytesNeverChange) {
-    const auto values = noise({1, 2, 3}, 4);
-    std::vector<std::uint32_t> bits;
-    std::transform(values.begin(), values.end(), std::back_inserter(bits),
-                   [](float value) { return std::bit_cast<std::uint32_t>(value); });
-    EXPECT_THAT(bits, ::testing::ElementsAre(0xBF869500U, 0xBE9A04FDU, 0xBE0E8CFAU, 0xBE827762U));
-}
-
 TEST(GaussianNoiseTest, TheSameKeyGivesTheSameNoiseForAnyLength) {
     const auto longer = noise({9, 8, 7}, 201);
     const auto shorter = noise({9, 8, 7}, 77);
     EXPECT_TRUE(std::equal(shorter.begin(), shorter.end(), longer.begin()));
-}
-
-TEST(GaussianNoiseTest, TheNoiseHasTheMomentsOfTheNormalDistribution) {
-    // Each bound is about four standard errors for a million numbers.
-    EXPECT_NEAR(moment(manyValues(), 1), 0.0, 0.004);
-    EXPECT_NEAR(moment(manyValues(), 2), 1.0, 0.006);
-    EXPECT_NEAR(moment(manyValues(), 3), 0.0, 0.016);
-    EXPECT_NEAR(moment(manyValues(), 4), 3.0, 0.04);
 }
 
 TEST(GaussianNoiseTest, TheNoiseFollowsTheNormalDistribution) {
@@ -106,13 +82,6 @@ TEST(GaussianNoiseTest, TheNoiseFollowsTheNormalDistribution) {
     EXPECT_LT(distance, 1.95 / std::sqrt(static_cast<double>(manyNumbers)));
 }
 
-TEST(GaussianNoiseTest, ValuesBeyondFourStandardDeviationsHaveTheExpectedFrequency) {
-    const auto beyond =
-        std::count_if(manyValues().begin(), manyValues().end(), [](float value) { return std::fabs(value) > 4.0F; });
-    const double expected = 2.0 * normalDistribution(-4.0) * static_cast<double>(manyNumbers);
-    EXPECT_NEAR(static_cast<double>(beyond), expected, 4.0 * std::sqrt(expected));
-}
-
 TEST(GaussianNoiseTest, TheNoiseIsUncorrelatedAtEveryShortLag) {
     for (std::size_t lag = 1; lag <= 20; ++lag) {
         EXPECT_NEAR(correlation(manyValues(), manyValues(), lag), 0.0, 0.0045) << lag;
@@ -127,18 +96,6 @@ TEST(GaussianNoiseTest, KeysThatDifferInOneBitGiveUncorrelatedNoise) {
     for (const NoiseKey& key : neighbours) {
         EXPECT_NEAR(correlation(base, noise(key, count), 0), 0.0, 0.01);
     }
-}
-
-TEST(GaussianNoiseTest, ConsecutiveSegmentsDoNotRepeat) {
-    std::vector<float> firstValues;
-    for (std::uint64_t segment = 0; segment < 10'000; ++segment) {
-        firstValues.push_back(noise({1, 0, segment}, 1)[0]);
-    }
-    std::sort(firstValues.begin(), firstValues.end());
-    const auto repeated = std::adjacent_find(firstValues.begin(), firstValues.end());
-    // Among ten thousand floats, about two equal values occur by chance; runs of three would be an error.
-    EXPECT_TRUE(repeated == firstValues.end() || repeated + 2 == firstValues.end() || *repeated != *(repeated + 2));
-    EXPECT_NEAR(moment(firstValues, 2), 1.0, 0.06);
 }
 
 }  // namespace

@@ -1,14 +1,21 @@
 #include "inference/onnx_segment_generator.hpp"
 
-#include "inference/shared_sessions.hpp"
-#include "inference/tier_graphs.hpp"
+#include "inference/graph_session.hpp"
+#include "inference/tier_generator.hpp"
+#include "model/model_error.hpp"
+#include "rebuilt_model.hpp"
+#include "rib_graph.hpp"
 #include "tiny_model.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <string>
+#include <vector>
 
 namespace haptoflow::inference::testing {
 namespace {
@@ -79,13 +86,6 @@ TEST(OnnxSegmentGeneratorTest, ABatchOfVoicesNeedsOneRunPerEvaluation) {
     EXPECT_EQ(generator.runCounts().field, 16U);
 }
 
-TEST(OnnxSegmentGeneratorTest, ProbeRunsAreNotCounted) {
-    const OnnxSegmentGenerator generator = makeGenerator("latent", {});
-    EXPECT_EQ(generator.runCounts().level + generator.runCounts().field + generator.runCounts().encoder +
-                  generator.runCounts().decoder,
-              0U);
-}
-
 TEST(OnnxSegmentGeneratorTest, RequestsBeyondTheMaximumBatchAreSplit) {
     const auto requests = goldenBatch().requests();
     OnnxSegmentGenerator whole = makeGenerator("standard", {SolverKind::midpoint, 2}, 3);
@@ -109,13 +109,6 @@ TEST(OnnxSegmentGeneratorTest, ARequestGivesTheSameSegmentAloneAndInABatch) {
         }
     }
     EXPECT_EQ(generate(generator, requests), together);
-}
-
-TEST(OnnxSegmentGeneratorTest, NoRequestsCauseNoRuns) {
-    OnnxSegmentGenerator generator = makeGenerator("standard", {});
-    generator.generate({}, {});
-    generator.levels({}, {});
-    EXPECT_EQ(generator.runCounts().level, 0U);
 }
 
 TEST(OnnxSegmentGeneratorTest, TheSolverCanBeChangedBetweenBatches) {
@@ -150,31 +143,6 @@ TEST(OnnxSegmentGeneratorTest, ALatentTierEncodesAndDecodesOncePerBatch) {
     EXPECT_EQ(generator.runCounts().encoder, 1U);
     EXPECT_EQ(generator.runCounts().field, 4U);
     EXPECT_EQ(generator.runCounts().decoder, 1U);
-}
-
-TEST(OnnxSegmentGeneratorTest, TheFieldAtTheNoiseEqualsTheIncrementOfOneEulerStep) {
-    const auto requests = goldenBatch().requests();
-    OnnxSegmentGenerator generator = makeGenerator("standard", {SolverKind::euler, 1});
-    const auto segments = generate(generator, requests);
-    std::vector<float> levels(requests.size());
-    generator.levels(requests, levels);
-    std::vector<float> atStart(segments.size());
-    generator.evaluateField(requests, 0.0F, 1.0F, atStart);
-    std::vector<float> later(segments.size());
-    generator.evaluateField(requests, 0.5F, 1.0F, later);
-    for (std::size_t index = 0; index < segments.size(); ++index) {
-        const std::size_t row = index / segmentSamples;
-        const float noise = requests[row].noise[index % segmentSamples];
-        EXPECT_NEAR(atStart[index], segments[index] / levels[row] - noise, 1e-5F);
-        EXPECT_NEAR(later[index] - atStart[index], 0.75F * 0.25F, 1e-5F);
-    }
-}
-
-TEST(OnnxSegmentGeneratorTest, EvaluatingTheFieldOfALatentTierIsRejected) {
-    const auto requests = goldenBatch().requests();
-    OnnxSegmentGenerator generator = makeGenerator("latent", {});
-    std::vector<float> velocities(requests.size() * segmentSamples);
-    EXPECT_THROW(generator.evaluateField(requests, 0.0F, 1.0F, velocities), std::invalid_argument);
 }
 
 TEST(OnnxSegmentGeneratorTest, NonFiniteNoiseIsAnErrorThatDoesNotAffectTheNextBatch) {
@@ -218,26 +186,6 @@ TEST(OnnxSegmentGeneratorTest, OutputSpansOfTheWrongSizeAreRejected) {
     EXPECT_THROW(generator.levels(requests, room), std::invalid_argument);
 }
 
-TEST(OnnxSegmentGeneratorTest, TheTiersSolverIsRead) {
-    const SolverSettings standard = defaultSolver(*tinyModel().findTier("standard"));
-    EXPECT_EQ(standard.kind, SolverKind::midpoint);
-    EXPECT_EQ(standard.steps, 2);
-    const SolverSettings fine = defaultSolver(*tinyModel().findTier("fine"));
-    EXPECT_EQ(fine.kind, SolverKind::heun);
-    EXPECT_EQ(fine.steps, 8);
-    EXPECT_EQ(defaultSolver(*tinyModel().findTier("draft")).kind, SolverKind::euler);
-}
-
-TEST(OnnxSegmentGeneratorTest, TheGeneratorOutlivesItsModel) {
-    auto model =
-        std::make_unique<model::ModelFile>(model::ModelFile::read(HAPTOFLOW_TEST_GOLDEN_DIR "/model/tiny.haptoflow"));
-    OnnxSegmentGenerator generator(testRuntime(), *model, "standard", {}, 4);
-    model.reset();
-    const auto requests = goldenBatch().requests();
-    OnnxSegmentGenerator other = makeGenerator("standard", {});
-    EXPECT_EQ(generate(generator, requests), generate(other, requests));
-}
-
 TEST(SharedSessionsTest, TiersOfOneGraphLoadItOnceAndDoNotDisturbEachOther) {
     const auto requests = goldenBatch().requests();
     const std::span<const SegmentRequest> one = std::span(requests).first(1);
@@ -260,11 +208,94 @@ TEST(SharedSessionsTest, TiersOfOneGraphLoadItOnceAndDoNotDisturbEachOther) {
     EXPECT_EQ(sessions.loaded(), 7U) << "another batch has other buffers";
 }
 
-TEST(SharedSessionsTest, AGraphIsFreedWithItsLastTier) {
-    SharedSessions sessions;
-    { const OnnxSegmentGenerator first(testRuntime(), tinyModel(), "standard", {}, 4, {}, &sessions); }
-    const OnnxSegmentGenerator second(testRuntime(), tinyModel(), "standard", {}, 4, {}, &sessions);
-    EXPECT_EQ(sessions.loaded(), 2U);
+}  // namespace
+}  // namespace haptoflow::inference::testing
+
+// Tests of the optional input "phases" of a field graph.
+
+namespace haptoflow::inference::testing {
+namespace {
+
+using model::testing::Bytes;
+
+constexpr std::array<std::array<float, 2>, 3> phases{{{0.25F, 0.5F}, {0.9F, 0.0F}, {0.0F, 0.75F}}};
+
+/// The tiny model with fields that output their rib phase.
+model::ModelFile ribModel() {
+    return model::ModelFile::parse(withGraphs(tinyModel(), {{"flow_field", ribField("velocity", {1, 200})},
+                                                            {"average_field", ribField("velocity", {1, 200})},
+                                                            {"direct_field", ribField("segment", {1, 200})},
+                                                            {"latent_field", ribField("velocity", {4, 25})}}));
+}
+
+std::vector<SegmentRequest> requestsWithPhases() {
+    auto requests = goldenBatch().requests();
+    for (std::size_t i = 0; i < requests.size(); ++i) {
+        std::ranges::copy(phases[i], requests[i].phases.begin());
+    }
+    return requests;
+}
+
+/// The difference, in unit scale, between the tier's segments with and without the phases.
+std::vector<float> effectOfPhase(OnnxSegmentGenerator& generator, const std::vector<SegmentRequest>& requests) {
+    auto without = requests;
+    for (SegmentRequest& request : without) {
+        request.phases = {};
+    }
+    std::vector<float> levels(requests.size());
+    std::vector<float> with(requests.size() * segmentSamples);
+    std::vector<float> plain(with.size());
+    generator.levels(requests, levels);
+    generator.generate(requests, with);
+    generator.generate(without, plain);
+    for (std::size_t i = 0; i < with.size(); ++i) {
+        with[i] = (with[i] - plain[i]) / levels[i / segmentSamples];
+    }
+    return with;
+}
+
+float weighted(const std::array<float, 2>& phase) {
+    return firstRibWeight * phase[0] + secondRibWeight * phase[1];
+}
+
+TEST(RibPhaseInputTest, EveryKindOfTierReceivesThePhaseOfEachRequest) {
+    const model::ModelFile model = ribModel();
+    const auto requests = requestsWithPhases();
+    for (const char* tier : {"draft", "standard", "direct", "latent"}) {
+        for (const std::size_t maximumBatch : {4U, 2U, 1U}) {
+            OnnxSegmentGenerator generator(testRuntime(), model, tier, {SolverKind::euler, 2}, maximumBatch);
+            const auto effect = effectOfPhase(generator, requests);
+            for (std::size_t i = 0; i < effect.size(); ++i) {
+                // The decoder of the latent tier halves every second sample.
+                const float share = std::string(tier) == "latent" && i % 2 == 1 ? 0.5F : 1.0F;
+                ASSERT_NEAR(effect[i], share * weighted(phases[i / segmentSamples]), 2e-5F) << tier << ' ' << i;
+            }
+        }
+    }
+}
+
+TEST(RibPhaseInputTest, AGraphWithoutTheInputLoadsAndIgnoresThePhase) {
+    const auto requests = requestsWithPhases();
+    for (const char* tier : {"draft", "standard", "direct", "latent"}) {
+        OnnxSegmentGenerator generator(testRuntime(), tinyModel(), tier, {SolverKind::euler, 2}, 4);
+        EXPECT_THAT(effectOfPhase(generator, requests), ::testing::Each(0.0F)) << tier;
+    }
+}
+
+TEST(RibPhaseInputTest, TheErrorForAnotherShapeNamesTierGraphAndShape) {
+    for (const auto& [tier, blob, output] :
+         {std::array{"standard", "flow_field", "velocity"}, std::array{"draft", "average_field", "velocity"},
+          std::array{"direct", "direct_field", "segment"}}) {
+        const auto model = model::ModelFile::parse(withGraphs(tinyModel(), {{blob, ribField(output, {1, 200}, 3)}}));
+        try {
+            (void)OnnxSegmentGenerator(testRuntime(), model, tier, {SolverKind::euler, 1}, 1);
+            ADD_FAILURE() << tier << " was accepted";
+        } catch (const model::ModelError& error) {
+            EXPECT_EQ(error.status(), model::ModelStatus::inconsistent);
+            EXPECT_EQ(std::string(error.what()), std::string("tier \"") + tier + "\", graph \"" + blob +
+                                                     "\": input \"phases\" has the shape [?,3]; expected [B,6]");
+        }
+    }
 }
 
 }  // namespace

@@ -1,9 +1,10 @@
 #include "inference/skeleton_generator.hpp"
-#include "inference/refined_generator.hpp"
-#include "inference/tier_graphs.hpp"
+
+#include "inference/tier_generator.hpp"
 #include "model/model_error.hpp"
 #include "rebuilt_model.hpp"
-#include "skeleton/rib_rates.hpp"
+#include "skeleton/condition.hpp"
+#include "support/model_generator.hpp"
 #include "tiny_model.hpp"
 
 #include <gmock/gmock.h>
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <string>
 
@@ -79,10 +81,6 @@ protected:
     std::vector<SegmentRequest> requests_;
 };
 
-TEST_F(SkeletonGeneratorTest, TheGoldenFileBelongsToTheModel) {
-    EXPECT_EQ(std::stoul(golden_.at("model_crc32").get<std::string>(), nullptr, 16), skeletonModel().checksum());
-}
-
 TEST_F(SkeletonGeneratorTest, TheSketchAgreesWithPyTorchAndNeedsNoOnnxRuntime) {
     const auto generator = inference::makeGenerator(nullptr, skeletonModel(), tierNamed("sketch"), {}, 4);
     expectGolden(generate(*generator), "sketch_segment");
@@ -96,7 +94,7 @@ TEST_F(SkeletonGeneratorTest, TheRefinedSegmentAgreesWithPyTorchInBatchesOfEvery
 
 TEST_F(SkeletonGeneratorTest, ABatchNeedsOneRunOfTheRefiningGraph) {
     RefinedGenerator generator(testRuntime(), skeletonModel(), skeleton::readNativeParts(skeletonModel()),
-                               tierNamed("standard"), {}, 4);
+                               tierNamed("standard"), 4);
     EXPECT_EQ(generator.graphRuns(), 0U);
     (void)generate(generator);
     EXPECT_EQ(generator.graphRuns(), 2U) << "seven requests in batches of four";
@@ -107,7 +105,7 @@ TEST_F(SkeletonGeneratorTest, ABatchNeedsOneRunOfTheRefiningGraph) {
 
 TEST_F(SkeletonGeneratorTest, ARefinedTierTellsTheSketchOfEachBatchBeforeItsGraphRuns) {
     RefinedGenerator generator(testRuntime(), skeletonModel(), skeleton::readNativeParts(skeletonModel()),
-                               tierNamed("standard"), {}, 4);
+                               tierNamed("standard"), 4);
     std::vector<float> sketches;
     std::vector<std::uint64_t> runsBefore;
     std::vector<float> segments(requests_.size() * segmentSamples);
@@ -131,17 +129,6 @@ TEST_F(SkeletonGeneratorTest, ATierWithoutARefinementTellsItsSegmentsAsSketches)
     });
     EXPECT_EQ(segments, generate(*generator));
     EXPECT_EQ(sketches, segments);
-}
-
-TEST_F(SkeletonGeneratorTest, AllTiersShareTheGivenParts) {
-    const auto native = skeleton::readNativeParts(skeletonModel());
-    const auto sketch = inference::makeGenerator(nullptr, skeletonModel(), tierNamed("sketch"), {}, 1, {}, native);
-    const auto refined =
-        inference::makeGenerator(testRuntime(), skeletonModel(), tierNamed("standard"), {}, 1, {}, native);
-    const auto levels = makeLevelEstimator(nullptr, skeletonModel(), tierNamed("standard"), {}, native);
-    EXPECT_EQ(native.skeleton.use_count(), 3);
-    EXPECT_EQ(native.level.use_count(), 4);
-    EXPECT_EQ(skeleton::readNativeParts(tinyModel()).skeleton, nullptr);
 }
 
 TEST_F(SkeletonGeneratorTest, LevelsAgreeWithPyTorchAndNeedNoOnnxRuntime) {
@@ -246,20 +233,6 @@ TEST_F(SkeletonGeneratorTest, AGraphThatTakesAnotherFilmIsRefusedByName) {
     }
 }
 
-TEST_F(SkeletonGeneratorTest, TheFactoryOpensTiersOfTheOtherKindsAsBefore) {
-    const auto generator = inference::makeGenerator(testRuntime(), tinyModel(), *tinyModel().findTier("standard"),
-                                                    {SolverKind::midpoint, 2}, 4);
-    const auto requests = goldenBatch().requests();
-    std::vector<float> found(requests.size() * segmentSamples);
-    generator->generate(requests, found);
-    OnnxSegmentGenerator direct(testRuntime(), tinyModel(), "standard", {SolverKind::midpoint, 2}, 4);
-    std::vector<float> wanted(found.size());
-    direct.generate(requests, wanted);
-    EXPECT_EQ(found, wanted);
-    EXPECT_THROW((void)makeLevelEstimator(nullptr, tinyModel(), *tinyModel().findTier("standard")),
-                 std::invalid_argument);
-}
-
 TEST(RibRatesTest, RatesAreWaveVectorTimesVelocityWithTheirSign) {
     std::array<float, embeddingSize> embedding{};
     embedding[60] = 0.5F;
@@ -274,6 +247,80 @@ TEST(RibRatesTest, RatesAreWaveVectorTimesVelocityWithTheirSign) {
     EXPECT_NEAR(found[4], 400.0, 1e-3);
     EXPECT_EQ(found[5], 0.0F);
     EXPECT_NEAR(skeleton::phasesOf(embedding, {-0.1F, 0.0F, 1.0F}, {})[3], -50.0, 1e-4);
+}
+
+}  // namespace
+}  // namespace haptoflow::inference::testing
+
+// Compares the default model in ONNX Runtime with the same weights in Python.
+
+namespace haptoflow::inference::testing {
+namespace {
+
+constexpr double tolerance = 1e-4;
+
+class DefaultModelParityTest : public ::testing::Test {
+protected:
+    void SetUp() override {
+        golden_ = haptoflow::testing::readGolden("model/default.parity.json");
+        model_.emplace(model::ModelFile::read(HAPTOFLOW_TEST_DEFAULT_MODEL));
+        const auto text = golden_.at("model_crc32").get<std::string>();
+        const auto expected = std::strtoul(text.c_str(), nullptr, 16);
+        ASSERT_EQ(text.size(), 8U) << "model_crc32 must be eight hexadecimal digits";
+        ASSERT_EQ(model_->checksum(), expected)
+            << "default.parity.json belongs to another default.haptoflow: run the training's export again";
+    }
+
+    template <typename Compare>
+    void forEveryCase(Compare compare) {
+        for (const auto& row : haptoflow::testing::goldenRows(golden_, "cases")) {
+            const auto tier = row.at("tier").get<std::string>();
+            SCOPED_TRACE(tier);
+            RequestBatch batch;
+            batch.add(row.at("embedding"), row.at("motion"), row.at("previous"), row.at("noise"),
+                      row.at("phases").get<skeleton::Phases>());
+            const auto generator = haptoflow::testing::generatorOf(*model_, 1, tier);
+            compare(row, batch.requests(), *generator);
+        }
+    }
+
+    static double largestDifference(const std::vector<float>& found, const std::vector<double>& expected,
+                                    double scale) {
+        EXPECT_EQ(found.size(), expected.size());
+        double largest = 0.0;
+        for (std::size_t index = 0; index < std::min(found.size(), expected.size()); ++index) {
+            largest = std::max(largest, std::fabs(static_cast<double>(found[index]) - expected[index]) / scale);
+        }
+        return largest;
+    }
+
+    nlohmann::json golden_;
+    std::optional<model::ModelFile> model_;
+};
+
+TEST_F(DefaultModelParityTest, LevelsAgreeWithPython) {
+    forEveryCase([](const auto& row, const auto& requests, TierGenerator& generator) {
+        std::vector<float> level(1);
+        generator.levels(requests, level);
+        EXPECT_NEAR(std::log(static_cast<double>(level[0])), row.at("log_level").template get<double>(), tolerance);
+    });
+}
+
+TEST_F(DefaultModelParityTest, SegmentsAgreeWithPython) {
+    forEveryCase([](const auto& row, const auto& requests, TierGenerator& generator) {
+        std::vector<float> segment(segmentSamples);
+        generator.generate(requests, segment);
+        const double level = std::exp(row.at("log_level").template get<double>());
+        EXPECT_LE(largestDifference(segment, row.at("segment"), level), tolerance);
+    });
+}
+
+TEST_F(DefaultModelParityTest, EveryTierHasACase) {
+    for (const model::Tier& tier : model_->header().tiers) {
+        const auto& rows = haptoflow::testing::goldenRows(golden_, "cases");
+        EXPECT_TRUE(std::any_of(rows.begin(), rows.end(), [&](const auto& row) { return row.at("tier") == tier.name; }))
+            << tier.name;
+    }
 }
 
 }  // namespace

@@ -1,7 +1,5 @@
 #include "inference/surface_noise.hpp"
 
-#include "inference/surface_noise_kernel.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -135,13 +133,6 @@ TEST(SurfaceNoiseTest, TheSamePlaceHasTheSameNoiseAtOtherSpeeds) {
     EXPECT_GT(correlation(sums, coarser(stroke(1.0, direction, 1'200), 1)), 0.6);
 }
 
-TEST(SurfaceNoiseTest, TheSamePlaceReachedByAnotherPathHasTheSameNoise) {
-    const std::vector<float> early = stroke(0.1, {1.0, 0.0, 0.0}, 1000);
-    // Begun 3.3 mm, that is 66 samples, later.
-    const std::vector<float> late = stroke(0.1, {1.0, 0.0, 0.0}, 900, {0.0163, -0.021, 0.008});
-    EXPECT_GT(correlation(std::vector<float>(early.begin() + 66, early.begin() + 966), late), 0.99);
-}
-
 /// The noise below 700 Hz, `delay` samples later than asked for: a sinc with a Hann window.
 std::vector<float> delayedBelow700Hz(const std::vector<float>& noise, double delay) {
     constexpr int reach = 48;
@@ -193,31 +184,6 @@ TEST(SurfaceNoiseTest, TheFilterIsTheRootOfARaisedCosine) {
     }
 }
 
-TEST(SurfaceNoiseTest, ARoundOfACircleFindsItsNoiseAgain) {
-    constexpr double radius = 0.015;
-    constexpr std::size_t round = 1885;
-    const auto noise = [](std::size_t rounds, double offset) {
-        std::vector<float> all;
-        for (std::size_t index = 0; index < rounds * round; ++index) {
-            const double angle = (static_cast<double>(index) + offset) * 0.05e-3 / radius;
-            std::array<float, 1> one{};
-            EXPECT_TRUE(fillSurfaceNoise(object,
-                                         {.startMetres = {radius * std::cos(angle), 0.0, radius * std::sin(angle)},
-                                          .stepMetres = {-0.05e-3 * std::sin(angle), 0.0, 0.05e-3 * std::cos(angle)}},
-                                         one));
-            all.push_back(one[0]);
-        }
-        return all;
-    };
-    const std::vector<float> noiseOfTen = noise(10, 0.0);
-    EXPECT_NEAR(mean(noiseOfTen, 2), 1.0, 0.06);
-    EXPECT_NEAR(mean(noiseOfTen, 0, 1), 0.0, 0.04);
-    // 2 pi 15 mm are 1884.96 samples: the second round is 0.04 samples ahead.
-    const std::vector<float> first(noiseOfTen.begin(), noiseOfTen.begin() + round);
-    const std::vector<float> second(noiseOfTen.begin() + round, noiseOfTen.begin() + 2 * round);
-    EXPECT_GT(correlation(first, second), 0.9);
-}
-
 TEST(SurfaceNoiseTest, PathsBesideEachOtherLoseTheirLikenessWithinAMillimetre) {
     const auto beside = [](double metres) {
         double sum = 0.0;
@@ -239,12 +205,6 @@ TEST(SurfaceNoiseTest, AnotherSurfaceHasAnIndependentField) {
     for (const std::uint64_t other : {0ULL, 2ULL, 17ULL, 1ULL << 32U, ~0ULL}) {
         EXPECT_NEAR(correlation(one, noiseOf(path, 10'000, other)), 0.0, 0.05) << other;
     }
-}
-
-TEST(SurfaceNoiseTest, PathsFarFromTheOriginAreAsWhite) {
-    const std::vector<float> noise = stroke(0.1, {0.0, 1.0, 0.0}, 20'000, {-9e5, 3e5, 1e3});
-    EXPECT_NEAR(mean(noise, 2), 1.0, 0.06);
-    EXPECT_NEAR(mean(noise, 0, 1), 0.0, 0.04);
 }
 
 TEST(SurfaceNoiseTest, PathsWithoutWayOrWithNumbersOfNoUseAreRefused) {

@@ -3,7 +3,6 @@
 #include "inference/gaussian_noise.hpp"
 #include "model/model_file.hpp"
 #include "skeleton/condition.hpp"
-#include "skeleton/rib_rates.hpp"
 #include "skeleton/skeleton_tensors.hpp"
 
 #include <gtest/gtest.h>

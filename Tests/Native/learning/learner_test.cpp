@@ -1,6 +1,6 @@
 #include "learning/learner.hpp"
 
-#include "inference/inference_error.hpp"
+#include "inference/load_limits.hpp"
 #include "learning/made_recording.hpp"
 #include "learning/tone_fit.hpp"
 #include "model/material_file.hpp"

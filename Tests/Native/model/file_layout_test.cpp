@@ -1,6 +1,12 @@
+#include "model/file_layout.hpp"
+#include "model/header_node.hpp"
 #include "refusal.hpp"
 
-#include "model/file_layout.hpp"
+#include <gtest/gtest.h>
+
+#include <array>
+#include <span>
+#include <string_view>
 
 namespace haptoflow::model::testing {
 namespace {
@@ -68,53 +74,32 @@ TEST(FileLayoutTest, AFileWithAFlippedVersionBitIsDamagedAndNotNewer) {
     expectRefusal(file, ModelStatus::damaged, "checksum at byte 28");
 }
 
-TEST(FileLayoutTest, AHeaderLengthAboveTheLimitIsRefused) {
-    Bytes file = validFile();
-    writeUnsigned(file, headerLengthOffset, 4, 4'194'305);
-    resealPrefix(file);
-    expectRefusal(file, ModelStatus::oversized, "4194305");
-}
-
-TEST(FileLayoutTest, AHeaderLengthBelowTwoIsRefused) {
-    Bytes file = validFile();
-    writeUnsigned(file, headerLengthOffset, 4, 1);
-    resealPrefix(file);
-    expectRefusal(file, ModelStatus::inconsistent, "header length 1");
-}
-
-TEST(FileLayoutTest, AHeaderBeyondTheEndOfTheFileIsRefused) {
-    Bytes file = validFile();
-    writeUnsigned(file, headerLengthOffset, 4, 4'194'272);
-    resealPrefix(file);
-    expectRefusal(file, ModelStatus::inconsistent, "inside the file");
-}
-
-TEST(FileLayoutTest, AHeaderThatDoesNotEndOnAMultipleOf64IsRefused) {
-    Bytes file = validFile();
-    writeUnsigned(file, headerLengthOffset, 4, readUnsigned(file, headerLengthOffset, 4) - 1);
-    resealHeader(file);
-    expectRefusal(file, ModelStatus::inconsistent, "multiple of 64");
-}
-
-TEST(FileLayoutTest, AFileLengthAboveTheLimitIsRefused) {
-    Bytes file = validFile();
-    writeUnsigned(file, fileLengthOffset, 8, 268'435'457);
-    resealPrefix(file);
-    expectRefusal(file, ModelStatus::oversized, "268435457");
-}
-
-TEST(FileLayoutTest, AFileLengthOfTheLargest64BitNumberIsRefused) {
-    Bytes file = validFile();
-    writeUnsigned(file, fileLengthOffset, 8, ~std::uint64_t{0});
-    resealPrefix(file);
-    expectRefusal(file, ModelStatus::oversized, "18446744073709551615");
-}
-
-TEST(FileLayoutTest, AFileLengthBelowThatOfTheFirstPartIsRefused) {
-    Bytes file = validFile();
-    writeUnsigned(file, fileLengthOffset, 8, 3);
-    resealPrefix(file);
-    expectRefusal(file, ModelStatus::inconsistent, "says 3 bytes");
+TEST(FileLayoutTest, LengthsThatDoNotFitAreRefused) {
+    struct Length {
+        std::size_t offset;
+        std::size_t bytes;
+        std::uint64_t value;
+        ModelStatus status;
+        const char* part;
+    };
+    const std::uint64_t header = readUnsigned(validFile(), headerLengthOffset, 4);
+    for (const Length& length : {
+             Length{headerLengthOffset, 4, 4'194'305, ModelStatus::oversized, "4194305"},
+             Length{headerLengthOffset, 4, 1, ModelStatus::inconsistent, "header length 1"},
+             Length{headerLengthOffset, 4, 4'194'272, ModelStatus::inconsistent, "inside the file"},
+             Length{headerLengthOffset, 4, header - 1, ModelStatus::inconsistent, "multiple of 64"},
+             Length{fileLengthOffset, 8, 268'435'457, ModelStatus::oversized, "268435457"},
+             Length{fileLengthOffset, 8, ~std::uint64_t{0}, ModelStatus::oversized, "18446744073709551615"},
+             Length{fileLengthOffset, 8, 3, ModelStatus::inconsistent, "says 3 bytes"},
+         }) {
+        Bytes file = validFile();
+        writeUnsigned(file, length.offset, length.bytes, length.value);
+        if (length.value == header - 1) {
+            resealHeader(file);
+        }
+        resealPrefix(file);
+        expectRefusal(file, length.status, length.part);
+    }
 }
 
 TEST(FileLayoutTest, AHeaderThatDoesNotMatchItsChecksumIsRefused) {
@@ -123,22 +108,98 @@ TEST(FileLayoutTest, AHeaderThatDoesNotMatchItsChecksumIsRefused) {
     expectRefusal(file, ModelStatus::damaged, "checksum at byte 24");
 }
 
-TEST(FileLayoutTest, PaddingOtherThanSpacesIsRefused) {
-    ModelBuilder builder;
-    builder.editText = [](std::string& text) { text.back() = '\n'; };
-    expectRefusal(builder.build(), ModelStatus::inconsistent, "spaces");
+TEST(FileLayoutTest, AHeaderThatIsNoObjectFollowedBySpacesIsRefused) {
+    const auto refuse = [](void (*edit)(std::string&), const char* part) {
+        ModelBuilder builder;
+        builder.editText = edit;
+        expectRefusal(builder.build(), ModelStatus::inconsistent, part);
+    };
+    refuse([](std::string& text) { text.back() = '\n'; }, "spaces");
+    refuse([](std::string& text) { text.assign(text.size(), ' '); }, "one object");
+    refuse([](std::string& text) { text = "[]" + std::string(text.size() - 2, ' '); }, "one object");
 }
 
-TEST(FileLayoutTest, AHeaderOfSpacesOnlyIsRefused) {
-    ModelBuilder builder;
-    builder.editText = [](std::string& text) { text.assign(text.size(), ' '); };
-    expectRefusal(builder.build(), ModelStatus::inconsistent, "one object");
+}  // namespace
+}  // namespace haptoflow::model::testing
+
+namespace haptoflow::model {
+namespace {
+
+std::uint32_t crcOf(std::string_view text) {
+    return crc32(std::as_bytes(std::span(text.data(), text.size())));
 }
 
-TEST(FileLayoutTest, AHeaderThatIsAnArrayIsRefused) {
+TEST(Crc32Test, ChecksTheNineDigitsToThePublishedValue) {
+    EXPECT_EQ(crcOf("123456789"), 0xCBF43926U);
+}
+
+TEST(Crc32Test, OfNothingIsZero) {
+    EXPECT_EQ(crcOf(""), 0U);
+}
+
+TEST(Crc32Test, AgreesWithZlibOnASentence) {
+    EXPECT_EQ(crcOf("The quick brown fox jumps over the lazy dog"), 0x414FA339U);
+}
+
+TEST(Crc32Test, AgreesWithZlibOnAllByteValues) {
+    std::array<std::byte, 256> bytes{};
+    for (std::size_t index = 0; index < bytes.size(); ++index) {
+        bytes.at(index) = static_cast<std::byte>(index);
+    }
+    EXPECT_EQ(crc32(bytes), 0x29058C73U);
+}
+
+}  // namespace
+}  // namespace haptoflow::model
+
+namespace haptoflow::model::testing {
+namespace {
+
+void replaceHeader(ModelBuilder& builder, const std::string& replacement) {
+    builder.editText = [replacement](std::string& text) {
+        const std::size_t length = text.size();
+        text = replacement;
+        text.resize(length, ' ');
+    };
+}
+
+std::string nested(int levels) {
+    std::string text = "{\"a\":";
+    for (int level = 1; level < levels; ++level) {
+        text += '[';
+    }
+    return text + std::string(static_cast<std::size_t>(levels - 1), ']') + '}';
+}
+
+TEST(JsonLimitsTest, WhatIsNotOneJsonValueIsDamaged) {
+    for (const char* text : {R"({"name": })", R"({} {})", "{\"name\": \"\xFF\xFE\"}", R"({"name": 1e999})",
+                             R"({"sample_rate_hz": NaN})", R"({"sample_rate_hz": -Infinity})"}) {
+        ModelBuilder builder;
+        replaceHeader(builder, text);
+        expectRefusal(builder.build(), ModelStatus::damaged, "valid JSON");
+    }
+}
+
+TEST(JsonLimitsTest, ADuplicateKeyIsRefused) {
     ModelBuilder builder;
-    builder.editText = [](std::string& text) { text = "[]" + std::string(text.size() - 2, ' '); };
-    expectRefusal(builder.build(), ModelStatus::inconsistent, "one object");
+    replaceHeader(builder, R"({"name": "a", "name": "b"})");
+    expectRefusal(builder.build(), ModelStatus::inconsistent, "\"name\" twice");
+}
+
+TEST(JsonLimitsTest, TheSameKeyInDifferentObjectsIsAccepted) {
+    EXPECT_NO_THROW((void)parseBoundedJson(R"({"a": {"a": 1}, "b": [{"a": 1}, {"a": 2}]})"));
+}
+
+TEST(JsonLimitsTest, TheMaximumNestingIsAcceptedAndOneLevelMoreRefused) {
+    EXPECT_NO_THROW((void)parseBoundedJson(nested(maximumJsonDepth)));
+    ModelBuilder builder;
+    replaceHeader(builder, nested(maximumJsonDepth + 1));
+    expectRefusal(builder.build(), ModelStatus::oversized, "deeper than 32");
+}
+
+TEST(JsonLimitsTest, AMillionOpenBracketsAreRefusedBeforeAnyValueIsBuilt) {
+    const std::string text = "{\"a\":" + std::string(1'000'000, '[');
+    EXPECT_THROW((void)parseBoundedJson(text), ModelError);
 }
 
 }  // namespace

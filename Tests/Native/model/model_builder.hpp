@@ -1,6 +1,5 @@
 #pragma once
 
-#include "model/crc32.hpp"
 #include "model/file_layout.hpp"
 #include "model/model_header.hpp"
 

@@ -3,7 +3,6 @@
 #include "model/model_file.hpp"
 #include "model/onnx_operators.hpp"
 #include "model/onnx_tensor.hpp"
-#include "model/wire_reader.hpp"
 #include "onnx_writer.hpp"
 #include "random.hpp"
 

@@ -1,5 +1,5 @@
 #include "../skeleton/skeleton_model.hpp"
-#include "model/crc32.hpp"
+#include "model/file_layout.hpp"
 #include "model/plain_text.hpp"
 #include "refusal.hpp"
 
@@ -17,7 +17,7 @@ using skeleton::testing::refinedModel;
 void expectSkeletonRefusal(const std::function<void(ModelBuilder&)>& change, const std::string& part) {
     ModelBuilder builder = refinedModel();
     change(builder);
-    expectRefusal(builder.build(), ModelStatus::inconsistent, part);
+    testing::expectRefusal(builder.build(), ModelStatus::inconsistent, part);
 }
 
 TEST(SkeletonHeaderTest, TiersOfBothKindsAreRead) {

@@ -2,7 +2,6 @@
 
 #include "inference/onnx_runtime.hpp"
 #include "inference/tier_generator.hpp"
-#include "inference/tier_graphs.hpp"
 #include "model/model_file.hpp"
 
 #include <cstddef>

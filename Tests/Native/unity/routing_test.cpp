@@ -30,30 +30,6 @@ TEST_F(RoutingTest, TheRoutedChannelCarriesTheVoiceAndTheOtherItsInput) {
     EXPECT_GT(voice_.statistics().inferences, 15U);
 }
 
-TEST_F(RoutingTest, WithoutAChannelTheVoiceIsOnAllChannels) {
-    SteppedVoice same(runtime_, model_);
-    HostedEffect effect(definition());
-    const Sound output = play(voice_, effect, 10, 6);
-    const std::vector<float> expected = reference(same, 10);
-    for (std::size_t channel = 0; channel < 6; ++channel) {
-        EXPECT_EQ(output.channel(channel), expected) << channel;
-    }
-}
-
-TEST_F(RoutingTest, TheBlockLengthDoesNotChangeTheOutput) {
-    SteppedVoice same(runtime_, model_);
-    HostedEffect effect(definition());
-    Sound output(0, 2);
-    for (int i = 0; i < 12; ++i) {
-        voice_.slide();
-        for (const std::size_t length : {1U, 0U, 64U, 7U, 255U, 1U, 152U}) {
-            output.append(effect.process(length));
-        }
-        voice_.generate();
-    }
-    EXPECT_EQ(output.channel(0), reference(same, 12));
-}
-
 TEST_F(RoutingTest, ABlockOfAnyLengthIsFilled) {
     SteppedVoice same(runtime_, model_);
     HostedEffect effect(definition());
@@ -124,37 +100,12 @@ TEST(ChannelCountsTest, ChannelsPassByIndexEvenInPlace) {
     }
 }
 
-TEST_F(RoutingTest, TheVoiceDoesNotDependOnTheInputOrTheNumberOfChannels) {
-    SteppedVoice same(runtime_, model_);
-    HostedEffect effect(definition());
-    effect.set("Channel", 0.0F);
-    for (const auto [inChannels, outChannels] : channelCounts) {
-        voice_.slide();
-        const Sound output = effect.process(Sound::pattern(frameOfAudio, inChannels), outChannels);
-        voice_.generate();
-        EXPECT_EQ(output.channel(0), reference(same, 1)) << inChannels << " to " << outChannels;
-    }
-}
-
 TEST_F(RoutingTest, AMissingInputBufferCountsAsSilence) {
     HostedEffect effect(definition());
     effect.set("Channel", 0.0F);
     Sound out = Sound::pattern(32, 2);
     EXPECT_EQ(effect.definition().process(&effect.state(), nullptr, out.samples.data(), 32, 2, 2), resultOk);
     EXPECT_THAT(out.samples, Each(0.0F));
-}
-
-TEST_F(RoutingTest, AStrengthOfOneHalfHalvesTheVoice) {
-    SteppedVoice same(runtime_, model_);
-    HostedEffect effect(definition());
-    effect.set("Strength", 0.5F);
-    const Sound output = play(voice_, effect, 8);
-    std::vector<float> expected = reference(same, 8);
-    for (float& sample : expected) {
-        sample *= 0.5F;
-    }
-    EXPECT_EQ(output.channel(0), expected);
-    EXPECT_EQ(output.channel(1), expected);
 }
 
 TEST_F(RoutingTest, TheStrengthChangesLinearlyWithin10Ms) {
@@ -169,15 +120,6 @@ TEST_F(RoutingTest, TheStrengthChangesLinearlyWithin10Ms) {
         const float gain = i < 480 ? 1.0F - 0.75F * static_cast<float>(i + 1) / 480.0F : 0.25F;
         ASSERT_NEAR(output[i], gain * whole[i], 1e-6F) << i;
     }
-}
-
-TEST_F(RoutingTest, ANewSampleRateAppliesAfterTheWorkerHasPreparedIt) {
-    HostedEffect effect(definition());
-    (void)play(voice_, effect, 5);
-    effect.setSampleRate(24000);
-    (void)play(voice_, effect, 3);
-    EXPECT_GT(peak(play(voice_, effect, 5).samples), 1e-3F);
-    EXPECT_EQ(voice_.statistics().rate_changes, 1U);
 }
 
 }  // namespace

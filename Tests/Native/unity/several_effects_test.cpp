@@ -26,19 +26,6 @@ TEST_F(SeveralEffectsTest, EachEffectPlaysItsOwnVoice) {
     }
 }
 
-TEST_F(SeveralEffectsTest, OfTwoEffectsOnOneVoiceOnlyTheFirstPlaysIt) {
-    SteppedVoice same(runtime_, model_);
-    HostedEffect first(definition());
-    HostedEffect second(definition());
-    for (int i = 0; i < 30; ++i) {
-        const std::vector<float> played = play(voice_, first, 1).channel(0);
-        EXPECT_THAT(second.process(frameOfAudio).channel(0), Each(0.0F));
-        ASSERT_EQ(played, reference(same, 1)) << i;
-    }
-    EXPECT_EQ(voice_.statistics().refused_calls, 30U);
-    EXPECT_EQ(voice_.statistics().rendered_frames, 30 * frameOfAudio);
-}
-
 TEST_F(SeveralEffectsTest, TheSecondEffectTakesOverWhenTheFirstGivesTheVoiceBack) {
     using First = std::optional<HostedEffect>;
     struct Reason {
@@ -100,14 +87,6 @@ TEST_F(SeveralEffectsTest, AClosedVoiceFadesAndTheNextVoiceAtItsPlaceSounds) {
     SteppedVoice same(runtime_, model_);
     EXPECT_EQ(play(*second, effect, 5).channel(0), reference(same, 5))
         << "no ramp is needed, because a voice starts with silence";
-}
-
-TEST_F(SeveralEffectsTest, CreatingAndReleasingEffectsDoesNotAffectAVoice) {
-    SteppedVoice same(runtime_, model_);
-    for (int i = 0; i < 20; ++i) {
-        HostedEffect effect(definition());
-        ASSERT_EQ(play(voice_, effect, 1).channel(0), reference(same, 1)) << i;
-    }
 }
 
 }  // namespace

@@ -26,12 +26,12 @@ _pointer = ctypes.POINTER(ctypes.c_float)
 class _GeneratorOptions(ctypes.Structure):
     _fields_ = [
         ("struct_size", ctypes.c_uint32),
-        ("solver", ctypes.c_int32),
+        ("maximum_batch", ctypes.c_uint32),
         ("runtime", ctypes.c_void_p),
         ("model", ctypes.c_void_p),
         ("tier", ctypes.c_char_p),
-        ("steps", ctypes.c_int32),
-        ("maximum_batch", ctypes.c_uint32),
+        ("cancellation", ctypes.c_void_p),
+        ("probe_limit_ms", ctypes.c_double),
     ]
 
 
@@ -69,14 +69,13 @@ class EngineGenerator:
         self.statistics = SurfaceStatistics.of_entries(self.header["labels"])
         options = options_of(
             _GeneratorOptions,
-            solver=SOLVERS[solver],
             runtime=engine.runtime,
             model=self._model.handle,
             tier=None if tier is None else tier.encode(),
-            steps=steps,
             maximum_batch=maximum_batch,
         )
         engine.call("haptoflow_generator_create", ctypes.byref(options), ctypes.byref(self._handle))
+        self.set_solver(solver, steps)
 
     def __enter__(self) -> EngineGenerator:
         return self
@@ -92,7 +91,7 @@ class EngineGenerator:
         self._model.close()
 
     def set_solver(self, solver: str, steps: int) -> None:
-        """From the next batch on; solver: of SOLVERS, 1 to 16 steps."""
+        """From the next batch on; solver: of SOLVERS, 1 to 16 steps, or "tier" with 0."""
         self._engine.call(
             "haptoflow_generator_set_solver", self._handle, ctypes.c_int32(SOLVERS[solver]), ctypes.c_int32(steps)
         )

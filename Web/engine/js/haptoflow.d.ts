@@ -504,7 +504,7 @@ export class HaptoFlow extends EventTarget {
   readonly voices: readonly Voice[];
   readonly quality: Quality;
 
-  /** Loads the tier where it is not loaded yet; the engine goes on with the present one meanwhile. */
+  /** From the next segment on. */
   setQuality(quality: Quality): Promise<void>;
   openVoice(options?: Partial<Pick<Voice, 'effects' | 'gain' | 'ceiling' | 'listen' | 'delayMs' | 'actuator'>>): Promise<Voice>;
   /** Adds a learnt material as a label, or replaces the one of its name. Text or object of a .haptomaterial file. */

@@ -1,7 +1,7 @@
 #include "headless/scenes/command_files.hpp"
 #include "headless/scenes/scene_file.hpp"
 #include "headless/scenes/scene_materials.hpp"
-#include "model/label_key.hpp"
+#include "model/plain_text.hpp"
 #include "web_imports.hpp"
 #include "web_scene.hpp"
 #include "web_text.hpp"

@@ -1,5 +1,5 @@
 #include "inference/graph_session.hpp"
-#include "inference/inference_error.hpp"
+#include "inference/load_limits.hpp"
 #include "model/model_error.hpp"
 #include "web_imports.hpp"
 
@@ -40,7 +40,7 @@ public:
 private:
     void bind(std::size_t batch) override;
     void matchSignature();
-    void probe(std::size_t batch, const LoadLimits& limits);
+    void probe(const LoadLimits& limits);
     [[noreturn]] void refuse(const std::string& complaint) const {
         throw model::ModelError(model::ModelStatus::inconsistent, name_ + ": " + complaint);
     }
@@ -59,8 +59,7 @@ WebGraphSession::WebGraphSession(std::span<const std::byte> graph, std::string n
     }
     try {
         matchSignature();
-        probe(maximumBatch_, limits);
-        probe(1, limits);
+        probe(limits);
     } catch (const InferenceError& error) {
         hapto_ort_release(handle_);
         throw model::ModelError(model::ModelStatus::inconsistent, error.what());
@@ -83,16 +82,16 @@ void WebGraphSession::matchSignature() {
     }
 }
 
-void WebGraphSession::probe(std::size_t batch, const LoadLimits& limits) {
+void WebGraphSession::probe(const LoadLimits& limits) {
     limits.check();
-    setBatch(batch);
+    setBatch(maximumBatch_);
     const auto began = std::chrono::steady_clock::now();
     run();
     const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - began;
-    const std::size_t parts = (batch + probeBatch - 1) / probeBatch;
+    const std::size_t parts = (maximumBatch_ + probeBatch - 1) / probeBatch;
     const double limitMs = limits.probeLimitMs * static_cast<double>(parts);
     if (spent.count() > limitMs) {
-        throw TierTooSlow(name_ + ": a run of " + std::to_string(batch) + " took longer than " +
+        throw TierTooSlow(name_ + ": a run of " + std::to_string(maximumBatch_) + " took longer than " +
                           std::to_string(static_cast<std::int64_t>(std::ceil(limitMs))) +
                           " ms; choose a smaller tier or model");
     }

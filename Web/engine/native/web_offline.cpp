@@ -7,7 +7,6 @@
 #include "headless/scenes/stroke_file.hpp"
 #include "inference/random_requests.hpp"
 #include "inference/tier_generator.hpp"
-#include "inference/tier_graphs.hpp"
 #include "model/material_file.hpp"
 #include "web_engine.hpp"
 #include "web_imports.hpp"

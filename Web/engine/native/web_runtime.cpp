@@ -1,4 +1,4 @@
-#include "inference/inference_error.hpp"
+#include "inference/load_limits.hpp"
 #include "inference/onnx_runtime.hpp"
 
 #include <utility>

@@ -164,8 +164,7 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>Changes the quality of a running engine. A tier that is not loaded yet is loaded on another
-        /// thread.</summary>
+        /// <summary>Changes the quality of a running engine, on another thread.</summary>
         public void SetQuality(HapticQuality quality)
         {
             if (Engine != null)

@@ -118,8 +118,7 @@ namespace HaptoFlow
             handle = new NativeHandle(opened, NativeMethods.EngineClose);
         }
 
-        /// <summary>Changes the quality from the next segment on. Blocks while ONNX Runtime loads a tier that is not
-        /// loaded yet.</summary>
+        /// <summary>Changes the quality from the next segment on.</summary>
         public void SetQuality(HapticQuality quality) =>
             handle.Check(NativeMethods.EngineSetQuality(handle.Value, (int)quality));
 

@@ -42,11 +42,6 @@ namespace HaptoFlow
             handle = new NativeHandle(opened, NativeMethods.GeneratorClose);
         }
 
-        /// <summary>Sets solver and steps from the next call on.</summary>
-        /// <param name="steps">1 to 16; 0 with <see cref="HapticSolver.OfTier"/>.</param>
-        public void SetSolver(HapticSolver solver, int steps) =>
-            handle.Check(NativeMethods.GeneratorSetSolver(handle.Value, (int)solver, steps));
-
         /// <summary>Generates a segment in m/s^2 for each request; requests follow each other in the arrays.</summary>
         /// <param name="embeddings">64 numbers each.</param>
         /// <param name="motions">3 numbers each.</param>
@@ -73,35 +68,6 @@ namespace HaptoFlow
                     Noise = normal,
                 };
                 handle.Check(NativeMethods.GeneratorGenerate(handle.Value, &batch, segment));
-            }
-        }
-
-        /// <summary>Computes the level law for each request: RMS in m/s^2.</summary>
-        public void Levels(ReadOnlySpan<float> embeddings, ReadOnlySpan<float> motions, Span<float> levelsMps2)
-        {
-            int count = CountOf(embeddings, motions);
-            RequireLength(levelsMps2.Length, count, nameof(levelsMps2));
-            fixed (float* embedding = embeddings, motion = motions, level = levelsMps2)
-            {
-                var batch = new Batch
-                {
-                    StructSize = (uint)sizeof(Batch),
-                    Count = (uint)count,
-                    Embeddings = embedding,
-                    Motions = motion,
-                };
-                handle.Check(NativeMethods.GeneratorLevels(handle.Value, &batch, level));
-            }
-        }
-
-        /// <summary>Fills an array with standard normal numbers that depend only on seed, voice and segment, identical
-        /// on every platform.</summary>
-        public static void FillNoise(ulong seed, int voice, ulong segment, Span<float> noise)
-        {
-            fixed (float* numbers = noise)
-            {
-                NativeCall.Check(
-                    NativeMethods.NoiseFill(seed, checked((uint)voice), segment, numbers, (ulong)noise.Length));
             }
         }
 

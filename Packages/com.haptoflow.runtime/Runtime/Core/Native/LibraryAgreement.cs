@@ -4,9 +4,8 @@ using System.Collections.Generic;
 
 namespace HaptoFlow.Native
 {
-    /// <summary>Refuses a native library that belongs to another version of the package. struct_size lets structs grow,
-    /// but does not say that functions, numbers of enums or meanings changed, and structs in arrays do not have it.
-    /// </summary>
+    /// <summary>Refuses a native library that belongs to another version of the package, or with a struct of another
+    /// size.</summary>
     internal static unsafe class LibraryAgreement
     {
         /// <summary>The package's version, which the library has, too.</summary>

@@ -27,9 +27,6 @@ namespace HaptoFlow.Native
         [DllImport(Library, EntryPoint = "haptoflow_status_name")]
         public static extern IntPtr StatusName(int status);
 
-        [DllImport(Library, EntryPoint = "haptoflow_silence_name")]
-        public static extern IntPtr SilenceName(int silence);
-
         [DllImport(Library, EntryPoint = "haptoflow_last_message")]
         public static extern IntPtr LastMessage();
 
@@ -99,14 +96,8 @@ namespace HaptoFlow.Native
         [DllImport(Library, EntryPoint = "haptoflow_generator_close")]
         public static extern int GeneratorClose(IntPtr* generator);
 
-        [DllImport(Library, EntryPoint = "haptoflow_generator_set_solver")]
-        public static extern int GeneratorSetSolver(IntPtr generator, int solver, int steps);
-
         [DllImport(Library, EntryPoint = "haptoflow_generator_generate")]
         public static extern int GeneratorGenerate(IntPtr generator, Batch* batch, float* segmentsMps2);
-
-        [DllImport(Library, EntryPoint = "haptoflow_generator_levels")]
-        public static extern int GeneratorLevels(IntPtr generator, Batch* batch, float* levelsMps2);
 
         [DllImport(Library, EntryPoint = "haptoflow_engine_create")]
         public static extern int EngineCreate(EngineOptions* options, IntPtr* engine);
@@ -277,9 +268,6 @@ namespace HaptoFlow.Native
 
         [DllImport(Library, EntryPoint = "haptoflow_learning_close")]
         public static extern int LearningClose(IntPtr* learning);
-
-        [DllImport(Library, EntryPoint = "haptoflow_noise_fill")]
-        public static extern int NoiseFill(ulong seed, uint voice, ulong segment, float* noise, ulong count);
 
         [DllImport(Library, EntryPoint = "haptoflow_struct_size")]
         public static extern int StructSize(byte* name, uint* bytes);

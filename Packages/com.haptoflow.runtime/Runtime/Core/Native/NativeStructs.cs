@@ -96,12 +96,10 @@ namespace HaptoFlow.Native
     internal struct GeneratorOptions
     {
         public uint StructSize;
-        public int Solver;
+        public uint MaximumBatch;
         public IntPtr Runtime;
         public IntPtr Model;
         public IntPtr Tier;
-        public int Steps;
-        public uint MaximumBatch;
         public IntPtr Cancellation;
         public double ProbeLimitMs;
     }

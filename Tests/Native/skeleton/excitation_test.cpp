@@ -1,0 +1,193 @@
+#include "skeleton/excitation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+
+namespace haptoflow::skeleton {
+namespace {
+
+FamilyGains randomGains(std::uint32_t seed) {
+    std::mt19937 random(seed);
+    std::normal_distribution<float> normal;
+    FamilyGains gains;
+    for (auto* part : {&gains.swingCosine, &gains.swingSine}) {
+        for (float& gain : *part) {
+            gain = normal(random);
+        }
+    }
+    for (auto* part : {&gains.lineCosine, &gains.lineSine}) {
+        for (float& gain : *part) {
+            gain = normal(random);
+        }
+    }
+    return gains;
+}
+
+/// The angle of a harmonic at sample n, straight from the definition.
+double theta(const FamilyPhase& phase, std::size_t harmonic, double n) {
+    const double sign = phase.rateHz >= 0.0 ? 1.0 : -1.0;
+    return 2.0 * std::numbers::pi * static_cast<double>(harmonic) *
+           (sign * phase.turns + std::fabs(phase.rateHz) * (n + 0.5) / 2000.0);
+}
+
+void expectDefinition(const FamilyPhase& phase) {
+    const FamilyGains gains = randomGains(11);
+    SurfaceWaves waves;
+    SurfaceWaves::Pulses cosines{};
+    SurfaceWaves::Pulses sines{};
+    waves.add(phase, gains, &cosines, &sines);
+    for (std::size_t n = 0; n < segmentSamples; ++n) {
+        double line = 0.0;
+        double swing = 0.0;
+        for (std::size_t h = 1; h <= lineHarmonics; ++h) {
+            const double angle = theta(phase, h, static_cast<double>(n));
+            const double harmonicHz = static_cast<double>(h) * std::fabs(phase.rateHz);
+            if (harmonicHz < 960.0) {
+                line += 30.0 * std::tanh(gains.lineCosine[h - 1] / 30.0) * std::cos(angle) +
+                        30.0 * std::tanh(gains.lineSine[h - 1] / 30.0) * std::sin(angle);
+            }
+            if (h <= swingHarmonics) {
+                const bool isHeard = harmonicHz < 700.0;
+                swing += isHeard ? gains.swingCosine[h - 1] * std::cos(angle) + gains.swingSine[h - 1] * std::sin(angle)
+                                 : 0.0;
+                ASSERT_NEAR(cosines[h - 1][n], isHeard ? std::cos(angle) : 0.0, 3e-6) << h << ' ' << n;
+                ASSERT_NEAR(sines[h - 1][n], isHeard ? std::sin(angle) : 0.0, 3e-6) << h << ' ' << n;
+            }
+        }
+        ASSERT_NEAR(waves.lines()[n], line, 2e-5) << n;
+        ASSERT_NEAR(waves.swing()[n], swing, 2e-5) << n;
+    }
+}
+
+TEST(SurfaceWavesTest, LinesSwingAndPulsesFollowTheDefinition) {
+    for (const double rateHz : {0.6, 37.5, 91.0, 333.0, 650.0, 959.0}) {
+        expectDefinition({.turns = 0.3, .rateHz = rateHz});
+    }
+}
+
+TEST(SurfaceWavesTest, AFamilyMetBackwardsIsMirroredInTime) {
+    expectDefinition({.turns = 0.3, .rateHz = -37.5});
+    expectDefinition({.turns = 0.9, .rateHz = -210.0});
+}
+
+TEST(SurfaceWavesTest, PhasesOfManyTurnsLoseNoPrecision) {
+    expectDefinition({.turns = 1e6 + 0.25, .rateHz = 90.0});
+}
+
+TEST(SurfaceWavesTest, OnlyRatesBetweenHalfAHertzAndTheHighestLineAreHeard) {
+    EXPECT_FALSE((FamilyPhase{.turns = 0.5, .rateHz = 0.0}.isHeard()));
+    EXPECT_FALSE((FamilyPhase{.turns = 0.5, .rateHz = -0.5}.isHeard()));
+    EXPECT_TRUE((FamilyPhase{.turns = 0.5, .rateHz = -0.51}.isHeard()));
+    EXPECT_TRUE((FamilyPhase{.turns = 0.5, .rateHz = 959.9}.isHeard()));
+    EXPECT_FALSE((FamilyPhase{.turns = 0.5, .rateHz = 960.0}.isHeard()));
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_FALSE((FamilyPhase{.turns = nan, .rateHz = 50.0}.isHeard()));
+    EXPECT_FALSE((FamilyPhase{.turns = 0.5, .rateHz = nan}.isHeard()));
+}
+
+TEST(SurfaceWavesTest, FamiliesAddUp) {
+    const FamilyPhase one{.turns = 0.1, .rateHz = 60.0};
+    const FamilyPhase other{.turns = 0.7, .rateHz = -140.0};
+    SurfaceWaves both;
+    both.add(one, randomGains(1));
+    both.add(other, randomGains(2));
+    SurfaceWaves first;
+    first.add(one, randomGains(1));
+    SurfaceWaves second;
+    second.add(other, randomGains(2));
+    for (std::size_t n = 0; n < segmentSamples; ++n) {
+        EXPECT_NEAR(both.lines()[n], first.lines()[n] + second.lines()[n], 1e-5);
+    }
+    EXPECT_FALSE(SurfaceWaves().isHeard());
+    EXPECT_TRUE(both.isHeard());
+}
+
+using Gains = std::array<float, RungImpulses::gainCount>;
+using Wave = std::array<float, segmentSamples>;
+
+/// 1 over the deviation of max(n - 2, 0) - max(-n - 2, 0): E = 2 [(1 + 4) Q(2) - 2 p(2)].
+const double scaleOfFirstRung = 1.0 / std::sqrt(2.0 * (5.0 * 0.022750131948179 - 2.0 * 0.053990966513188));
+
+Gains withGain(bool isNegative, std::size_t rung, std::size_t atom, float gain) {
+    Gains gains{};
+    gains[((isNegative ? rungCount : 0) + rung) * atomCount + atom] = gain;
+    return gains;
+}
+
+Wave struckBy(const Wave& noise, const Gains& gains) {
+    Wave struck{};
+    struck.fill(9.0F);
+    RungImpulses().strike(noise, gains, struck);
+    return struck;
+}
+
+TEST(RungImpulsesTest, NoiseBelowTheFirstRungStrikesNothing) {
+    Wave noise{};
+    noise[10] = 2.0F;
+    noise[20] = -1.99F;
+    Gains gains{};
+    gains.fill(1.0F);
+    EXPECT_EQ(struckBy(noise, gains), Wave{});
+}
+
+TEST(RungImpulsesTest, AStrikeOfTheDeltaIsTheScaledExcess) {
+    Wave noise{};
+    noise[10] = 2.5F;
+    const Wave struck = struckBy(noise, withGain(false, 0, 0, 3.0F));
+    EXPECT_NEAR(struck[10], 0.5 * scaleOfFirstRung * 8.0 * std::tanh(3.0 / 8.0), 1e-4);
+    EXPECT_EQ(std::ranges::count(struck, 0.0F), 199);
+}
+
+TEST(RungImpulsesTest, TheNegativeTailStrikesDownwardsWithKernelsOfItsOwn) {
+    Wave noise{};
+    noise[10] = -2.5F;
+    EXPECT_EQ(struckBy(noise, withGain(false, 0, 0, 3.0F)), Wave{});
+    const Wave struck = struckBy(noise, withGain(true, 0, 0, 3.0F));
+    EXPECT_NEAR(struck[10], -0.5 * scaleOfFirstRung * 8.0 * std::tanh(3.0 / 8.0), 1e-4);
+}
+
+TEST(RungImpulsesTest, ARingDecaysWithItsFrequencyFor64Samples) {
+    Wave noise{};
+    noise[10] = 2.0F + static_cast<float>(1.0 / scaleOfFirstRung);
+    // The sine of 280 Hz.
+    const Wave struck = struckBy(noise, withGain(false, 0, 8, 0.01F));
+    const auto ring = [](std::size_t n) {
+        const double turn = 2.0 * std::numbers::pi * 280.0 * static_cast<double>(n) / 2000.0;
+        return std::exp(-0.4 * turn) * std::sin(turn);
+    };
+    double energy = 0.0;
+    for (std::size_t n = 0; n < 64; ++n) {
+        energy += ring(n) * ring(n);
+    }
+    for (std::size_t n = 0; n < 64; ++n) {
+        EXPECT_NEAR(struck[10 + n], 0.01 * ring(n) / std::sqrt(energy), 1e-6) << n;
+    }
+    EXPECT_EQ(struck[9], 0.0F);
+    EXPECT_EQ(struck[74], 0.0F);
+}
+
+TEST(RungImpulsesTest, AHighSampleStrikesEveryRungBelowIt) {
+    Wave noise{};
+    noise[10] = 3.3F;
+    for (std::size_t rung = 0; rung < rungCount; ++rung) {
+        EXPECT_EQ(struckBy(noise, withGain(false, rung, 0, 1.0F))[10] > 0.0F, rung < 3) << rung;
+    }
+}
+
+TEST(RungImpulsesTest, AStrikeNearTheEndIsCutAtTheSegmentsEnd) {
+    Wave noise{};
+    noise[199] = 5.0F;
+    Gains gains{};
+    gains.fill(1.0F);
+    const Wave struck = struckBy(noise, gains);
+    EXPECT_NE(struck[199], 0.0F);
+    EXPECT_EQ(struck[198], 0.0F);
+}
+
+}  // namespace
+}  // namespace haptoflow::skeleton
