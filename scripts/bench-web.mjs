@@ -2,14 +2,13 @@
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import os from 'node:os';
 import { parseArgs } from 'node:util';
-import { measureTouches } from './bench/web_touches.mjs';
-import { webTables } from './bench/web_tables.mjs';
 import { withMeasuredPart } from './lib/measured_part.mjs';
-import { modelLine, sha256Of, shippedModel } from './lib/model_stamp.mjs';
+import { modelLine, sha256Of, shippedModel } from './lib/measured_part.mjs';
 import { buildNative } from './lib/native_build.mjs';
 import { CommandError, runMain, runOrFail } from './lib/process.mjs';
-import { commandLinePath, inRepository } from './lib/repository.mjs';
+import { commandLinePath, inRepository } from './lib/process.mjs';
 import { setUp } from './lib/setup.mjs';
+import { measureTouches, webTables } from './lib/web_bench.mjs';
 
 const report = inRepository('out', 'bench-web.json');
 const documentPath = inRepository('Documentation~', 'in-the-browser.md');

@@ -2,16 +2,16 @@
 import { spawn } from 'node:child_process';
 import { existsSync, mkdirSync, readFileSync, statSync, writeFileSync } from 'node:fs';
 import { parseArgs } from 'node:util';
-import { benchArguments, withMeasuredTables, withModelSha256 } from './bench/measured_tables.mjs';
+import { withMeasuredPart } from './lib/measured_part.mjs';
 import { buildNative } from './lib/native_build.mjs';
-import { sha256Of, shippedModel } from './lib/model_stamp.mjs';
+import { modelLine, sha256Of, shippedModel } from './lib/measured_part.mjs';
 import { CommandError, runMain, runOrFail } from './lib/process.mjs';
-import { commandLinePath, inRepository } from './lib/repository.mjs';
+import { commandLinePath, inRepository } from './lib/process.mjs';
 import { pythonOrFail, setUp } from './lib/setup.mjs';
 
 const report = inRepository('out', 'bench.json');
 const paperModel = inRepository('out', 'bench', 'paper-architecture.haptoflow');
-const documentPath = inRepository('Documentation~', 'benchmarks.md');
+const documentPath = inRepository('Training', 'results', 'benchmarks.md');
 
 const optionTable = {
   quick: { type: 'boolean', default: false },
@@ -68,11 +68,11 @@ const help = `usage: ./run bench [--quick] [--only NAMES] [--events N] [--model 
 Measures callback, latencies, inference, memory and contact into out/bench.json.
 
   --quick      fewer events and devices: a first look
-  --only       some measurements: callback, events, effects, blends, outputs, latency, inference, voices, idle, contact
+  --only       some measurements: callback, effects, latency, inference, voices, idle, contact
   --events     events behind each latency
   --model      another model file than the shipped one
   --no-paper   without the comparison with the paper's architecture
-  --publish    a whole run of the shipped model, written into Documentation~/benchmarks.md too`;
+  --publish    a whole run of the shipped model, written into Training/results/benchmarks.md too`;
 
 await runMain('bench', async (words) => {
   const options = optionsOf(words);
@@ -81,13 +81,20 @@ await runMain('bench', async (words) => {
   mkdirSync(inRepository('out', 'bench'), { recursive: true });
   const comparesWithPaper = !options['no-paper'] && (options.only ?? 'inference').split(',').includes('inference');
   if (comparesWithPaper) await makePaperModel();
-  const tables = await measure(benchArguments(options, report, comparesWithPaper ? paperModel : null));
+  const tables = await measure([
+    'bench', '--output', report,
+    ...(comparesWithPaper ? ['--paper-model', paperModel] : []),
+    ...(options.quick ? ['--quick'] : []),
+    ...['only', 'events', 'model'].flatMap((name) => (options[name] === undefined ? [] : [`--${name}`, options[name]])),
+  ]);
   const modelSha256 = sha256Of(options.model ?? shippedModel);
-  const measured = withModelSha256(JSON.parse(readFileSync(report, 'utf8')), modelSha256);
+  const measured = JSON.parse(readFileSync(report, 'utf8'));
+  measured.model.sha256 = modelSha256;
   writeFileSync(report, `${JSON.stringify(measured, null, 2)}\n`);
   console.log(`\nbench: ${report}`);
   if (options.publish) {
-    writeFileSync(documentPath, withMeasuredTables(readFileSync(documentPath, 'utf8'), tables, modelSha256));
+    const text = `${modelLine(modelSha256)}\n\n\`\`\`\n${tables.trim()}\n\`\`\``;
+    writeFileSync(documentPath, withMeasuredPart(readFileSync(documentPath, 'utf8'), 'npm run bench -- --publish', text));
     console.log(`bench: ${documentPath}`);
   }
 }, { help });

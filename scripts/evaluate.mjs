@@ -1,8 +1,7 @@
 // evaluate: accuracy over time, every row measured through the engine (arguments: those of haptoflow-paper evaluate)
-import { evaluatingPackage } from './lib/evaluating_package.mjs';
 import { buildNative } from './lib/native_build.mjs';
 import { run, runMain } from './lib/process.mjs';
-import { inRepository, callerFolder } from './lib/repository.mjs';
+import { callerFolder, inRepository } from './lib/process.mjs';
 import { pythonOrFail, setUp } from './lib/setup.mjs';
 
 const help = `usage: ./run evaluate [ARGUMENTS]
@@ -14,7 +13,8 @@ Paths are relative to the current folder. With the Python packages in place, PYT
 await runMain('evaluate', async (words) => {
   await setUp(['build', 'python']);
   await buildNative({ targets: ['audioplugin_haptoflow', 'haptoflow_cli'] });
-  const args = ['-m', evaluatingPackage(words), 'evaluate', ...words];
+  const comparesOneModel = words.some((word) => /^--(recordings|model|labels)(=|$)/.test(word));
+  const args = ['-m', comparesOneModel ? 'haptoflow_benchmark' : 'haptoflow_paper', 'evaluate', ...words];
   const { exitCode } = await run(pythonOrFail(), args, { cwd: callerFolder(), env: { PYTHONPATH: inRepository('Training'), OPENBLAS_NUM_THREADS: '1' } });
   return exitCode;
 }, { help });

@@ -28,22 +28,17 @@ nlohmann::ordered_json identity(const std::filesystem::path& path, const model::
 
 nlohmann::ordered_json goals() {
     return {{"callback_us", "below 1 % of the block at p99, one voice"},
-            {"callback_events_us", "at most twice an ordinary block of the same row, p50 to p50"},
             {"effects", "no run without a request"},
             {"onset_ms", "one block; with bursts, one burst"},
             {"contact_to_sound_ms", "one block, the delay of the output's filter, and 1.5 ms"},
             {"stop_ms", "one block and 5 ms"},
-            {"noise_us", "at most 5 % of standard, paced, more for the surface's than for that of time"},
             {"speedup_vs_paper_architecture", "at least 60, hot"},
             {"idle", "no inference"}};
 }
 
 nlohmann::ordered_json references() {
     return {{"callback_us", "as many voices that write silence: p50 to p50"},
-            {"callback_events_us", "ordinary blocks of the same row: p50 to p50"},
             {"effects", "the same voice without the effect: p50 to p50"},
-            {"blends", "one material alone: p50 to p50"},
-            {"outputs", "the voice of an audio output at 48 kHz: p50 to p50"},
             {"onset_ms", "the goal: p99 to goal"},
             {"contact_to_sound_ms", "the goal: p99 to goal"},
             {"stop_ms", "the goal: p99 to goal"},
@@ -79,10 +74,7 @@ nlohmann::ordered_json runBench(const BenchOptions& options, const BenchProgress
 
     const std::vector<Measurement> all{
         {"callback", 14.0, [&](const Advance& advance) { return measureCallback(subjects, plan, advance); }},
-        {"events", 8.0, [&](const Advance& advance) { return measureEventBlocks(subjects, plan, advance); }},
         {"effects", 8.0, [&](const Advance& advance) { return measureEffects(subjects, plan, advance); }},
-        {"blends", 3.0, [&](const Advance& advance) { return measureBlends(subjects, plan, advance); }},
-        {"outputs", 6.0, [&](const Advance& advance) { return measureOutputs(subjects, plan, advance); }},
         {"latency", 130.0, [&](const Advance& advance) { return measureLatency(subjects, plan, advance); }},
         {"inference", 35.0, [&](const Advance& advance) { return measureInference(subjects, plan, advance); }},
         {"voices", 10.0, [&](const Advance& advance) { return measureVoices(subjects, plan, advance); }},

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "bench/bench_plan.hpp"
-#include "bench/load_bench.hpp"
+#include "bench/subjects.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -16,8 +16,8 @@
 namespace haptoflow::bench {
 
 /// Measurements that can be run alone. Loading and memory are always measured, because all others need the open model.
-inline constexpr std::array<std::string_view, 10> measurementNames{
-    "callback", "events", "effects", "blends", "outputs", "latency", "inference", "voices", "idle", "contact"};
+inline constexpr std::array<std::string_view, 7> measurementNames{"callback", "effects", "latency", "inference",
+                                                                  "voices",   "idle",    "contact"};
 
 struct BenchOptions {
     SubjectFiles files;
@@ -32,10 +32,10 @@ struct BenchOptions {
 /// Receives the name of the current measurement and the completed share of the whole, 0 to 1.
 using BenchProgress = std::function<void(double share, std::string_view what)>;
 
-/// Runs the measurements and returns the results as one object, bench.json: see Documentation~/benchmarks.md. Takes the
-/// plan's time, because paced measurements run in real time. A measurement that was not possible has no key; "notes"
-/// says why.
-/// Throws MeasurementError, model::ModelError, inference::RuntimeUnavailable, inference::InferenceError.
+/// Runs the measurements and returns the results as one object, bench.json: see Documentation~/live-engine.md. Takes
+/// the plan's time, because paced measurements run in real time. A measurement that was not possible has no key;
+/// "notes" says why. Throws MeasurementError, model::ModelError, inference::RuntimeUnavailable,
+/// inference::InferenceError.
 [[nodiscard]] nlohmann::ordered_json runBench(const BenchOptions& options, const BenchProgress& progress);
 
 /// Prints the report of `runBench` for reading: one table for each measurement in it.

@@ -3,11 +3,37 @@
 #include "engine/quality_control.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cstddef>
+#include <functional>
 #include <string_view>
+#include <thread>
 #include <vector>
 
 namespace haptoflow::bench {
+
+/// Receives the completed share of a measurement, 0 to 1.
+using Advance = std::function<void(double share)>;
+
+/// Time in seconds of the monotonic clock that all measurements use.
+[[nodiscard]] inline double nowSeconds() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// Sleeps until `nowSeconds` has reached `seconds`.
+inline void sleepUntil(double seconds) {
+    using Clock = std::chrono::steady_clock;
+    const auto sinceEpoch = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+    std::this_thread::sleep_until(Clock::time_point(sinceEpoch));
+}
+
+/// Runs `action` and returns the time that it took, in seconds.
+template <typename Action>
+[[nodiscard]] double secondsOf(Action&& action) {
+    const auto began = std::chrono::steady_clock::now();
+    action();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+}
 
 inline constexpr double outputRateHz = 48000.0;
 /// Contact states per second of the simulated headset.
@@ -51,8 +77,6 @@ struct BenchPlan {
     [[nodiscard]] std::size_t batchRuns() const noexcept { return std::max<std::size_t>(2, events / 5); }
     [[nodiscard]] double idleSeconds() const noexcept { return 0.02 * static_cast<double>(events); }
     [[nodiscard]] std::size_t loads() const noexcept { return std::max<std::size_t>(2, events / 10); }
-    [[nodiscard]] std::size_t outputFrames() const noexcept { return 20 * events; }
-    [[nodiscard]] std::size_t blendUpdates() const noexcept { return 4 * events; }
     [[nodiscard]] std::size_t contactUpdates() const noexcept { return 20 * events; }
 };
 

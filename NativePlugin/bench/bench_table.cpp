@@ -77,23 +77,6 @@ void printCallback(std::ostream& stream, const Json& rows) {
     printTable(stream, "callback, 256 frames at 48 kHz, us", table);
 }
 
-void printEvents(std::ostream& stream, const Json& rows) {
-    std::vector<Row> table{{"voices, block", "kind", "events", "p50", "p99", "worst", "x ordinary"}};
-    for (const Json& entry : rows) {
-        const std::string device = figure(entry["voices"]) + ", " + figure(entry["block_frames"]) + " at " +
-                                   figure(entry["sample_rate_hz"].get<double>() / 1000.0) + " kHz";
-        for (const auto& [kind, distribution] : entry.items()) {
-            if (distribution.is_object()) {
-                Row row{device, kind, figure(distribution["count"])};
-                appendRanks(row, distribution);
-                row.push_back(figure(distribution.value("ratio", Json())));
-                table.push_back(row);
-            }
-        }
-    }
-    printTable(stream, "callback, the block in which something happens, us", table);
-}
-
 void printEffects(std::ostream& stream, const Json& rows) {
     std::vector<Row> table{
         {"effect", "off: runs", "on: us a block", "% of block", "events", "callback p50", "p99", "worst", "x without"}};
@@ -106,34 +89,6 @@ void printEffects(std::ostream& stream, const Json& rows) {
         table.push_back(row);
     }
     printTable(stream, "effects, 256 frames at 48 kHz, us", table);
-}
-
-void printBlends(std::ostream& stream, const Json& rows) {
-    std::vector<Row> table{{"materials", "publish us p50", "p99", "worst", "x one", "update ms p50", "p99", "worst",
-                            "x one", "callback us p50", "p99", "worst", "x one", "worker % of a core", "x one"}};
-    for (const Json& entry : rows) {
-        Row row{figure(entry["materials"])};
-        for (const char* figures : {"publish_us", "ms_per_update", "callback_us"}) {
-            appendRanks(row, entry[figures]);
-            row.push_back(figure(entry[figures]["ratio"]));
-        }
-        row.push_back(figure(entry["worker_percent"]));
-        row.push_back(figure(entry["worker_ratio"]));
-        table.push_back(row);
-    }
-    printTable(stream, "blends, one contact state: main thread, worker, one block of the callback", table);
-}
-
-void printOutputs(std::ostream& stream, const Json& rows) {
-    std::vector<Row> table{{"output", "voice at Hz", "p50", "p99", "worst", "p50 % of frame", "x audio"}};
-    for (const Json& entry : rows) {
-        Row row{text(entry["name"]), figure(entry["rate_hz"])};
-        appendRanks(row, entry["us_per_frame"]);
-        row.push_back(percent(entry["share_of_frame"]));
-        row.push_back(figure(entry["ratio"]));
-        table.push_back(row);
-    }
-    printTable(stream, "outputs, one frame of 13.9 ms, us", table);
 }
 
 std::string deviceOf(const Json& entry) {
@@ -184,19 +139,6 @@ void printInference(std::ostream& stream, const Json& report) {
                << figure(report["speedup_vs_paper_architecture"]) << " hot, "
                << figure(report["speedup_vs_paper_architecture_paced"]) << " paced\n";
     }
-}
-
-void printNoise(std::ostream& stream, const Json& paces) {
-    std::vector<Row> table{
-        {"pace", "of the surface p50", "p99", "worst", "of time p50", "p99", "worst", "added to standard, %"}};
-    for (const auto& [pace, entry] : paces.items()) {
-        Row row{pace};
-        appendRanks(row, entry["surface"]);
-        appendRanks(row, entry["time"]);
-        row.push_back(figure(entry["added_to_standard_percent"]));
-        table.push_back(row);
-    }
-    printTable(stream, "noise of one segment, us", table);
 }
 
 void printVoices(std::ostream& stream, const std::string& title, const Json& rows) {
@@ -266,15 +208,11 @@ void printTables(std::ostream& stream, const Json& report) {
         }
     };
     print("callback_us", [&](const Json& section) { printCallback(stream, section); });
-    print("callback_events_us", [&](const Json& section) { printEvents(stream, section); });
     print("effects", [&](const Json& section) { printEffects(stream, section); });
-    print("blends", [&](const Json& section) { printBlends(stream, section); });
-    print("outputs", [&](const Json& section) { printOutputs(stream, section); });
     print("onset_ms", [&](const Json& section) { printLatency(stream, "onset, ms", section); });
     print("contact_to_sound_ms", [&](const Json& section) { printLatency(stream, "contact to sound, ms", section); });
     print("stop_ms", [&](const Json& section) { printLatency(stream, "stop, ms", section); });
     print("inference_ms", [&](const Json&) { printInference(stream, report); });
-    print("noise_us", [&](const Json& section) { printNoise(stream, section); });
     print("voices", [&](const Json& section) { printVoices(stream, "voices, one update, ms", section); });
     print("sketch_voices",
           [&](const Json& section) { printVoices(stream, "voices of the sketch, one update, ms", section); });

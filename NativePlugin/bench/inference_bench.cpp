@@ -1,10 +1,8 @@
 #include "bench/measurements.hpp"
 
 #include "bench/distribution.hpp"
-#include "bench/random_requests.hpp"
 #include "dsp/denormals.hpp"
-#include "inference/gaussian_noise.hpp"
-#include "inference/surface_noise.hpp"
+#include "inference/random_requests.hpp"
 
 #include <algorithm>
 #include <array>
@@ -23,7 +21,7 @@ struct Contender {
     std::string name;
     const model::Tier& tier;
     std::unique_ptr<inference::TierGenerator> generator;
-    RandomRequests requests;
+    inference::RandomRequests requests;
     std::array<float, inference::segmentSamples> segment{};
     std::vector<double> hotSeconds{};
     std::vector<double> pacedSeconds{};
@@ -43,23 +41,13 @@ void runHot(Contender& contender, std::size_t runs) {
     }
 }
 
-/// Waits for the next update. A run that takes longer than the pace is followed by the next one at once.
-class Pace {
-public:
-    void wait() {
-        due_ = std::max(due_ + 1.0 / updateRateHz, nowSeconds());
-        sleepUntil(due_);
-    }
-
-private:
-    double due_ = nowSeconds();
-};
-
+/// One run at each update. A run that takes longer is followed by the next one at once.
 void runPaced(Contender& contender, std::size_t runs) {
     (void)contender.run();
-    Pace pace;
+    double due = nowSeconds();
     for (std::size_t run = 0; run < runs; ++run) {
-        pace.wait();
+        due = std::max(due + 1.0 / updateRateHz, nowSeconds());
+        sleepUntil(due);
         contender.pacedSeconds.push_back(contender.run());
     }
 }
@@ -93,63 +81,6 @@ nlohmann::ordered_json speedup(const nlohmann::ordered_json& paper, const nlohma
     return ratioOf(paper["p50"].get<double>(), tier["p50"].get<double>());
 }
 
-/// The noise of one segment: of the surface at the model's speeds, and of time.
-class NoiseTimer {
-public:
-    explicit NoiseTimer(const model::ModelFile& model) : model_(model) {}
-
-    void run(std::size_t runs, bool isPaced) {
-        Pace pace;
-        for (std::size_t run = 0; run < runs; ++run) {
-            for (const bool isOfSurface : {true, false}) {
-                if (isPaced) {
-                    pace.wait();
-                }
-                seconds_[isPaced][isOfSurface].push_back(once(isOfSurface));
-            }
-        }
-    }
-
-    /// `standard` are the figures of the model's standard tier.
-    [[nodiscard]] nlohmann::ordered_json figures(const nlohmann::ordered_json& standard) const {
-        nlohmann::ordered_json report;
-        for (const bool isPaced : {false, true}) {
-            const auto surface = toJson(distributionOf(seconds_[isPaced][true]), microseconds);
-            const auto time = toJson(distributionOf(seconds_[isPaced][false]), microseconds);
-            const nlohmann::ordered_json& tier = isPaced ? standard["paced"] : standard;
-            const double addedMs = 1e-3 * (surface["p50"].get<double>() - time["p50"].get<double>());
-            report[isPaced ? "paced" : "hot"] = {
-                {"surface", surface},
-                {"time", time},
-                {"added_to_standard_percent", 100.0 * addedMs / tier["p50"].get<double>()}};
-        }
-        return report;
-    }
-
-private:
-    double once(bool isOfSurface) {
-        const double metresPerSample =
-            std::uniform_real_distribution(0.005, model_.header().speedMps.maximum)(random_) /
-            inference::waveformRateHz;
-        place_ += 28.0 * metresPerSample;
-        const inference::SurfacePath path{.startMetres = {place_, 0.01, 0.02},
-                                          .stepMetres = {metresPerSample, 0.0, 0.0}};
-        ++segment_;
-        return secondsOf([&] {
-            if (!isOfSurface || !inference::fillSurfaceNoise(1, path, noise_)) {
-                inference::fillStandardNormal({.seed = 1, .voice = 0, .segment = segment_}, noise_);
-            }
-        });
-    }
-
-    const model::ModelFile& model_;
-    std::mt19937_64 random_{1};
-    double place_ = 0.0;
-    std::uint64_t segment_ = 0;
-    std::array<float, inference::segmentSamples> noise_{};
-    std::array<std::array<std::vector<double>, 2>, 2> seconds_{};
-};
-
 nlohmann::ordered_json reportOf(const std::deque<Contender>& contenders, const Subjects& subjects) {
     nlohmann::ordered_json tiers;
     nlohmann::ordered_json paper;
@@ -180,7 +111,7 @@ nlohmann::ordered_json voiceRows(const Subjects& subjects, const model::Tier& ti
     const std::size_t most = *std::ranges::max_element(plan.batchVoices);
     const auto batched = subjects.generator(*subjects.model, tier, most);
     const auto single = subjects.generator(*subjects.model, tier, 1);
-    RandomRequests source(*subjects.model, most, subjects.seed);
+    inference::RandomRequests source(*subjects.model, most, subjects.seed);
     std::vector<float> segments(most * inference::segmentSamples);
     std::mt19937_64 random(subjects.seed);
     nlohmann::ordered_json rows = nlohmann::ordered_json::array();
@@ -219,7 +150,7 @@ nlohmann::ordered_json measureInference(const Subjects& subjects, const BenchPla
         contenders.push_back({.name = name,
                               .tier = tier,
                               .generator = subjects.generator(file, tier, 1),
-                              .requests = RandomRequests(file, requestCount, subjects.seed)});
+                              .requests = inference::RandomRequests(file, inference::requestCount, subjects.seed)});
     };
     for (const model::Tier& tier : subjects.model->header().tiers) {
         enter(tier.name, *subjects.model, tier);
@@ -239,13 +170,7 @@ nlohmann::ordered_json measureInference(const Subjects& subjects, const BenchPla
         runPaced(contender, runs);
         advance(++done / blocks);
     });
-    nlohmann::ordered_json report = reportOf(contenders, subjects);
-    NoiseTimer noise(*subjects.model);
-    for (const bool isPaced : {false, true}) {
-        noise.run(plan.inferenceRuns(), isPaced);
-    }
-    report["noise_us"] = noise.figures(report["inference_ms"][subjects.standard().name]);
-    return report;
+    return reportOf(contenders, subjects);
 }
 
 nlohmann::ordered_json measureVoices(const Subjects& subjects, const BenchPlan& plan, const Advance& advance) {

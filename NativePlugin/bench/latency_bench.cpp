@@ -1,14 +1,221 @@
 #include "bench/latency_bench.hpp"
 
+#include "bench/bench_plan.hpp"
 #include "bench/distribution.hpp"
-#include "bench/marking.hpp"
+#include "bench/measurements.hpp"
 #include "bench/real_time_device.hpp"
 #include "dsp/waveform_resampler.hpp"
+#include "skeleton/condition.hpp"
+#include "skeleton/level_model.hpp"
+#include "skeleton/skeleton.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
 #include <utility>
+#include <vector>
 
 namespace haptoflow::bench {
+namespace {
+
+constexpr double updateSeconds = 1.0 / updateRateHz;
+// Silence before a script begins, until its device has started.
+constexpr double quietSeconds = 0.05;
+constexpr std::size_t stepsOfAStroke = 6;
+// A state closer to the end than this would be published twice.
+constexpr double minimumSeconds = 1e-4;
+
+/// Appends states from `begin` to `end` at the update rate, the first at `begin`.
+void hold(std::vector<TimedState>& states, const engine::ContactState& state, double begin, double end) {
+    for (int update = 0; begin + update * updateSeconds < end - minimumSeconds; ++update) {
+        states.push_back({begin + update * updateSeconds, state});
+    }
+}
+
+}  // namespace
+
+TouchScript touchScript(const Hand& hand, const DeviceShape& shape, std::size_t touches, std::uint32_t firstTouch,
+                        std::mt19937_64& random) {
+    const double period = shape.periodSeconds();
+    std::uniform_real_distribution<double> phase(0.0, std::max(period, updateSeconds));
+    std::uniform_int_distribution<std::size_t> place(0, hand.labelCount() - 1);
+    TouchScript script;
+    double now = 0.0;
+    std::uint32_t counter = firstTouch;
+    hold(script.states, Hand::lifted(counter - 1), now, quietSeconds);
+    now = quietSeconds;
+    for (std::size_t index = 0; index < touches; ++index, ++counter) {
+        // A period each for the start and the end of the sound, and 5 ms for the fade.
+        const double touchSeconds = period + 0.03 + phase(random);
+        const double pauseSeconds = period + 0.02 + phase(random);
+        Touch touch;
+        touch.down = script.states.size();
+        hold(script.states, hand.sliding(counter, place(random)), now, now + touchSeconds);
+        now += touchSeconds;
+        touch.lift = script.states.size();
+        hold(script.states, Hand::lifted(counter), now, now + pauseSeconds);
+        now += pauseSeconds;
+        script.touches.push_back(touch);
+    }
+    script.states.push_back({now, Hand::lifted(counter - 1)});
+    return script;
+}
+
+StepScript stepScript(const Hand& hand, const DeviceShape& shape, std::size_t steps, std::uint32_t firstTouch,
+                      std::mt19937_64& random) {
+    // A change must have sounded before the next one.
+    const auto updates = std::max(4.0, std::ceil((2.0 * shape.periodSeconds() + 0.03) / updateSeconds));
+    const double holdSeconds = updates * updateSeconds;
+    std::uniform_real_distribution<double> phase(0.0, updateSeconds);
+    StepScript script;
+    double now = 0.0;
+    std::uint32_t counter = firstTouch;
+    hold(script.states, Hand::lifted(counter - 1), now, quietSeconds);
+    now = quietSeconds;
+    while (script.steps.size() < steps) {
+        // A hand publishes at the update rate throughout a touch, so each label lasts a whole number of updates.
+        for (std::size_t change = 0; change < 2 * stepsOfAStroke; ++change) {
+            const std::size_t place = change % 2;
+            if (place == 1) {
+                script.steps.push_back(script.states.size());
+            }
+            hold(script.states, hand.sliding(counter, place), now, now + holdSeconds);
+            now += holdSeconds;
+        }
+        // Strokes begin at any phase of the device's blocks.
+        const double pauseSeconds = shape.periodSeconds() + 0.02 + phase(random);
+        hold(script.states, Hand::lifted(counter), now, now + pauseSeconds);
+        now += pauseSeconds;
+        ++counter;
+    }
+    script.states.push_back({now, Hand::lifted(counter - 1)});
+    return script;
+}
+
+std::vector<double> playScript(engine::LiveEngine& engine, engine::LiveVoice& voice,
+                               const std::vector<TimedState>& states) {
+    std::vector<double> published;
+    published.reserve(states.size());
+    const double start = nowSeconds();
+    for (const TimedState& timed : states) {
+        sleepUntil(start + timed.seconds);
+        published.push_back(nowSeconds());
+        engine.publish(voice, timed.state);
+    }
+    return published;
+}
+
+namespace {
+
+using skeleton::LinearLayer;
+
+LinearLayer zeros(std::size_t outputs, std::size_t inputs) {
+    return {std::vector<float>(outputs * inputs), std::vector<float>(outputs)};
+}
+
+skeleton::HiddenLayers silentHidden(std::size_t inputs) {
+    return {zeros(1, inputs), zeros(1, 1)};
+}
+
+/// A law whose level is linear in the embedding, quiet at one and loud at another.
+LinearLayer markingLaw(std::span<const float> quiet, std::span<const float> loud) {
+    double apart = 0.0;
+    double place = 0.0;
+    for (std::size_t i = 0; i < quiet.size(); ++i) {
+        const double difference = static_cast<double>(loud[i]) - static_cast<double>(quiet[i]);
+        apart += difference * difference;
+        place += difference * static_cast<double>(quiet[i]);
+    }
+    if (!(apart > 0.0)) {
+        throw MeasurementError("the model's first two labels are the same material");
+    }
+    const double rise = std::log(static_cast<double>(loudMps2) / static_cast<double>(quietMps2)) / apart;
+    std::vector<float> weight(3 * quiet.size());
+    for (std::size_t i = 0; i < quiet.size(); ++i) {
+        weight[i] = static_cast<float>(rise * (static_cast<double>(loud[i]) - static_cast<double>(quiet[i])));
+    }
+    const auto bias = static_cast<float>(std::log(static_cast<double>(quietMps2)) - rise * place);
+    return {weight, std::array<float, 3>{bias, 0.0F, 0.0F}};
+}
+
+}  // namespace
+
+skeleton::NativeParts markingParts(const model::ModelFile& model, std::uint32_t quiet, std::uint32_t loud) {
+    constexpr std::size_t familyOutputs = 2 * (skeleton::swingHarmonics + skeleton::lineHarmonics);
+    const skeleton::Perceptron correction(silentHidden(skeleton::LevelModel::correctionInputs), zeros(1, 1));
+    return {.level = std::make_shared<const skeleton::LevelModel>(
+                markingLaw(model.embedding(quiet), model.embedding(loud)), correction),
+            .skeleton = std::make_shared<const skeleton::Skeleton>(
+                silentHidden(skeleton::Condition{}.size()),
+                skeleton::OutputLayers{
+                    .filter = zeros(skeleton::filterOrder + 1, 1),
+                    .families = {zeros(familyOutputs, 1), zeros(familyOutputs, 1), zeros(familyOutputs, 1)},
+                    .rungs = zeros(skeleton::RungImpulses::gainCount, 1)})};
+}
+
+namespace {
+
+constexpr float minus60Db = 1e-3F;
+constexpr double releaseSeconds = 0.005;
+constexpr double soundingSeconds = 0.0015;
+
+/// The time at which the next touch begins, or the end of the script after the last touch.
+double nextDown(const std::vector<double>& published, const TouchScript& script, std::size_t touch) {
+    return touch + 1 < script.touches.size() ? published[script.touches[touch + 1].down] : published.back();
+}
+
+void note(std::optional<double> sounded, double published, double goalSeconds, Latencies& latencies) {
+    if (!sounded) {
+        ++latencies.missed;
+        return;
+    }
+    latencies.seconds.push_back(*sounded - published);
+    latencies.goalSeconds.push_back(goalSeconds);
+}
+
+}  // namespace
+
+void findOnsets(const Recording& recording, const std::vector<double>& published, const TouchScript& script,
+                const DeviceShape& shape, Latencies& onsets) {
+    for (std::size_t touch = 0; touch < script.touches.size(); ++touch) {
+        const double down = published[script.touches[touch].down];
+        const double end = nextDown(published, script, touch);
+        const float peak = recording.peak(down, end);
+        note(peak > 0.0F ? recording.first(peak * minus60Db, down, end) : std::nullopt, down, shape.periodSeconds(),
+             onsets);
+    }
+}
+
+void findStops(const Recording& recording, const std::vector<double>& published, const TouchScript& script,
+               const DeviceShape& shape, Latencies& stops) {
+    for (std::size_t touch = 0; touch < script.touches.size(); ++touch) {
+        const double down = published[script.touches[touch].down];
+        const double lift = published[script.touches[touch].lift];
+        const double end = nextDown(published, script, touch);
+        const float peak = recording.peak(down, end);
+        auto last = peak > 0.0F ? recording.last(peak * minus60Db, lift, end) : std::nullopt;
+        if (last) {
+            *last += 1.0 / recording.rateHz;
+        }
+        note(last, lift, shape.periodSeconds() + releaseSeconds, stops);
+    }
+}
+
+void findSteps(const Recording& recording, const std::vector<double>& published, const StepScript& script,
+               const DeviceShape& shape, double filterSeconds, float fullScaleMps2, Latencies& steps) {
+    // A tenth of the loud label's RMS. Nearly every sample of the loud label exceeds it, no sample of the quiet one
+    // does.
+    constexpr float recognised = 0.1F * loudMps2;
+    // Longer than any period of a device: after this time the change of label was lost.
+    constexpr double maximumSeconds = 0.3;
+    for (const std::size_t step : script.steps) {
+        const double stepped = published[step];
+        note(recording.first(recognised / fullScaleMps2, stepped, stepped + maximumSeconds), stepped,
+             shape.periodSeconds() + filterSeconds + soundingSeconds, steps);
+    }
+}
+
 namespace {
 
 constexpr std::size_t eventsPerRound = 25;

@@ -8,14 +8,7 @@
 #include <fstream>
 #include <thread>
 
-#if defined(_WIN32)
-#ifndef NOMINMAX
-#define NOMINMAX
-#endif
-#include <windows.h>
-
-#include <psapi.h>
-#elif defined(__APPLE__)
+#if defined(__APPLE__)
 #include <mach/mach.h>
 #include <sys/sysctl.h>
 #include <sys/utsname.h>
@@ -28,22 +21,6 @@ namespace haptoflow::bench {
 namespace {
 
 constexpr double mebibyte = 1024.0 * 1024.0;
-
-#if defined(_WIN32)
-
-std::string processorName() {
-    std::array<char, 256> name{};
-    auto bytes = static_cast<DWORD>(name.size());
-    const LSTATUS status = RegGetValueA(HKEY_LOCAL_MACHINE, "HARDWARE\\DESCRIPTION\\System\\CentralProcessor\\0",
-                                        "ProcessorNameString", RRF_RT_REG_SZ, nullptr, name.data(), &bytes);
-    return status == ERROR_SUCCESS ? name.data() : "";
-}
-
-std::string systemName() {
-    return "Windows";
-}
-
-#else
 
 #if defined(__APPLE__)
 
@@ -73,8 +50,6 @@ std::string systemName() {
     return uname(&names) == 0 ? std::string(names.sysname) + ' ' + names.release + ' ' + names.machine : "";
 }
 
-#endif
-
 std::string orUnknown(const std::string& text) {
     return text.empty() ? "unknown" : text;
 }
@@ -84,12 +59,8 @@ std::string orUnknown(const std::string& text) {
 nlohmann::ordered_json machineWords(const std::string& onnxRuntimeVersion) {
 #if defined(__clang__)
     const std::string compiler = std::string("clang ") + __clang_version__;
-#elif defined(__GNUC__)
-    const std::string compiler = std::string("gcc ") + __VERSION__;
-#elif defined(_MSC_VER)
-    const std::string compiler = "MSVC " + std::to_string(_MSC_VER);
 #else
-    const std::string compiler = "unknown";
+    const std::string compiler = std::string("gcc ") + __VERSION__;
 #endif
 #if defined(NDEBUG)
     const char* const build = "release";
@@ -105,57 +76,21 @@ nlohmann::ordered_json machineWords(const std::string& onnxRuntimeVersion) {
 }
 
 nlohmann::ordered_json loadAverage() {
-#if defined(_WIN32)
-    return nullptr;
-#else
     double average = 0.0;
     if (getloadavg(&average, 1) != 1) {
         return nullptr;
     }
     return rounded(average);
-#endif
 }
 
 std::string today() {
     const std::time_t now = std::time(nullptr);
     std::tm date{};
-#if defined(_WIN32)
-    gmtime_s(&date, &now);
-#else
     gmtime_r(&now, &date);
-#endif
     std::array<char, 16> text{};
     std::strftime(text.data(), text.size(), "%Y-%m-%d", &date);
     return text.data();
 }
-
-#if defined(_WIN32)
-
-double processCpuSeconds() {
-    FILETIME created{};
-    FILETIME ended{};
-    FILETIME kernel{};
-    FILETIME user{};
-    if (GetProcessTimes(GetCurrentProcess(), &created, &ended, &kernel, &user) == 0) {
-        return 0.0;
-    }
-    // Both in units of 100 ns.
-    const auto seconds = [](const FILETIME& time) {
-        return (static_cast<double>(time.dwHighDateTime) * 4294967296.0 + static_cast<double>(time.dwLowDateTime)) *
-               1e-7;
-    };
-    return seconds(kernel) + seconds(user);
-}
-
-double residentMebibytes() {
-    PROCESS_MEMORY_COUNTERS counters{};
-    if (K32GetProcessMemoryInfo(GetCurrentProcess(), &counters, sizeof(counters)) == 0) {
-        return 0.0;
-    }
-    return static_cast<double>(counters.WorkingSetSize) / mebibyte;
-}
-
-#else
 
 double processCpuSeconds() {
     timespec spent{};
@@ -183,7 +118,6 @@ double residentMebibytes() {
     return residentPages * static_cast<double>(sysconf(_SC_PAGESIZE)) / mebibyte;
 }
 
-#endif
 #endif
 
 }  // namespace haptoflow::bench

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "bench/bench_clock.hpp"
 #include "bench/bench_plan.hpp"
 #include "bench/subjects.hpp"
 
@@ -13,8 +12,6 @@ namespace haptoflow::bench {
 /// "inference_ms": the time to generate one segment with each tier of the model on one thread, once without pauses and
 /// once every 1/72 s. With the paper's model also "paper_architecture_ms" and "speedup_vs_paper_architecture" from the
 /// same run. All tiers run in blocks in random order, so that a slow second of the machine affects all of them alike.
-/// "noise_us": the time to make the noise of one segment, for noise that belongs to the surface and for noise that
-/// belongs to time, and what the difference adds to the tier "standard".
 [[nodiscard]] nlohmann::ordered_json measureInference(const Subjects& subjects, const BenchPlan& plan,
                                                       const Advance& advance);
 
@@ -29,26 +26,10 @@ namespace haptoflow::bench {
 [[nodiscard]] nlohmann::ordered_json measureCallback(const Subjects& subjects, const BenchPlan& plan,
                                                      const Advance& advance);
 
-/// {"callback_events_us": [...]}: the time of the callback's block in which an event happens (touch-down, lift-off,
-/// pause, resumption, panic), compared with ordinary blocks. One row for each device; all voices of a row have the
-/// event in the same block. Each kind of event reports its p50 divided by that of the row's ordinary blocks.
-[[nodiscard]] nlohmann::ordered_json measureEventBlocks(const Subjects& subjects, const BenchPlan& plan,
-                                                        const Advance& advance);
-
 /// "effects": the time that each effect adds to a block of the callback where a contact state requests it, and a check
 /// that it does not run elsewhere. The tip slides, lands five times a second and crosses between labels ten times a
 /// second.
 [[nodiscard]] nlohmann::ordered_json measureEffects(const Subjects& subjects, const BenchPlan& plan,
-                                                    const Advance& advance);
-
-/// "blends": the time that a contact state of 1, 2 and 4 materials takes on the main thread, in the worker and in a
-/// block of the callback, while the tip slides. All three take part in every update, in random order.
-[[nodiscard]] nlohmann::ordered_json measureBlends(const Subjects& subjects, const BenchPlan& plan,
-                                                   const Advance& advance);
-
-/// "outputs": the time that each kind of output adds to a frame of the display, besides the network: a voice at the
-/// output's rate and the processing of its wave. Calls of the vendors' APIs and the C# queues are not included.
-[[nodiscard]] nlohmann::ordered_json measureOutputs(const Subjects& subjects, const BenchPlan& plan,
                                                     const Advance& advance);
 
 /// "contact": the time of one frame of a tip that slides over scenes of 10 to 10,000 surfaces at rest: boxes, spheres

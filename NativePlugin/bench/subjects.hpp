@@ -1,12 +1,16 @@
 #pragma once
 
+#include "bench/bench_plan.hpp"
 #include "engine/live_engine.hpp"
 #include "inference/onnx_runtime.hpp"
 #include "inference/tier_generator.hpp"
 #include "model/model_file.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -66,5 +70,22 @@ private:
     model::TrainedInterval speedMps_;
     model::TrainedInterval forceNewtons_;
 };
+
+struct SubjectFiles {
+    std::filesystem::path runtimeLibrary;
+    std::filesystem::path model;
+    /// A model of the paper's architecture; empty for none.
+    std::filesystem::path paperModel;
+};
+
+/// Opens the library, the models and the engine, and adds the cost of that to `report`: "memory_mib" and its parts,
+/// "load_ms" and its parts. Memory can only be measured at the first opening in a process, so that this must run before
+/// everything else.
+/// Throws model::ModelError, inference::RuntimeUnavailable, inference::InferenceError.
+[[nodiscard]] Subjects openSubjects(const SubjectFiles& files, std::uint64_t seed, nlohmann::ordered_json& report);
+
+/// Opens the model and creates its engine repeatedly, compared with plain reading of the same file; completes "load".
+void measureLoads(const SubjectFiles& files, const Subjects& subjects, const BenchPlan& plan, const Advance& advance,
+                  nlohmann::ordered_json& report);
 
 }  // namespace haptoflow::bench

@@ -1,11 +1,9 @@
 #include "actuator_identification.hpp"
 #include "commands.hpp"
-#include "decimal_text.hpp"
 #include "effects/actuator_profile.hpp"
 #include "effects/compensation.hpp"
-#include "exit_codes.hpp"
 #include "exponential_sweep.hpp"
-#include "input_file.hpp"
+#include "headless/scenes/command_files.hpp"
 #include "messages.hpp"
 #include "model/plain_text.hpp"
 #include "model_location.hpp"
@@ -364,7 +362,7 @@ void addIdentify(CLI::App& actuator, CommandOutcome& outcome) {
         "stand out of the noise are left out.\n"
         "Example:\n"
         "  haptoflow actuator identify recording.wav --sweep sweep.wav -o pen.json --plot pen.svg\n"
-        "Format and law are explained in Documentation~/actuator-profile.md.");
+        "Format and law are explained in Documentation~/devices.md.");
     command->callback([options, &outcome] {
         runIdentify(*options);
         outcome.exitCode = exitDone;

@@ -1,9 +1,8 @@
 #include "actuator_identification.hpp"
 
-#include "decimal_text.hpp"
 #include "dsp/fourier_transform.hpp"
 #include "effects/parallel_filter.hpp"
-#include "exit_codes.hpp"
+#include "messages.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -1,14 +1,12 @@
 #include "bench/bench.hpp"
 
-#include "command_files.hpp"
 #include "commands.hpp"
-#include "exit_codes.hpp"
+#include "headless/scenes/command_files.hpp"
 #include "inference/onnx_runtime.hpp"
 #include "messages.hpp"
 #include "model_location.hpp"
 #include "option_values.hpp"
 #include "output_file.hpp"
-#include "progress_bar.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -35,7 +33,7 @@ struct BenchCommandOptions {
 
 bench::SubjectFiles filesOf(const BenchCommandOptions& options) {
     if (!options.paperModelPath.empty()) {
-        claimInput("--paper-model", options.paperModelPath);
+        headless::claimInput("--paper-model", options.paperModelPath);
     }
     return {.runtimeLibrary = findOnnxRuntime(),
             .model = findModel(options.modelPath),
@@ -90,10 +88,8 @@ void addBenchCommand(CLI::App& app, CommandOutcome& outcome) {
         ->type_name("FILE");
     command->add_flag("--quick", options->quick, "Fewer events and devices: half a minute for a first look");
     command
-        ->add_option(
-            "--only", options->only,
-            "Only these measurements: callback, events, effects, blends, outputs, latency, inference, voices, idle, "
-            "contact")
+        ->add_option("--only", options->only,
+                     "Only these measurements: callback, effects, latency, inference, voices, idle, contact")
         ->delimiter(',')
         ->check(
             CLI::IsMember(std::vector<std::string>(bench::measurementNames.begin(), bench::measurementNames.end())));

@@ -4,7 +4,7 @@
 
 namespace haptoflow::cli {
 
-/// The result of a command for main: the process's exit code (see exit_codes.hpp).
+/// The result of a command for main: the process's exit code (see messages.hpp).
 struct CommandOutcome {
     int exitCode = 0;
 };

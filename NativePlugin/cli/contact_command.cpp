@@ -1,14 +1,13 @@
 #include "contact_command.hpp"
 #include "commands.hpp"
-#include "exit_codes.hpp"
 #include "headless/contact_tracker.hpp"
+#include "headless/scenes/scene_file.hpp"
+#include "headless/scenes/scene_materials.hpp"
+#include "headless/scenes/stroke_file.hpp"
 #include "messages.hpp"
 #include "model_location.hpp"
 #include "option_values.hpp"
 #include "output_file.hpp"
-#include "scene_file.hpp"
-#include "scene_materials.hpp"
-#include "stroke_file.hpp"
 
 #include <algorithm>
 #include <array>
@@ -33,7 +32,6 @@ struct ContactOptions {
     std::vector<std::string> materials;
     std::optional<double> defaultStiffnessNewtonsPerMetre;
     bool asRecorded = false;
-    headless::ContactSettings settings;
 };
 
 /// Writes twelve significant digits with a decimal point, in every locale; never "-0".
@@ -63,12 +61,12 @@ bool asksForStiffness(const headless::Scene& scene) {
 }
 
 void runContact(const ContactOptions& options) {
-    headless::Scene scene = readSceneFile(options.scenePath);
-    const Stroke stroke = readStrokeFile(options.strokePath);
+    headless::Scene scene = headless::readSceneFile(options.scenePath);
+    const headless::Stroke stroke = headless::readStrokeFile(options.strokePath);
     noteLateKeyframes(scene, stroke, options.scenePath);
-    headless::ContactSettings settings = options.settings;
+    headless::ContactSettings settings;
     std::optional<model::ModelFile> model;
-    std::optional<SceneMaterials> materials;
+    std::optional<headless::SceneMaterials> materials;
     if (options.defaultStiffnessNewtonsPerMetre) {
         settings.defaultStiffnessNewtonsPerMetre = *options.defaultStiffnessNewtonsPerMetre;
     } else if (asksForStiffness(scene) || !options.modelPath.empty() || !options.materials.empty()) {
@@ -77,7 +75,7 @@ void runContact(const ContactOptions& options) {
         materials.emplace(*model, modelPath, options.scenePath);
         std::ranges::for_each(options.materials, [&materials](const std::string& path) { materials->add(path); });
         materials->require(scene);
-        useStiffnessOfMaterials(settings, *materials);
+        headless::useStiffnessOfMaterials(settings, *materials);
     }
     if (options.outputPath.empty()) {
         writeContactStates(std::cout, scene, stroke, options.strokePath, settings, options.asRecorded);
@@ -95,15 +93,16 @@ void runContact(const ContactOptions& options) {
 
 }  // namespace
 
-void writeContactStates(std::ostream& output, const headless::Scene& scene, const Stroke& stroke,
+void writeContactStates(std::ostream& output, const headless::Scene& scene, const headless::Stroke& stroke,
                         const std::string& strokeName, const headless::ContactSettings& settings, bool asRecorded) {
     headless::ContactTracker tracker(scene, settings);
-    const std::size_t frames = asRecorded ? stroke.samples.size() : frameCount(stroke, scene.updateRateHz, strokeName);
+    const std::size_t frames =
+        asRecorded ? stroke.samples.size() : headless::frameCount(stroke, scene.updateRateHz, strokeName);
     output << "t,surface,touching,touch_counter,px,py,pz,nx,ny,nz,penetration_m,vx_mps,vy_mps,approach_mps,force_n,"
               "landing_counter,edge_counter,edge_height_m\n";
     for (std::size_t frame = 0; frame < frames; ++frame) {
         const headless::ContactReading reading =
-            tracker.update(asRecorded ? stroke.samples[frame] : frameAt(stroke, scene.updateRateHz, frame));
+            tracker.update(asRecorded ? stroke.samples[frame] : headless::frameAt(stroke, scene.updateRateHz, frame));
         writeNumber(output, reading.timeSeconds);
         output << ',';
         if (reading.touching) {
@@ -154,11 +153,6 @@ void addContactCommand(CLI::App& app, CommandOutcome& outcome) {
         ->check(decimalBetween(1e-3, 1e7, "N/m"))
         ->excludes(model)
         ->excludes(material);
-    command
-        ->add_option("--maximum-force", options->settings.maximumForceNewtons,
-                     "Limit in newtons of spring force and measured force")
-        ->check(decimalBetween(1e-3, 1e3, "N"))
-        ->capture_default_str();
     command->footer(
         "One line per frame of the scene's update_rate (90 Hz by default): time, the touched surface (empty without\n"
         "touch), the number of touch-downs so far, the contact point, the outward normal of the surface, the\n"

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "headless/contact_tracker.hpp"
-#include "stroke_file.hpp"
+#include "headless/scenes/stroke_file.hpp"
 
 #include <iosfwd>
 #include <string>
@@ -10,7 +10,7 @@ namespace haptoflow::cli {
 
 /// Plays the stroke in the scene at the scene's update rate, or in frames at its own samples, and writes one CSV line
 /// per frame. Throws InputError if the stroke, named `strokeName`, is too long.
-void writeContactStates(std::ostream& output, const headless::Scene& scene, const Stroke& stroke,
+void writeContactStates(std::ostream& output, const headless::Scene& scene, const headless::Stroke& stroke,
                         const std::string& strokeName, const headless::ContactSettings& settings,
                         bool asRecorded = false);
 

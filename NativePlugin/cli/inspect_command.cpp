@@ -1,6 +1,6 @@
 #include "commands.hpp"
-#include "exit_codes.hpp"
-#include "input_file.hpp"
+#include "headless/scenes/command_files.hpp"
+#include "messages.hpp"
 #include "model/material_file.hpp"
 #include "model/plain_text.hpp"
 #include "model_location.hpp"
@@ -199,7 +199,7 @@ void printMaterial(std::ostream& stream, const std::string& path, const model::M
 }
 
 void inspectMaterial(const InspectOptions& options) {
-    const std::string text = readInputFile("the material", options.modelPath, "a material file");
+    const std::string text = headless::readInputFile("the material", options.modelPath, "a material file");
     try {
         const model::MaterialFile material = model::parseMaterial(text);
         if (options.json) {

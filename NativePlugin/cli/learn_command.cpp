@@ -1,7 +1,5 @@
-#include "command_files.hpp"
 #include "commands.hpp"
-#include "decimal_text.hpp"
-#include "exit_codes.hpp"
+#include "headless/scenes/command_files.hpp"
 #include "learning/learner.hpp"
 #include "learning_picture.hpp"
 #include "material_output.hpp"
@@ -12,7 +10,6 @@
 #include "model_location.hpp"
 #include "option_values.hpp"
 #include "output_file.hpp"
-#include "progress_bar.hpp"
 #include "recordings/material_words.hpp"
 #include "recordings/recording_reader.hpp"
 #include "recordings/table_rows.hpp"
@@ -138,7 +135,7 @@ recordings::MaterialRecording readRecording(const LearnOptions& options) {
     if (words.fullScaleMps2 && recordings::endingOf(path) == ".csv") {
         throw UsageError("--full-scale-mps2 is for WAV; the columns of " + path + " have units of their own");
     }
-    recordings::DiskFiles files(claimInput);
+    recordings::DiskFiles files(headless::claimInput);
     try {
         recordings::MaterialRecording recording = recordings::readMaterialRecording(files, path, words);
         if (words.speedMps && !recording.velocityMps.empty()) {

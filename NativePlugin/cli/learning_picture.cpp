@@ -1,6 +1,6 @@
 #include "learning_picture.hpp"
 
-#include "decimal_text.hpp"
+#include "messages.hpp"
 #include "svg_plot.hpp"
 
 #include <algorithm>

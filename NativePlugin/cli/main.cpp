@@ -1,7 +1,6 @@
 #include "commands.hpp"
-#include "exit_codes.hpp"
+#include "headless/scenes/near_words.hpp"
 #include "messages.hpp"
-#include "near_words.hpp"
 
 #include "inference/inference_error.hpp"
 #include "model/model_error.hpp"
@@ -46,10 +45,10 @@ void requireSubcommand(const CLI::App& app, const std::vector<std::string>& word
         names.push_back(subcommand->get_name());
         listed += (listed.empty() ? "" : ", ") + names.back();
     }
-    const std::string meant = haptoflow::cli::likelyWord(words.front(), names);
+    const std::string meant = haptoflow::headless::likelyWord(words.front(), names);
     const std::string place = app.get_parent() == nullptr ? "" : app.get_name() + ' ';
     throw haptoflow::cli::UsageError("there is no command '" + place + words.front() + "'; " +
-                                     (meant.empty() ? "" : haptoflow::cli::didYouMean(std::array{meant}) + " ") +
+                                     (meant.empty() ? "" : haptoflow::headless::didYouMean(std::array{meant}) + " ") +
                                      "The commands are " + listed);
 }
 
@@ -68,9 +67,9 @@ void suggestOptions(const CLI::App& app, const std::vector<std::string>& words) 
     for (const std::string& word : words) {
         const std::string option = word.substr(0, word.find('='));
         if (option.starts_with("--") && option.size() > 2 && std::ranges::find(known, option) == known.end()) {
-            const std::string meant = haptoflow::cli::likelyWord(option, known);
+            const std::string meant = haptoflow::headless::likelyWord(option, known);
             std::cerr << "There is no option '" << option << "'"
-                      << (meant.empty() ? "" : "; " + haptoflow::cli::didYouMean(std::array{meant})) << '\n';
+                      << (meant.empty() ? "" : "; " + haptoflow::headless::didYouMean(std::array{meant})) << '\n';
         }
     }
 }

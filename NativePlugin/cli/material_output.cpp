@@ -1,6 +1,6 @@
 #include "material_output.hpp"
 
-#include "input_file.hpp"
+#include "messages.hpp"
 #include "model/material_file.hpp"
 #include "model/plain_text.hpp"
 

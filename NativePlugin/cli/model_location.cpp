@@ -1,8 +1,8 @@
 #include "model_location.hpp"
 
-#include "command_files.hpp"
-#include "exit_codes.hpp"
+#include "headless/scenes/command_files.hpp"
 #include "inference/inference_error.hpp"
+#include "messages.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -10,9 +10,7 @@
 #include <system_error>
 #include <vector>
 
-#if defined(_WIN32)
-#include <windows.h>
-#elif defined(__APPLE__)
+#if defined(__APPLE__)
 #include <mach-o/dyld.h>
 #endif
 
@@ -21,14 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-#if defined(_WIN32)
-constexpr const char* runtimeFile = "onnxruntime.dll";
-#if defined(_M_ARM64) || defined(__aarch64__)
-constexpr const char* runtimeFolder = "Windows/arm64";
-#else
-constexpr const char* runtimeFolder = "Windows/x64";
-#endif
-#elif defined(__APPLE__)
+#if defined(__APPLE__)
 constexpr const char* runtimeFile = "libonnxruntime.dylib";
 constexpr const char* runtimeFolder = "macOS/arm64";
 #else
@@ -37,11 +28,7 @@ constexpr const char* runtimeFolder = "Linux/x64";
 #endif
 
 fs::path executableFolder() {
-#if defined(_WIN32)
-    std::vector<wchar_t> name(32'768);
-    const DWORD length = GetModuleFileNameW(nullptr, name.data(), static_cast<DWORD>(name.size()));
-    return fs::path(std::wstring(name.data(), length)).parent_path();
-#elif defined(__APPLE__)
+#if defined(__APPLE__)
     std::vector<char> name(32'768);
     auto size = static_cast<std::uint32_t>(name.size());
     if (_NSGetExecutablePath(name.data(), &size) != 0) {
@@ -97,7 +84,7 @@ fs::path findModel(const std::string& given) {
                    {folder / "default.haptoflow",
                     folder / "../../Packages/com.haptoflow.runtime/Runtime/Models/default.haptoflow"},
                    "Name a model with --model, or run the program that `npm run build` makes inside a checkout.");
-    claimInput("the model", model);
+    headless::claimInput("the model", model);
     return model;
 }
 
@@ -108,7 +95,7 @@ fs::path findOnnxRuntime() {
         find("ONNX Runtime's library", "HAPTOFLOW_ONNXRUNTIME",
              {folder / runtimeFile, package / runtimeFolder / runtimeFile},
              "Run `npm ci` and `npm run build` in the repository's root, or set the variable to the library.");
-    claimInput("ONNX Runtime", library);
+    headless::claimInput("ONNX Runtime", library);
     return library;
 }
 

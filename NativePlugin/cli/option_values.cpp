@@ -1,8 +1,8 @@
 #include "option_values.hpp"
 
 #include "dsp/sample_rates.hpp"
-#include "exit_codes.hpp"
-#include "input_file.hpp"
+#include "headless/scenes/command_files.hpp"
+#include "messages.hpp"
 #include "model/plain_text.hpp"
 #include "recordings/decimal_number.hpp"
 
@@ -57,8 +57,8 @@ effects::ActuatorProfile readActuatorProfile(const std::string& nameOrPath) {
         return *std::move(builtIn);
     }
     const std::string text =
-        readInputFile("the actuator profile", nameOrPath,
-                      "an actuator profile (JSON), or the name of a built-in one: flat, voice-coil");
+        headless::readInputFile("the actuator profile", nameOrPath,
+                                "an actuator profile (JSON), or the name of a built-in one: flat, voice-coil");
     try {
         return effects::ActuatorProfile::parse(text);
     } catch (const effects::ProfileError& error) {

@@ -1,7 +1,7 @@
 #include "output_file.hpp"
 
-#include "command_files.hpp"
-#include "exit_codes.hpp"
+#include "headless/scenes/command_files.hpp"
+#include "messages.hpp"
 
 #include <algorithm>
 #include <array>
@@ -13,11 +13,6 @@
 #include <iostream>
 #include <system_error>
 
-#ifdef _WIN32
-#include <fcntl.h>
-#include <io.h>
-#endif
-
 namespace haptoflow::cli {
 namespace {
 
@@ -28,8 +23,8 @@ constexpr const char* remedy = ": cannot be written: name a file in an existing 
 /// True for something that a rename would replace although it is no file of its own.
 bool isSpecial(const fs::path& path) {
     const std::string name = path.generic_string();
-    return isStandardOutput(path) || isDevice(path) || name.starts_with("/dev/std") || name.starts_with("/dev/fd/") ||
-           name.starts_with("/proc/");
+    return headless::isStandardOutput(path) || headless::isDevice(path) || name.starts_with("/dev/std") ||
+           name.starts_with("/dev/fd/") || name.starts_with("/proc/");
 }
 
 /// Creates a new file with a unique name beside `target` (or with its name in `folder`).
@@ -94,9 +89,6 @@ void forgetUnfinished(const fs::path& partial) {
 }
 
 void copyToStandardOutput(const fs::path& partial) {
-#ifdef _WIN32
-    _setmode(_fileno(stdout), _O_BINARY);
-#endif
     std::ifstream from(partial, std::ios::binary);
     if (from.peek() != std::ifstream::traits_type::eof()) {
         std::cout << from.rdbuf();
@@ -114,14 +106,14 @@ OutputFile::OutputFile(const std::string& role, const fs::path& path)
     if (fs::is_directory(path, ignored)) {
         throw InputError(path.string() + ": is a folder; expected the name of a file");
     }
-    target_ = isWrittenInPlace_ ? path : followLinks(path);
+    target_ = isWrittenInPlace_ ? path : headless::followLinks(path);
     if (!isWrittenInPlace_ && fs::exists(target_, ignored) && !std::ofstream(target_, std::ios::app)) {
         throw InputError(path.string() + remedy);
     }
     partial_ = makePartial(isWrittenInPlace_ ? fs::temp_directory_path() / "haptoflow" : target_, path);
     rememberUnfinished(partial_);
     try {
-        claimOutput({role, path_, target_, isWrittenInPlace_ ? fs::path() : partial_});
+        headless::claimOutput({role, path_, target_, isWrittenInPlace_ ? fs::path() : partial_});
     } catch (...) {
         removePartial();
         throw;
@@ -129,7 +121,7 @@ OutputFile::OutputFile(const std::string& role, const fs::path& path)
 }
 
 OutputFile::~OutputFile() {
-    releaseOutput(path_);
+    headless::releaseOutput(path_);
     removePartial();
 }
 
@@ -141,7 +133,7 @@ void OutputFile::removePartial() const noexcept {
 
 void OutputFile::commit() {
     std::error_code error;
-    if (isStandardOutput(path_)) {
+    if (headless::isStandardOutput(path_)) {
         copyToStandardOutput(partial_);
         return;
     }

@@ -1,25 +1,21 @@
 #include "commands.hpp"
-#include "contact_states.hpp"
 #include "effects/actuator_profile.hpp"
 #include "effects/effect.hpp"
 #include "engine/offline_renderer.hpp"
-#include "exit_codes.hpp"
 #include "headless/contact_tracker.hpp"
+#include "headless/scenes/near_words.hpp"
+#include "headless/scenes/scene_file.hpp"
+#include "headless/scenes/scene_materials.hpp"
+#include "headless/scenes/stroke_file.hpp"
 #include "inference/tier_generator.hpp"
 #include "inference/tier_graphs.hpp"
 #include "messages.hpp"
 #include "model/model_file.hpp"
 #include "model_location.hpp"
-#include "near_words.hpp"
 #include "option_values.hpp"
 #include "output_file.hpp"
-#include "parametric_frames.hpp"
-#include "progress_bar.hpp"
 #include "recordings/recording.hpp"
-#include "render_report.hpp"
-#include "scene_file.hpp"
-#include "scene_materials.hpp"
-#include "stroke_file.hpp"
+#include "render_output.hpp"
 #include "wav_file.hpp"
 
 #include <algorithm>
@@ -97,9 +93,9 @@ const model::Tier& chooseTier(const model::ModelFile& model, const std::string& 
         tiers.push_back(tier.name);
         listed += (listed.empty() ? "" : ", ") + tier.name;
     }
-    const std::string meant = likelyWord(quality, tiers);
-    throw UsageError("--quality " + quality + ": " + (meant.empty() ? "" : didYouMean(std::array{meant}) + " ") +
-                     "This model has " + listed);
+    const std::string meant = headless::likelyWord(quality, tiers);
+    throw UsageError("--quality " + quality + ": " +
+                     (meant.empty() ? "" : headless::didYouMean(std::array{meant}) + " ") + "This model has " + listed);
 }
 
 /// The solver of the options, if the tier can use it.
@@ -121,7 +117,7 @@ inference::SolverSettings chooseSolver(const model::Tier& tier, const std::strin
 
 /// The number of touch-downs when every sample of the stroke is processed in addition to the frames: a tap may begin
 /// and end between two frames.
-std::uint64_t touchesOfEverySample(const headless::Scene& scene, const Stroke& stroke, std::size_t frames,
+std::uint64_t touchesOfEverySample(const headless::Scene& scene, const headless::Stroke& stroke, std::size_t frames,
                                    const headless::ContactSettings& settings) {
     headless::ContactTracker tracker(scene, settings);
     std::uint64_t touches = 0;
@@ -133,7 +129,7 @@ std::uint64_t touchesOfEverySample(const headless::Scene& scene, const Stroke& s
     };
     auto sample = stroke.samples.begin();
     for (std::size_t frame = 0; frame < frames; ++frame) {
-        const headless::TipSample atFrame = frameAt(stroke, scene.updateRateHz, frame);
+        const headless::TipSample atFrame = headless::frameAt(stroke, scene.updateRateHz, frame);
         for (; sample != stroke.samples.end() && sample->timeSeconds < atFrame.timeSeconds; ++sample) {
             look(*sample);
         }
@@ -288,21 +284,21 @@ void explainSilence(const RenderOptions& options, const engine::OfflineFigures& 
 
 void runRender(const RenderOptions& options) {
     requireSoundOptions(options);
-    headless::Scene scene = readSceneFile(options.scenePath);
-    const Stroke stroke = readStrokeFile(options.strokePath);
+    headless::Scene scene = headless::readSceneFile(options.scenePath);
+    const headless::Stroke stroke = headless::readStrokeFile(options.strokePath);
     const std::filesystem::path modelPath = findModel(options.modelPath);
     const model::ModelFile model = readModel(modelPath);
     const model::Tier& tier = chooseTier(model, options.quality);
     const inference::SolverSettings solver = chooseSolver(tier, options.solver, options.steps);
-    SceneMaterials materials(model, modelPath, options.scenePath);
+    headless::SceneMaterials materials(model, modelPath, options.scenePath);
     std::ranges::for_each(options.materials, [&materials](const std::string& path) { materials.add(path); });
     materials.require(scene);
-    const std::vector<engine::ContactState> surfaces = propertiesOf(
+    const std::vector<engine::ContactState> surfaces = headless::propertiesOf(
         scene, [&materials](const std::string& name) { return materials.indexOf(name); }, options.scenePath);
     headless::ContactSettings settings;
-    useStiffnessOfMaterials(settings, materials);
+    headless::useStiffnessOfMaterials(settings, materials);
     headless::ContactTracker tracker(scene, settings);
-    const std::size_t frames = frameCount(stroke, scene.updateRateHz, options.strokePath);
+    const std::size_t frames = headless::frameCount(stroke, scene.updateRateHz, options.strokePath);
     noteLateKeyframes(scene, stroke, options.scenePath);
     requireRoom(scene, frames, options);
     engine::OfflineSettings engineSettings = options.engine;
@@ -324,10 +320,10 @@ void runRender(const RenderOptions& options) {
         if (frame == frames) {
             return std::nullopt;
         }
-        const headless::TipSample tip = frameAt(stroke, scene.updateRateHz, frame);
+        const headless::TipSample tip = headless::frameAt(stroke, scene.updateRateHz, frame);
         ++frame;
         bar(static_cast<double>(frame) / static_cast<double>(frames), {});
-        return stateOf(tracker.update(tip), surfaces, effects);
+        return headless::stateOf(tracker.update(tip), surfaces, effects);
     };
     const engine::OfflineFigures figures = engine::renderOffline(model, *generator, next, engineSettings, files);
 

@@ -1,8 +1,8 @@
 #include "wav_file.hpp"
 
-#include "command_files.hpp"
 #include "dsp/sample_rates.hpp"
-#include "exit_codes.hpp"
+#include "headless/scenes/command_files.hpp"
+#include "messages.hpp"
 
 #include <sndfile.h>
 
@@ -53,7 +53,7 @@ void WavWriter::close() {
 }
 
 Recording readRecording(const std::string& role, const std::string& path, int channel) {
-    claimInput(role, path);
+    headless::claimInput(role, path);
     constexpr sf_count_t maximumSeconds = 600;
     SF_INFO info{};
     const std::unique_ptr<SNDFILE, int (*)(SNDFILE*)> file(sf_open(path.c_str(), SFM_READ, &info), sf_close);

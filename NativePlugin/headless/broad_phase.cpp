@@ -1,6 +1,6 @@
 #include "headless/broad_phase.hpp"
 
-#include "headless/vectors.hpp"
+#include "headless/pose.hpp"
 
 #include <glm/geometric.hpp>
 

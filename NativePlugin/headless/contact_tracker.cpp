@@ -1,7 +1,7 @@
 #include "headless/contact_tracker.hpp"
 
-#include "headless/relative_velocity.hpp"
-#include "headless/vectors.hpp"
+#include "headless/pose.hpp"
+#include "headless/tip_path.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,6 @@
 #include "headless/contact_types.hpp"
 #include "headless/scene.hpp"
 #include "headless/tangent_frame.hpp"
-#include "headless/tip_history.hpp"
 #include "headless/tip_path.hpp"
 
 #include <cstddef>

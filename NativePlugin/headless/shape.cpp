@@ -1,6 +1,6 @@
 #include "headless/shape.hpp"
 
-#include "headless/vectors.hpp"
+#include "headless/pose.hpp"
 
 #include <algorithm>
 #include <array>

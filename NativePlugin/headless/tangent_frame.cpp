@@ -1,6 +1,6 @@
 #include "headless/tangent_frame.hpp"
 
-#include "headless/vectors.hpp"
+#include "headless/pose.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "headless/contact_types.hpp"
-#include "headless/tracker_noise.hpp"
+#include "headless/growing_fit.hpp"
 
 #include <cstddef>
 #include <glm/vec3.hpp>
@@ -91,5 +91,44 @@ private:
     bool hasRepeated_ = false;
     bool resting_ = false;
 };
+
+/// The tip's last positions in the world, of which the path over a surface is made when the tip comes to it. Whether a
+/// step is a jump only a surface can tell.
+class TipHistory {
+public:
+    static constexpr std::size_t capacity = 64;
+
+    struct Frame {
+        double timeSeconds = 0.0;
+        glm::dvec3 worldMetres{0.0};
+    };
+
+    explicit TipHistory(const VelocitySettings& settings);
+
+    /// Adds a frame; time and position must be usable. Every result but `continued` means that the history was dropped.
+    TipStep add(double timeSeconds, const glm::dvec3& worldMetres);
+    void clear() noexcept { frames_.clear(); }
+    /// Oldest first.
+    [[nodiscard]] std::span<const Frame> frames() const noexcept { return frames_; }
+
+private:
+    VelocitySettings settings_;
+    std::vector<Frame> frames_;
+    double latestSeconds_ = 0.0;
+};
+
+/// The surface's axes, m/s, of the tip relative to the surface.
+struct RelativeVelocity {
+    /// At the newest measurement, for what is felt now.
+    glm::dvec3 nowMps{0.0};
+    /// Mean of the last approachSeconds: how the tip came to where it is, for what it meets there.
+    glm::dvec3 approachMps{0.0};
+};
+
+/// Velocity of the tip's path over a surface, by GrowingFit. A tip that moves along with a surface has zero velocity,
+/// and under a tip at rest a turning surface gives its linear velocity plus angular velocity x arm. If the tracker
+/// repeats a position for longer than the hold time, the velocity fades to that of a tip which is held there: zero on a
+/// surface at rest. The magnitude is limited to the maximum speed; it is zero with fewer than two measurements.
+[[nodiscard]] RelativeVelocity relativeVelocity(const TipPath& path);
 
 }  // namespace haptoflow::headless

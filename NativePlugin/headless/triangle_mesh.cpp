@@ -1,6 +1,6 @@
 #include "headless/triangle_mesh.hpp"
 
-#include "headless/vectors.hpp"
+#include "headless/pose.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -283,14 +283,6 @@ std::optional<MeshCrossing> TriangleMesh::firstCrossing(const glm::dvec3& from, 
         return within * within;
     });
     return first;
-}
-
-MeshPoint TriangleMesh::closestPointOfAll(const glm::dvec3& point) const {
-    Nearest nearest;
-    for (std::uint32_t triangle = 0; triangle < triangles_.size(); ++triangle) {
-        improve(nearest, triangle, point);
-    }
-    return describe(nearest, point);
 }
 
 glm::dvec3 TriangleMesh::boundsCentre() const noexcept {

@@ -57,8 +57,6 @@ public:
                                                               double highestCosine = 2.0) const;
     /// The first triangle that the straight path goes through from its front.
     [[nodiscard]] std::optional<MeshCrossing> firstCrossing(const glm::dvec3& from, const glm::dvec3& to) const;
-    /// The result of `closestPoint` by a search through all triangles: the reference in tests of the tree.
-    [[nodiscard]] MeshPoint closestPointOfAll(const glm::dvec3& point) const;
 
     /// Every edge is used equally often in both directions.
     [[nodiscard]] bool isClosed() const noexcept { return closed_; }

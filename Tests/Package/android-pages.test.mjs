@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import { pageOptions } from '../../scripts/lib/android_pages.mjs';
+import { pageOptions } from '../../scripts/lib/platform_tests.mjs';
 import { loadAlignment } from '../../scripts/pack/elf.mjs';
 
 /** A 64-bit ELF with nothing but program headers: [type, alignment] each. */

@@ -1,48 +1,13 @@
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
-import { readFileSync } from 'node:fs';
 import test from 'node:test';
-import { benchArguments, withMeasuredTables, withModelSha256 } from '../../scripts/bench/measured_tables.mjs';
-import { modelOfPage } from './support/model_of_page.mjs';
-import { inRepository } from '../../scripts/lib/repository.mjs';
+import { spread, timeOf, webTables } from '../../scripts/lib/web_bench.mjs';
+import { inRepository } from '../../scripts/lib/process.mjs';
 
-const page = readFileSync(inRepository('Documentation~', 'benchmarks.md'), 'utf8');
-const bench = (...words) => spawnSync(process.execPath, [inRepository('scripts', 'bench.mjs'), ...words], { encoding: 'utf8' });
-
-test('published tables replace the text between the page\'s markers and nothing else', () => {
-  const once = withMeasuredTables(page, '\nfirst table\n', 'a'.repeat(64));
-  const twice = withMeasuredTables(once, '\nsecond table\n', 'b'.repeat(64));
-  assert.match(once, /```\nfirst table\n```/);
-  assert.match(twice, /```\nsecond table\n```/);
-  assert.doesNotMatch(twice, /first table/);
-  assert.equal(withMeasuredTables(twice, 'first table', 'a'.repeat(64)), once);
-  const outside = (text) => [text.split('<!-- measured: begin')[0], text.split('<!-- measured: end')[1]];
-  assert.deepEqual(outside(twice), outside(page));
-});
-
-test('the page and the report name the measured model', () => {
-  const sha256 = 'c'.repeat(64);
-  assert.equal(modelOfPage(withMeasuredTables(page, 'table', sha256)), sha256);
-  const report = { model: { name: 'default', crc32: '12' }, onset_ms: { p50: 1 } };
-  assert.deepEqual(withModelSha256(report, sha256), { model: { name: 'default', crc32: '12', sha256 }, onset_ms: { p50: 1 } });
-});
-
-test('a page without markers is refused', () => {
-  assert.throws(() => withMeasuredTables('# Benchmarks\n', 'table', 'a'.repeat(64)), /measured: begin/);
-});
-
-test('the page explains every key that bench.json promises', () => {
-  const promised = ['callback_us', 'onset_ms', 'contact_to_sound_ms', 'stop_ms', 'inference_ms', 'speedup_vs_paper_architecture', 'voices', 'idle', 'memory_mib', 'load_ms', 'contact'];
-  for (const key of promised) assert.match(page, new RegExp(`^\\| \`${key}\` \\| \\S`, 'm'), key);
-});
-
-test('options are passed to the command line, and the paper\'s architecture only on request', () => {
-  assert.deepEqual(benchArguments({ quick: true, only: 'idle,contact' }, 'r.json', null), ['bench', '--output', 'r.json', '--quick', '--only', 'idle,contact']);
-  assert.deepEqual(benchArguments({ events: '5' }, 'r.json', 'p.haptoflow'), ['bench', '--output', 'r.json', '--paper-model', 'p.haptoflow', '--events', '5']);
-});
+const run = (script, ...words) => spawnSync(process.execPath, [inRepository('scripts', script), ...words], { encoding: 'utf8' });
 
 test('an option that does not exist ends with 2 before anything is set up or built', () => {
-  const { status, stdout, stderr } = bench('--qiuck');
+  const { status, stdout, stderr } = run('bench.mjs', '--qiuck');
   assert.equal(status, 2);
   assert.match(stderr, /--qiuck/);
   assert.equal(stdout, '');
@@ -50,8 +15,42 @@ test('an option that does not exist ends with 2 before anything is set up or bui
 
 test('a part of the measurements, or another model, is not published', () => {
   for (const words of [['--quick'], ['--only', 'idle'], ['--events', '3'], ['--model', 'm.haptoflow'], ['--no-paper']]) {
-    const { status, stderr } = bench('--publish', ...words);
+    const { status, stderr } = run('bench.mjs', '--publish', ...words);
     assert.equal(status, 2, words.join(' '));
     assert.match(stderr, /--publish goes with a whole run/);
   }
+});
+
+const times = (median) => ({ count: 9, minimum: median, median, percentile99: median, worst: median });
+const roundOf = (browser, native, touches) => ({
+  touchesMs: { shared: touches, ring: [50] },
+  missed: { shared: 1, ring: 0 },
+  browser: [{ tier: 'draft', hotMs: times(browser), pacedMs: times(2 * browser) }],
+  native: { inference_ms: { draft: { p50: native, paced: { p50: native } } }, onset_ms: { block_frames: 256, count: 60, p50: 2.6, p99: 5.5, worst: 5.6, missed: 0 } },
+});
+
+test('ratios are of each round, and the table says their middle and both ends', () => {
+  const tables = webTables([roundOf(0.3, 0.1, [1, 2]), roundOf(0.4, 0.2, [3, 9]), roundOf(0.5, 0.1, [4])], { machine: 'here', browserName: 'Chromium', outputLatencyMs: 8, deviceRow: '| mine |' });
+  assert.match(tables, /^\| draft \| 0\.40 \| 0\.10 \| 3\.0 \(2\.0 to 5\.0\) \| 0\.80 \| 0\.10 \| 6\.0 \(4\.0 to 10\.0\) \|$/m);
+  assert.equal(spread([1, 2, 4, 8]), '2.0 (1.0 to 8.0)');
+});
+
+test('no touch is left out: the worst is the worst, and touches without sound are counted', () => {
+  const tables = webTables([roundOf(0.3, 0.1, [1, 2]), roundOf(0.3, 0.1, [3, 90])], { machine: 'here', browserName: 'Chromium', outputLatencyMs: 8, deviceRow: '| mine |' });
+  assert.match(tables, /shared memory \| 4 \| 2 \| 2\.0 \| 90\.0 \| 90\.0 \|$/m);
+  assert.match(tables, /^\| mine \|$/m);
+});
+
+test('a touch\'s time is that of its first audible block, and nothing from before the press counts', () => {
+  const block = (atMs, peak) => ({ atMs, peak });
+  assert.equal(timeOf({ pressedMs: 100, blocks: [block(99, 1), block(101, 0), block(104, 1e-5), block(107, 0.01), block(110, 0.5)] }), 7);
+  assert.equal(timeOf({ pressedMs: 100, blocks: [block(99, 1), block(101, 0)] }), null);
+});
+
+test('a quick run is not published, and what is no option is named', () => {
+  const bench = (...words) => run('bench-web.mjs', ...words);
+  assert.match(bench('--publish', '--quick').stderr, /--publish goes with a whole run/);
+  assert.equal(bench('--publish', '--quick').status, 2);
+  assert.match(bench('--qiuck').stderr, /--qiuck/);
+  assert.match(bench('--help').stdout, /from a\npointer event to its first sample/);
 });

@@ -3,8 +3,8 @@ import assert from 'node:assert/strict';
 import { readFileSync, readdirSync } from 'node:fs';
 import path from 'node:path';
 import test from 'node:test';
-import { modelLine, sha256Of, shippedModel } from '../../scripts/lib/model_stamp.mjs';
-import { inRepository } from '../../scripts/lib/repository.mjs';
+import { modelLine, sha256Of, shippedModel } from '../../scripts/lib/measured_part.mjs';
+import { inRepository } from '../../scripts/lib/process.mjs';
 import { modelOfPage } from './support/model_of_page.mjs';
 
 const shipped = sha256Of(shippedModel);
@@ -15,13 +15,16 @@ const modelOfPicture = (png) => png.toString('latin1').match(/tEXtModel-SHA-256\
 
 /** Pages with measured figures, and the command that measures them. */
 const pages = {
-  'Documentation~/accuracy-and-time.md': 'npm run evaluate',
-  'Documentation~/benchmarks.md': 'npm run bench -- --publish',
-  'Documentation~/device-loudness.md': '/usr/bin/python3 scripts/pack/device_levels.py',
-  'Documentation~/delay-budget.md': 'haptoflow-training study budget --page',
+  'Documentation~/accuracy-and-time.md': 'npm run evaluate, and the tables by hand',
   'Documentation~/in-the-browser.md': 'npm run bench:web -- --publish',
-  'Documentation~/own-materials.md': 'haptoflow-paper few-shot --page',
-  'Documentation~/stability.md': 'npm run test:soak -- --publish',
+  'Documentation~/not-proven.md': 'npm run test:soak -- --publish',
+  'Training/results/benchmarks.md': 'npm run bench -- --publish, and by hand the figures of Documentation~/live-engine.md',
+  'Training/results/delay-budget.md': 'haptoflow-training study budget --page',
+  'Training/results/device-loudness.md': '/usr/bin/python3 scripts/pack/device_levels.py',
+  'Training/results/effects.md': '/usr/bin/python3 scripts/pack/effect_pictures.py',
+  'Training/haptoflow_paper/results/accuracy-and-time.md': 'npm run evaluate',
+  'Training/haptoflow_paper/results/few-shot.md': 'haptoflow-paper few-shot --page',
+  'Training/haptoflow_paper/results/place.md': 'haptoflow-paper place --page',
   'Training/results/default/README.md': 'npm run evaluate, haptoflow-benchmark discriminate, and the words by hand',
 };
 
@@ -31,13 +34,11 @@ const results = {
   'Training/results/default/label-discrimination.json': 'haptoflow-benchmark discriminate',
 };
 
-/** Pictures that do not depend on a model: those of the recorder. */
-const withoutModel = ['recorder-spectra.png'];
 /** Of models that are not in the repository: a file of the published sizes with random weights, and a distilled one. */
 const ofOtherModels = ['published-costs.png', 'distilled-spectra.png'];
-const pictures = ['Documentation~/images', 'Samples~/StylusTracing', 'Samples~/TextureGallery', 'Samples~/Workshop', 'Training/results/default']
+const pictures = ['Documentation~/images', 'Samples~/StylusTracing', 'Samples~/TextureGallery', 'Samples~/Workshop', 'Training/results/default', 'Training/haptoflow_paper/results']
   .flatMap((folder) => readdirSync(inRepository(...folder.split('/'))).map((name) => `${folder}/${name}`))
-  .filter((file) => file.endsWith('.png') && ![...withoutModel, ...ofOtherModels].includes(path.basename(file)));
+  .filter((file) => file.endsWith('.png') && !ofOtherModels.includes(path.basename(file)));
 
 for (const [page, command] of Object.entries(pages)) {
   test(`the figures of ${page} were measured with the shipped model`, () => {
@@ -53,7 +54,7 @@ for (const [file, command] of Object.entries(results)) {
 
 for (const file of pictures) {
   test(`${file} was drawn with the shipped model`, () => {
-    assert.equal(modelOfPicture(readFileSync(inRepository(file))), shipped, 'draw it again: Documentation~/benchmarks.md says how');
+    assert.equal(modelOfPicture(readFileSync(inRepository(file))), shipped, 'draw it again: Documentation~/accuracy-and-time.md says how');
   });
 }
 

@@ -5,7 +5,7 @@ import { mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSyn
 import os from 'node:os';
 import path from 'node:path';
 import test from 'node:test';
-import { inRepository } from '../../scripts/lib/repository.mjs';
+import { inRepository } from '../../scripts/lib/process.mjs';
 import { platforms } from '../../scripts/pack/natives.mjs';
 import { changesOf } from '../../scripts/release/draft.mjs';
 import { elfOf } from './support/elf.mjs';
@@ -117,7 +117,7 @@ test('a draft has both tarballs, the demo\'s page, checksums that agree, and not
 test('a program of one\'s own asks for this version\'s package, and the installation page names its tarball', () => {
   const text = (...parts) => readFileSync(inRepository(...parts), 'utf8');
   const asked = `find_package(haptoflow ${version.split('.').slice(0, 2).join('.')} REQUIRED)`;
-  for (const parts of [['Documentation~', 'platforms.md'], ['Tests', 'Native', 'consumer', 'outside', 'CMakeLists.txt']]) assert.ok(text(...parts).includes(asked), parts.join('/'));
+  for (const parts of [['Documentation~', 'platforms-and-tests.md'], ['Tests', 'Native', 'consumer', 'outside', 'CMakeLists.txt']]) assert.ok(text(...parts).includes(asked), parts.join('/'));
   assert.deepEqual([...new Set(text('Documentation~', 'installation.md').match(/com\.haptoflow\.runtime-[\d.]+\.tgz/g))], [`com.haptoflow.runtime-${version}.tgz`]);
 });
 

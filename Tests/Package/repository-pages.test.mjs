@@ -1,10 +1,10 @@
-// README.md and CONTRIBUTING.md: every link and every path that they name is there, and CONTRIBUTING names every room.
+// README.md and CONTRIBUTING.md: every link and every path that they name is there.
 import assert from 'node:assert/strict';
 import { existsSync, readFileSync } from 'node:fs';
 import path from 'node:path';
 import test from 'node:test';
-import { inRepository } from '../../scripts/lib/repository.mjs';
-import { repositoryFiles } from '../../scripts/lint/files.mjs';
+import { inRepository } from '../../scripts/lib/process.mjs';
+import { repositoryFiles } from '../../scripts/lint/checks.mjs';
 
 const pages = ['README.md', 'CONTRIBUTING.md'];
 const read = (page) => readFileSync(inRepository(page), 'utf8');
@@ -56,32 +56,14 @@ for (const page of pages) {
   });
 }
 
-test('the way from stylus to sound names files of C# and C++, each of which exists', () => {
-  const way = read('CONTRIBUTING.md').split(/^## /m).find((section) => section.startsWith('From stylus to sound'));
-  const files = namedPaths(`## ${way}`);
-  assert.ok(files.filter((file) => file.endsWith('.cs')).length >= 6 && files.filter((file) => file.endsWith('pp')).length >= 10, files.join(' '));
-});
-
-test('CONTRIBUTING gives every folder of the first two levels a line, and every folder of the editor', () => {
-  const named = new Set(namedPaths(read('CONTRIBUTING.md')).map((name) => name.replace(/\/$/, '')));
-  const folders = (depth, below = '') => [...new Set(tracked
-    .filter((file) => file.startsWith(below) && file.split('/').length > depth)
-    .map((file) => file.split('/').slice(0, depth).join('/')))];
-  const small = (folder) => ['.ci', '.github'].includes(folder.split('/')[0]);
-  const editor = 'Packages/com.haptoflow.runtime/Editor/';
-  const wanted = [...folders(2).filter((folder) => !small(folder)), ...folders(4, editor), ...folders(5, editor)];
-  assert.deepEqual(wanted.filter((folder) => !named.has(folder)), []);
-});
-
 test('paths are read from backticks, below the folder of their heading', () => {
   const text = '## Parts (below `A/B`)\n\n`c.cpp` and `d/e`, not `word` or `out/x`\n| `h` | `i` |\n\n## Others\n`f/g.py`, `f/NAME.py`\n';
   assert.deepEqual(namedPaths(text), ['A/B/c.cpp', 'A/B/d/e', 'A/B/h', 'f/g.py']);
 });
 
-
 test('the figures of the README are those of the published benchmark and of the evaluation', () => {
   const readme = read('README.md').replace(/\s+/g, ' ');
-  const bench = read('Documentation~/benchmarks.md');
+  const bench = read('Training/results/benchmarks.md');
   const [, paced, pacedP99] = bench.match(/^ {2}standard +refine +1 +[\d.]+ +[\d.]+ +[\d.]+ +[\d.]+ +([\d.]+) +([\d.]+)/m);
   const [, ratio] = bench.match(/speed-up over the paper's architecture, standard: [\d.]+ hot, ([\d.]+) paced/);
   const [, onset, onsetP99] = bench.split('onset, ms')[1].match(/^ {2}256 +\d+ +([\d.]+) +([\d.]+)/m);

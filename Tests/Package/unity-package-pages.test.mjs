@@ -1,42 +1,20 @@
-// Everything that the pages name exists: messages, menus, components, members, profiler markers, commands.
+// What the pages name exists: menus, components, members, commands.
 import assert from 'node:assert/strict';
 import { readFileSync, readdirSync } from 'node:fs';
 import path from 'node:path';
 import test from 'node:test';
-import { inRepository } from '../../scripts/lib/repository.mjs';
-import { repositoryFiles } from '../../scripts/lint/files.mjs';
+import { inRepository } from '../../scripts/lib/process.mjs';
+import { repositoryFiles } from '../../scripts/lint/checks.mjs';
 
 const read = (...parts) => readFileSync(inRepository(...parts), 'utf8');
 const pageNames = readdirSync(inRepository('Documentation~')).filter((name) => name.endsWith('.md'));
 const pages = pageNames.map((name) => ({ name, text: read('Documentation~', name) }));
-const ofUnity = ['index', 'installation', 'first-scene', 'first-vibration', 'components', 'mx-ink-quest3', 'actuator-wiring', 'authoring', 'api-tour', 'performance', 'troubleshooting', 'latency-study', 'similarity-study'];
-const unityPages = [...pages, ...['StylusTracing', 'TextureGallery', 'Workshop', 'LatencyStudy', 'SimilarityStudy', 'DeviceCheck'].map((sample) => ({ name: sample, text: read('Samples~', sample, 'README.md') }))]
-  .filter(({ name }) => ofUnity.includes(path.basename(name, '.md')) || !name.endsWith('.md'));
+const unityPages = [...pages, ...['StylusTracing', 'TextureGallery', 'Workshop', 'LatencyStudy', 'SimilarityStudy', 'DeviceCheck'].map((sample) => ({ name: sample, text: read('Samples~', sample, 'README.md') }))];
 const files = await repositoryFiles();
 const sources = files
   .filter((name) => name.startsWith('Packages/com.haptoflow.runtime/') && name.endsWith('.cs'))
   .map((name) => ({ name, text: read(name) }));
 const runtime = sources.filter(({ name }) => name.includes('/Runtime/'));
-
-/** The messages of a C# source: string literals that begin with "HaptoFlow", joined over +, with null for interpolations. */
-function messagesOf(text) {
-  const joined = text.replace(/"\s*\+\s*\$?"/g, '');
-  return [...joined.matchAll(/\$?"(HaptoFlow(?::|'s)(?:[^"\\]|\\.)*)"/g)].map(([, literal]) => literal.replaceAll('\\"', '"').split(/\{[^}]*\}/));
-}
-
-test('there is a page for each part of the package', () => {
-  for (const name of ofUnity) assert.ok(pageNames.includes(`${name}.md`), name);
-});
-
-test('troubleshooting lists every message of the runtime', () => {
-  const page = read('Documentation~', 'troubleshooting.md');
-  const messages = runtime.flatMap(({ name, text }) => messagesOf(text).map((pieces) => ({ name, pieces })));
-  assert.ok(messages.length >= 8, `${messages.length} messages found in the sources`);
-  for (const { name, pieces } of messages) {
-    const longest = pieces.reduce((best, piece) => (piece.length > best.length ? piece : best)).replace(/ \($/, '').trim();
-    assert.ok(page.includes(longest), `${path.basename(name)}: "${longest}"`);
-  }
-});
 
 test('every menu that a page names is a menu of the package', () => {
   const menus = sources.flatMap(({ text }) => [...text.matchAll(/"((?:Window|GameObject)\/HaptoFlow\/[^"]+)"/g)].map(([, menu]) => menu.replace(/ _?[%#&].*$/, '')));
@@ -76,15 +54,9 @@ test('every type and member of HaptoFlow that a page names exists and is public'
   }
 });
 
-test('the profiler\'s markers are those of the performance page', () => {
-  const markers = [...read('Packages', 'com.haptoflow.runtime', 'Runtime', 'Components', 'Markers.cs').matchAll(/ProfilerMarker\("([^"]+)"\)/g)].map(([, marker]) => marker);
-  const named = [...read('Documentation~', 'performance.md').matchAll(/^\| (?:main|audio) \|.*\| `(HaptoFlow\.\w+)` \|$/gm)].map(([, marker]) => marker);
-  assert.deepEqual(named.sort(), markers.sort());
-});
-
 test('every npm script that a page names exists', () => {
   const { scripts } = JSON.parse(read('package.json'));
-  for (const { name, text } of [...pages, ...unityPages]) {
+  for (const { name, text } of unityPages) {
     for (const [, script] of text.matchAll(/(?:npm run|\.\/run) ([a-z][a-z:]*)/g)) assert.ok(scripts[script], `${name}: npm run ${script}`);
   }
 });

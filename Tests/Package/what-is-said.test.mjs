@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import test from 'node:test';
-import { inRepository } from '../../scripts/lib/repository.mjs';
+import { inRepository } from '../../scripts/lib/process.mjs';
 
 const read = (...words) => readFileSync(inRepository(...words), 'utf8');
 const descriptionOf = (...words) => JSON.parse(read(...words)).description;
@@ -48,18 +48,9 @@ test('C, C#, JavaScript and its types have the same qualities with the same numb
   assert.deepEqual([...types.matchAll(/'(\w+)'/g)].map(([, name]) => name).sort(), Object.keys(wanted).sort());
 });
 
-test('pages that list the qualities list those that there are', () => {
-  for (const [page, opening] of [['glossary', '| quality |'], ['performance', '| Sketch, Draft, Standard |'], ['live-engine', '`sketch`, `draft` and `standard` are'], ['model-format', 'qualities are named `sketch`, `draft` and `standard`']]) {
-    const line = read('Documentation~', `${page}.md`).split('\n').find((each) => each.includes(opening));
-    assert.ok(line, `${page}.md: ${opening}`);
-    assert.doesNotMatch(line, /\bfine\b/i, page);
-  }
-  assert.match(read('Documentation~', 'glossary.md').split('\n').find((line) => line.startsWith('| quality |')), /sketch, draft, standard or auto/);
-});
-
 /** The first number after the name of each row of a table of plain text under a heading of the benchmarks. */
 function published(heading, column) {
-  const [, block] = read('Documentation~', 'benchmarks.md').split(`\n${heading}`);
+  const [, block] = read('Training', 'results', 'benchmarks.md').split(`\n${heading}`);
   const rows = block.split('\n\n')[0].split('\n').slice(2);
   return Object.fromEntries(rows.map((row) => {
     const [, name, rest] = row.match(/^ {2}(\D+?) {2,}(.*)$/);
@@ -67,16 +58,14 @@ function published(heading, column) {
   }));
 }
 
-test('the costs of effects and outputs are those of the published benchmark', () => {
+test('the costs of effects are those of the published benchmark', () => {
   const effects = published('effects, 256 frames at 48 kHz, us', 1);
-  const outputs = published('outputs, one frame of 13.9 ms, us', 1);
-  const names = { 'Haptic Output': 'audio', 'Controller Waveform Output': 'controller waveform', 'Controller Parametric Output': 'controller parametric', 'Motor Output': 'motor' };
-  const rows = read('Documentation~', 'effects-and-outputs.md').split('\n').filter((line) => / us (of the worker's time )?a (block|frame)/.test(line) && line.startsWith('|'));
-  assert.equal(rows.length, Object.keys(effects).length + Object.keys(outputs).length);
+  const rows = read('Documentation~', 'effects-and-outputs.md').split('\n').filter((line) => / us (of the worker's time )?a block/.test(line) && line.startsWith('|'));
+  assert.equal(rows.length, Object.keys(effects).length);
   for (const row of rows) {
     const name = row.match(/^\| \[?([\w ]+?)(?:\]| \|)/)[1];
-    const measured = names[name] ? outputs[names[name]] : effects[name.toLowerCase()];
-    const said = Number(row.match(/([\d.]+) us (?:of the worker's time )?a (?:block|frame)/)[1]);
+    const measured = effects[name.toLowerCase()];
+    const said = Number(row.match(/([\d.]+) us (?:of the worker's time )?a block/)[1]);
     assert.ok(Math.abs(said / measured - 1) < 0.06, `${name}: ${said} us, the benchmark has ${measured}`);
   }
 });

@@ -21,7 +21,7 @@ _COMMANDS = {
 }
 _DESCRIPTION = """Measures what the published tables state: the product's models beside rivals (transformer, DSTN, SPSI,
 autoregressive), latent codecs, reflow and mean flow, one row for each method and configuration.
-`haptoflow-paper evaluate` trains what the rows need, measures them and writes Documentation~/accuracy-and-time.md;
+`haptoflow-paper evaluate` trains what the rows need, measures them and writes results/accuracy-and-time.md;
 it needs the native library (`./run build`) and hours of computing.
 To train and export a model of your own, `haptoflow-training` is enough; `haptoflow-benchmark` measures it.
 """

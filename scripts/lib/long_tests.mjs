@@ -1,6 +1,6 @@
 /**
  * Tests that only the long form runs (`./run test --all`, every night), and why the default run loses nothing by it.
- * Documentation~/testing.md lists the same; Tests/Package/long-tests.test.mjs compares both with the sources.
+ * Tests/Package/long-tests.test.mjs compares it with the sources.
  * @type {Record<string, {because: string, tests: string[]}[]>} tests: patterns of GoogleTest for native, parts of names of
  *   the others
  */
@@ -45,7 +45,7 @@ export const longTests = {
       tests: ['test_the_shipped_model_s_renders_of_unseen_strokes_are_classified_correctly_and_ordered_by_level'],
     },
     {
-      because: 'recorded strokes are rendered from the shipped model; RealStrokesTest (C++) runs their contact and ARealStrokeTouchesOnce (C#) their sound',
+      because: 'recorded strokes are rendered from the shipped model; RealStrokesTests (C#) runs their contact and sound',
       tests: ['test_every_stroke_touches_and_vibrates', 'test_no_sample_is_non_finite_or_clipped', 'test_hop_boundaries_do_not_stand_out_from_the_waveform'],
     },
     {

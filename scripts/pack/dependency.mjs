@@ -1,7 +1,6 @@
 import { existsSync, readFileSync, statSync } from 'node:fs';
 import path from 'node:path';
-import { CommandError } from '../lib/process.mjs';
-import { inRepository } from '../lib/repository.mjs';
+import { CommandError, inRepository } from '../lib/process.mjs';
 import { manifestPath } from './layout.mjs';
 import { makeTarball } from './tarball.mjs';
 

@@ -5,7 +5,7 @@ Run from the repository's root, after `npm run build`:
 
     /usr/bin/python3 scripts/pack/device_levels.py [--strokes STROKES.csv]
 
-It prints the fit of the law, and writes the tables of Documentation~/device-loudness.md and its picture. Strokes of
+It prints the fit of the law, and writes the tables of Training/results/device-loudness.md and its picture. Strokes of
 `Samples~/HeadlessScenes/tracing.stroke.csv` are ordinary; with --strokes (stroke_id,t_s,x_m,y_m,z_m) recorded ones are
 measured instead, at 1 N, and only printed.
 """
@@ -26,7 +26,7 @@ from haptoflow_benchmark.engine_library import EngineLibrary, default_engine, wa
 from haptoflow_benchmark.engine_render import model_labels, onto_table, read_recorded_strokes
 from haptoflow_training.model_stamp import model_line, read_measured_page, sha256_of, with_measured_words
 
-PAGE = ROOT / "Documentation~/device-loudness.md"
+PAGE = ROOT / "Training/results/device-loudness.md"
 ORDINARY = ROOT / "Samples~/HeadlessScenes/tracing.stroke.csv"
 KINDS = ("motor", "parametric", "waveform")
 FRAME_RATES_HZ = (72, 90, 120)

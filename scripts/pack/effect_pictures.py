@@ -29,7 +29,7 @@ from haptoflow_benchmark.engine_library import default_engine, wave_frames
 from haptoflow_training.model_stamp import model_line, sha256_of, with_measured_words
 
 IMAGES = ROOT / "Documentation~/images"
-PAGE = ROOT / "Documentation~/effects-and-outputs.md"
+PAGE = ROOT / "Training/results/effects.md"
 # Statistics of the intensity error, and how each is printed.
 FIGURES = (("mean", "+"), ("mean_magnitude", ""), ("p95", ""))
 RATE_HZ = 48000

@@ -1,7 +1,7 @@
 import { existsSync, readFileSync, readdirSync, statSync } from 'node:fs';
 import path from 'node:path';
-import { inRepository } from '../lib/repository.mjs';
-import { shippedModel } from '../lib/model_stamp.mjs';
+import { inRepository } from '../lib/process.mjs';
+import { shippedModel } from '../lib/measured_part.mjs';
 import { dependencyName, runtimePlaces } from './dependency.mjs';
 import { isNewerThan, neededGlibc } from './elf.mjs';
 import { oldestGlibc } from './natives.mjs';

@@ -39,7 +39,7 @@ struct ActuatorMeasurement {
 };
 
 /// The frequency response of an actuator: magnitude and, if known, phase. The JSON format is specified in
-/// Documentation~ (actuator-profile.md, actuator-profile.schema.json). Any thread may read; parsing allocates.
+/// Documentation~ (devices.md, actuator-profile.schema.json). Any thread may read; parsing allocates.
 struct ActuatorProfile {
     static constexpr int formatVersion = 1;
     static constexpr std::size_t maximumTextBytes = std::size_t{1} << 20U;

@@ -15,7 +15,7 @@ using Object = UnityEngine.Object;
 
 namespace HaptoFlow.EditorTests
 {
-    /// <summary>Walks the tables of the page first-vibration.md click by click, adds the clicks up, and checks what
+    /// <summary>Walks the tables of the page getting-started.md click by click, adds the clicks up, and checks what
     /// plays then.</summary>
     public sealed class FirstVibrationTests : EditorTest
     {
@@ -27,7 +27,7 @@ namespace HaptoFlow.EditorTests
         private const string Both = "What plays where";
         private const float Audible = 0.001f;
         private static readonly string[] Page =
-            File.ReadAllLines(RepositoryFiles.In("Documentation~", "first-vibration.md"));
+            File.ReadAllLines(RepositoryFiles.In("Documentation~", "getting-started.md"));
 
         private readonly HashSet<string> drawnIn = new HashSet<string>();
         private Camera camera = null!;
@@ -219,8 +219,8 @@ namespace HaptoFlow.EditorTests
         /// <summary>The rows of the last table of a section.</summary>
         private static (string What, int Clicks)[] Rows(string section)
         {
-            string[] lines = Page.SkipWhile(line => line != "## " + section).Skip(1)
-                .TakeWhile(line => !line.StartsWith("## ")).ToArray();
+            string[] lines = Page.SkipWhile(line => line.TrimStart('#') != " " + section).Skip(1)
+                .TakeWhile(line => !line.StartsWith("##")).ToArray();
             Assert.That(lines, Is.Not.Empty, section);
             return lines.Select(line => Regex.Match(line, "^\\| (.+) \\| ([0-9]+) \\|$")).Where(match => match.Success)
                 .Select(match => (match.Groups[1].Value, int.Parse(match.Groups[2].Value))).ToArray();

@@ -132,7 +132,7 @@ namespace HaptoFlow.EditorTests
                 RepositoryFiles.In("Packages", "com.haptoflow.runtime", "package.json")));
             Assert.That(manifest.ContainsKey("documentationUrl"), Is.False);
             Assert.That(manifest.ContainsKey("changelogUrl"), Is.False);
-            Assert.That(Page("index.html"), Does.Contain("](installation.md)").And.Contain("](first-scene.md)"));
+            Assert.That(Page("index.html"), Does.Contain("](installation.md)").And.Contain("](getting-started.md)"));
         }
 
         private static string InstalledPages(string name)

@@ -1,5 +1,4 @@
 #include "command_line.hpp"
-
 #include "effects/actuator_profile.hpp"
 #include "svg_plot.hpp"
 #include "texture_distance.hpp"
@@ -9,11 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
-#include <set>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -69,12 +64,6 @@ TEST_F(ActuatorCommandTest, ASweepOverADirectWireGivesAFlatProfileAndAPlot) {
     const testing::Finished shown = run("actuator show wire.json");
     EXPECT_EQ(shown.exitCode, 0) << shown.errors;
     EXPECT_THAT(shown.output, AllOf(HasSubstr("a wire"), HasSubstr("rated level   ")));
-}
-
-TEST_F(ActuatorCommandTest, EqualOptionsGiveEqualSweepFiles) {
-    ASSERT_EQ(run("actuator sweep -o one.wav --seconds 1").exitCode, 0);
-    ASSERT_EQ(run("actuator sweep -o two.wav --seconds 1").exitCode, 0);
-    EXPECT_EQ(read("one.wav"), read("two.wav"));
 }
 
 TEST_F(ActuatorCommandTest, WrongInputFilesAreNamedWithTheReasonAndNoOutputRemains) {
@@ -157,25 +146,6 @@ TEST(TextureDistanceTest, CompensationReducesTheDistanceOfEveryLabelOfTheShipped
     }
 }
 
-TEST(TextureDistanceTest, AModelWithASkeletonHasADistanceForEveryLabel) {
-    const auto model = model::ModelFile::read(HAPTOFLOW_TEST_GOLDEN_DIR "/model/skeleton.haptoflow");
-    const std::vector<TextureDistance> distances =
-        textureDistances(model, *effects::ActuatorProfile::builtIn("voice-coil"), {});
-    ASSERT_EQ(distances.size(), model.header().labels.size());
-    for (const TextureDistance& each : distances) {
-        EXPECT_GT(each.uncompensatedDecibels, 2.0) << each.label;
-        EXPECT_LT(each.compensatedDecibels, each.uncompensatedDecibels) << each.label;
-    }
-}
-
-TEST(TextureDistanceTest, AFlatActuatorHasNoDistance) {
-    const model::ModelFile model = model::ModelFile::read(HAPTOFLOW_TEST_DEFAULT_MODEL);
-    for (const TextureDistance& each : textureDistances(model, *effects::ActuatorProfile::builtIn("flat"), {})) {
-        EXPECT_NEAR(each.uncompensatedDecibels, 0.0, 1e-9) << each.label;
-        EXPECT_NEAR(each.compensatedDecibels, 0.0, 1e-9) << each.label;
-    }
-}
-
 TEST(SvgPlotTest, NamesAreEscapedAndValuesThatAreNotFiniteAreSkipped) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const std::string drawn = svgPlot("<&\"", {20.0, 100.0, 500.0, 1000.0},
@@ -186,61 +156,6 @@ TEST(SvgPlotTest, NamesAreEscapedAndValuesThatAreNotFiniteAreSkipped) {
                                         .lines = {{"a<b", "#000", {0.0, nan, -1e300, -10.0}, false}}}});
     EXPECT_THAT(drawn, AllOf(HasSubstr("&lt;&amp;&quot;"), HasSubstr("a&lt;b"), Not(HasSubstr("nan")),
                              Not(HasSubstr("inf")), Not(HasSubstr("e+"))));
-}
-
-TEST(ActuatorProfileDocumentationTest, TheSchemaKnowsTheSameKeysAsTheReader) {
-    std::ifstream file(HAPTOFLOW_TEST_DOCUMENTATION_DIR "/actuator-profile.schema.json");
-    const nlohmann::json schema = nlohmann::json::parse(file);
-    const auto complaintAbout = [](const std::string& key, const nlohmann::json& value) {
-        nlohmann::json profile = nlohmann::json::parse(effects::ActuatorProfile::builtIn("flat")->toJson());
-        profile[key] = value;
-        try {
-            (void)effects::ActuatorProfile::parse(profile.dump());
-        } catch (const effects::ProfileError& error) {
-            return std::string(error.what());
-        }
-        return std::string("not refused");
-    };
-    const auto keysIn = [](const std::string& complaint) {
-        std::set<std::string> keys;
-        std::istringstream names(complaint.substr(complaint.find("known are ") + 10));
-        for (std::string name; std::getline(names >> std::ws, name, ',');) {
-            keys.insert(name);
-        }
-        return keys;
-    };
-    const auto keysOf = [](const nlohmann::json& object) {
-        std::set<std::string> keys;
-        for (const auto& [key, unused] : object.at("properties").items()) {
-            keys.insert(key);
-        }
-        return keys;
-    };
-    EXPECT_EQ(keysOf(schema), keysIn(complaintAbout("unheard-of", 1)));
-    EXPECT_EQ(keysOf(schema.at("properties").at("measurement")),
-              keysIn(complaintAbout("measurement", {{"unheard-of", 1}})));
-    const nlohmann::json& points = schema.at("properties").at("frequency_hz");
-    EXPECT_EQ(points.at("maxItems"), effects::ActuatorProfile::maximumPoints);
-    for (const std::string key : schema.at("required")) {
-        nlohmann::json profile = nlohmann::json::parse(effects::ActuatorProfile::builtIn("flat")->toJson());
-        profile.erase(key);
-        EXPECT_THROW((void)effects::ActuatorProfile::parse(profile.dump()), effects::ProfileError) << key;
-    }
-}
-
-TEST(ActuatorProfileDocumentationTest, EveryProfileOfThePageIsRead) {
-    std::ifstream file(HAPTOFLOW_TEST_DOCUMENTATION_DIR "/actuator-profile.md");
-    const std::string page{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-    int profiles = 0;
-    for (std::size_t begin = page.find("```json\n"); begin != std::string::npos;
-         begin = page.find("```json\n", begin)) {
-        begin += 8;
-        const std::size_t end = page.find("```", begin);
-        EXPECT_NO_THROW((void)effects::ActuatorProfile::parse(page.substr(begin, end - begin)));
-        ++profiles;
-        begin = end + 3;
-    }
-    EXPECT_GE(profiles, 1);
 }
 
 }  // namespace

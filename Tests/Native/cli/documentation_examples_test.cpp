@@ -186,15 +186,5 @@ TEST_F(DocumentationExamplesTest, EveryExampleOfTheHelpRuns) {
     EXPECT_GE(examples, 10U);
 }
 
-TEST_F(DocumentationExamplesTest, TheExamplesAreFoundInBlocksAndInLines) {
-    const std::string page =
-        "Say `haptoflow inspect MODEL --json` or `haptoflow contact`:\n```\nbuild/native/haptoflow render a.json "
-        "--stroke b.csv -o c.wav\nls\n```\nnot haptoflow render this.\n```json\n{}\n```\n";
-    EXPECT_THAT(examplesOf(page),
-                ::testing::ElementsAre("haptoflow inspect MODEL --json",
-                                       "build/native/haptoflow render a.json --stroke b.csv -o c.wav"));
-    EXPECT_THAT(blocksOf(page, "json"), ::testing::ElementsAre("{}\n"));
-}
-
 }  // namespace
 }  // namespace haptoflow::cli

@@ -1,17 +1,18 @@
 #include "command_line.hpp"
-
-#include <nlohmann/json.hpp>
+#include "messages.hpp"
+#include "model_location.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
-#include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <memory>
-#include <stdexcept>
+#include <optional>
 #include <string>
+#include <tuple>
 
 namespace haptoflow::cli {
 namespace {
@@ -28,30 +29,6 @@ Finished inspect(const std::string& words) {
     run.output += run.errors;
     return run;
 }
-
-std::string bytesOf(const std::string& path) {
-    std::ifstream stream(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
-
-/// A temporary file for one test.
-class ScratchFile {
-public:
-    explicit ScratchFile(const std::string& content)
-        : path_((std::filesystem::temp_directory_path() /
-                 ("inspect_" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name())))
-                    .string()) {
-        std::ofstream(path_, std::ios::binary) << content;
-    }
-    ScratchFile(const ScratchFile&) = delete;
-    ScratchFile& operator=(const ScratchFile&) = delete;
-    ~ScratchFile() { std::remove(path_.c_str()); }
-
-    [[nodiscard]] const std::string& path() const { return path_; }
-
-private:
-    std::string path_;
-};
 
 TEST(InspectTest, ASkeletonItsTiersAndTheWavesOfLabelsAreShown) {
     const Finished run = inspect(HAPTOFLOW_TEST_GOLDEN_DIR "/model/skeleton.haptoflow");
@@ -85,32 +62,89 @@ TEST(InspectTest, TheHeaderIsPrintedWithSizeAndChecksumAsJson) {
     EXPECT_EQ(report["file"]["crc32"].get<std::string>().size(), 8U);
 }
 
-TEST(InspectTest, AMissingFileIsRefusedByName) {
-    const Finished run = inspect("/nowhere/a.haptoflow");
-    EXPECT_EQ(run.exitCode, 3);
-    EXPECT_THAT(run.output, HasSubstr("/nowhere/a.haptoflow: there is no such file"));
-}
-
-TEST(InspectTest, ADamagedFileIsRefusedWithItsChecksum) {
-    std::string content = bytesOf(tinyModel);
-    ASSERT_GT(content.size(), 1000U);
-    content[200] = static_cast<char>(content[200] ^ 4);
-    const ScratchFile file(content);
-    const Finished run = inspect(file.path() + " --json");
-    EXPECT_EQ(run.exitCode, 3);
-    EXPECT_THAT(run.output, HasSubstr(file.path()));
-    EXPECT_THAT(run.output, HasSubstr("checksum at byte 24"));
-}
-
-TEST(InspectTest, AFileOfAnotherKindIsRefused) {
-    const ScratchFile file("RIFF....WAVEfmt and so on, long enough to be looked at");
-    const Finished run = inspect(file.path());
-    EXPECT_EQ(run.exitCode, 3);
-    EXPECT_THAT(run.output, HasSubstr("not a .haptoflow file"));
-}
-
-TEST(InspectTest, ACallWithoutAFileIsRefused) {
+TEST(InspectTest, WhatIsNoModelIsRefusedByNameWithTheReason) {
+    std::ifstream stream(tinyModel, std::ios::binary);
+    std::string damaged((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+    damaged.at(200) = static_cast<char>(damaged[200] ^ 4);
+    const auto folder = std::filesystem::temp_directory_path();
+    for (const auto& [name, content, reason] :
+         {std::tuple{"haptoflow_damaged", damaged, "checksum at byte 24"},
+          {"haptoflow_other", std::string("RIFF....WAVEfmt and so on, long enough to be looked at"),
+           "not a .haptoflow file"}}) {
+        const std::string path = (folder / name).string();
+        std::ofstream(path, std::ios::binary) << content;
+        const Finished run = inspect(path + " --json");
+        EXPECT_EQ(run.exitCode, 3);
+        EXPECT_THAT(run.output, ::testing::AllOf(HasSubstr(path), HasSubstr(reason)));
+        std::filesystem::remove(path);
+    }
+    EXPECT_THAT(inspect("/nowhere/a.haptoflow").output, HasSubstr("/nowhere/a.haptoflow: there is no such file"));
     EXPECT_EQ(inspect("").exitCode, 2);
+}
+
+/// Sets or removes an environment variable for the duration of a test.
+class Environment {
+public:
+    Environment(const char* name, const std::optional<std::string>& value) : name_(name) {
+        if (const char* before = std::getenv(name)) {
+            before_ = before;
+        }
+        apply(value);
+    }
+    Environment(const Environment&) = delete;
+    Environment& operator=(const Environment&) = delete;
+    ~Environment() { apply(before_); }
+
+private:
+    void apply(const std::optional<std::string>& value) const {
+        if (value) {
+            setenv(name_, value->c_str(), 1);
+        } else {
+            unsetenv(name_);
+        }
+    }
+
+    const char* name_;
+    std::optional<std::string> before_;
+};
+
+template <typename Action>
+std::string refusalOf(Action action) {
+    try {
+        (void)action();
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    ADD_FAILURE() << "no InputError was thrown";
+    return {};
+}
+
+TEST(ModelLocationTest, TheEnvironmentNamesTheModel) {
+    const Environment model("HAPTOFLOW_MODEL", HAPTOFLOW_TEST_GOLDEN_DIR "/model/tiny.haptoflow");
+    EXPECT_EQ(findModel(""), HAPTOFLOW_TEST_GOLDEN_DIR "/model/tiny.haptoflow");
+    EXPECT_EQ(readModel(findModel("")).header().name, "tiny");
+}
+
+TEST(ModelLocationTest, AMissingModelOfTheEnvironmentIsRefusedWithTheVariable) {
+    const Environment model("HAPTOFLOW_MODEL", "/nowhere/a.haptoflow");
+    const std::string refusal = refusalOf([] { return findModel(""); });
+    EXPECT_THAT(refusal, HasSubstr("/nowhere/a.haptoflow"));
+    EXPECT_THAT(refusal, HasSubstr("HAPTOFLOW_MODEL"));
+}
+
+TEST(ModelLocationTest, TheErrorForAMissingRuntimeNamesThePlacesAndTheRemedy) {
+    // The test program is deeper in the build folder than the command line, so that none of the places exists.
+    const Environment runtime("HAPTOFLOW_ONNXRUNTIME", std::nullopt);
+    const std::string refusal = refusalOf([] { return findOnnxRuntime(); });
+    EXPECT_THAT(refusal, HasSubstr("HAPTOFLOW_ONNXRUNTIME (not set)"));
+    EXPECT_THAT(refusal, HasSubstr("node_modules/com.github.asus4.onnxruntime/Plugins"));
+    EXPECT_THAT(refusal, HasSubstr("`npm ci`"));
+    EXPECT_THAT(refusal, HasSubstr("`npm run build`"));
+}
+
+TEST(ModelLocationTest, ARuntimeThatIsNotALibraryIsAnInputError) {
+    const Environment runtime("HAPTOFLOW_ONNXRUNTIME", HAPTOFLOW_TEST_GOLDEN_DIR "/model/tiny.haptoflow");
+    EXPECT_THAT(refusalOf([] { return openRuntime(); }), HasSubstr("tiny.haptoflow: cannot be loaded"));
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
 // `haptoflow learn`: recordings of every format become material files that render uses.
 #include "command_line.hpp"
 
-#include "exit_codes.hpp"
 #include "learning/made_recording.hpp"
 #include "learning/texture_figures.hpp"
 #include "material_output.hpp"
+#include "messages.hpp"
 #include "model/material_file.hpp"
 #include "model/model_file.hpp"
 #include "recordings/recording_reader.hpp"

@@ -128,23 +128,6 @@ TEST(ContactTransitionsTest, AStepBetweenPlatesIsOneEdgeOfItsHeightInBothDirecti
     }
 }
 
-TEST(ContactTransitionsTest, FlushPlatesThatMoveTogetherStayFlush) {
-    std::vector<SceneSurface> both = plates(0.0);
-    for (SceneSurface& plate : both) {
-        Pose high = plate.pose;
-        high.positionMetres += glm::dvec3(0.3, 0.7, 0.0);
-        plate.motion.emplace(std::vector<Keyframe>{{0.0, plate.pose}, {0.8, high}}, false);
-    }
-    const Scene scene = sceneOf(both);
-    const Events events = eventsOf(scene, 0.8, 72.0, [&](double time) {
-        const Pose pose = scene.surfaces[0].poseAt(time);
-        return pose.pointToWorld({0.3 + 0.5 * time, 0.05 - 0.0002, 0.0});
-    });
-    EXPECT_EQ(events.touches, 1U);
-    EXPECT_EQ(events.landings, 0U);
-    EXPECT_EQ(events.edges, 0U);
-}
-
 TEST(ContactTransitionsTest, ATipThatSlidesOffABoxCrossesOneRim) {
     const Scene scene = sceneOf({blockAt({0.0, -0.05, 0.0})});
     forEachStroke([&](double speed, double rateHz, double offset) {

@@ -6,13 +6,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <random>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace haptoflow::headless {
 namespace {
 
+using testing::isSane;
 using testing::play;
 using testing::sampledPath;
 using testing::sceneOf;
@@ -20,66 +24,125 @@ using testing::speedOf;
 using testing::surfaceOf;
 using testing::turned;
 
+/// A plate at an oblique angle in the world, with a grain. A tip of 4 mm is drawn over its upper face, 1 mm deep.
+SceneSurface plate() {
+    SceneSurface surface = surfaceOf(Box{{40.0, 0.02, 40.0}}, {{0.3, -0.2, 0.1}, turned(35.0, {1.0, 2.0, -1.0})});
+    surface.grain = {3.0, 0.0, 4.0};
+    return surface;
+}
+
+glm::dvec3 onPlate(const Pose& pose, double along, double across) {
+    return pose.pointToWorld({along, 0.013, across});
+}
+
+TEST(MovingFramesTest, SteadyMotionIsMeasuredExactlyAtEveryUpdateRateAndSpeedAndLimitedAboveTheMaximum) {
+    const SceneSurface surface = plate();
+    for (const double rate : {30.0, 59.94, 72.0, 90.0, 120.0, 1000.0, 10000.0}) {
+        for (const double speed : {0.001, 0.25, 1.5, 20.0, 20.01, 1e6}) {
+            SCOPED_TRACE(std::to_string(speed) + " m/s at " + std::to_string(rate) + " Hz");
+            ContactTracker tracker(sceneOf({surface}, 0.004));
+            const auto readings = play(tracker, sampledPath(0.2, rate, [&](double time) {
+                                           return onPlate(surface.pose, 0.96 * speed * time, 0.28 * speed * time);
+                                       }));
+            const bool isMeasured = speed <= 20.0;
+            for (std::size_t frame = rate > 2000.0 ? 100 : 2; frame < readings.size(); ++frame) {
+                ASSERT_TRUE(isSane(readings[frame]));
+                if (isMeasured) {
+                    ASSERT_TRUE(readings[frame].touching);
+                    // The first axis is along the grain (3, 0, 4) / 5, the second along (4, 0, -3) / 5.
+                    ASSERT_NEAR(readings[frame].tangentialVelocityMps.x, 0.8 * speed, 1e-6);
+                    ASSERT_NEAR(readings[frame].tangentialVelocityMps.y, 0.6 * speed, 1e-6);
+                }
+            }
+            EXPECT_TRUE(!isMeasured || tracker.statistics().teleports == 0);
+        }
+    }
+}
+
+TEST(MovingFramesTest, TheVelocityNeverExceedsTheStrokesSpeedForAnyMixOfTimeSteps) {
+    std::mt19937 random(37);
+    const SceneSurface surface = plate();
+    ContactTracker tracker(sceneOf({surface}, 0.004));
+    double time = 0.0;
+    bool moved = false;
+    for (int frame = 0; frame < 20000; ++frame) {
+        const double steps[]{1.0 / 90.0, 1.0 / 90.0, 1.0 / 30.0, 0.001, 1e-6, 0.0, -0.0, -1e-6, -0.02, 10.0};
+        time += steps[random() % std::size(steps)];
+        time = time > 60.0 ? 0.0 : time;
+        const ContactReading reading =
+            tracker.update({time, onPlate(surface.pose, 0.2 * time - 5.0, 0.0), std::nullopt, std::nullopt});
+        ASSERT_TRUE(reading.touching);
+        ASSERT_TRUE(isSane(reading));
+        ASSERT_LT(speedOf(reading), 0.2 + 1e-6) << "frame " << frame;
+        moved = moved || speedOf(reading) > 0.2 - 1e-6;
+    }
+    EXPECT_TRUE(moved);
+    EXPECT_EQ(tracker.statistics().teleports, 0U);
+    EXPECT_EQ(tracker.statistics().touchDowns, 1U);
+}
+
+TEST(MovingFramesTest, AStrokeADayLaterGivesTheSameReadings) {
+    constexpr double daySeconds = 86'400.0;
+    const SceneSurface surface = plate();
+    // At 64 Hz every time of a day is exact in a double, so that only the tracker could cause an error; at 72 Hz the
+    // sample's time itself is rounded to 2^-36 s.
+    for (const auto& [rate, toleranceMps] : {std::pair(64.0, 0.0), {72.0, 1e-9}, {90.0, 1e-9}}) {
+        ContactTracker now(sceneOf({surface}, 0.004));
+        ContactTracker later(sceneOf({surface}, 0.004));
+        const auto samples = sampledPath(2.0, rate, [&](double time) {
+            const double depth = time < 0.1 ? 0.05 : 0.0;
+            return onPlate(surface.pose, 0.2 * std::sin(3.0 * time), 0.1 * time) +
+                   surface.pose.directionToWorld({0.0, depth, 0.0});
+        });
+        for (TipSample sample : samples) {
+            const ContactReading wanted = now.update(sample);
+            sample.timeSeconds += daySeconds;
+            const ContactReading reading = later.update(sample);
+            ASSERT_EQ(reading.touching, wanted.touching);
+            ASSERT_EQ(reading.touchCounter, wanted.touchCounter);
+            ASSERT_EQ(reading.forceNewtons, wanted.forceNewtons);
+            ASSERT_NEAR(reading.tangentialVelocityMps.x, wanted.tangentialVelocityMps.x, toleranceMps) << rate << " Hz";
+            ASSERT_NEAR(reading.tangentialVelocityMps.y, wanted.tangentialVelocityMps.y, toleranceMps) << rate << " Hz";
+            ASSERT_NEAR(reading.approachSpeedMps, wanted.approachSpeedMps, 10.0 * toleranceMps) << rate << " Hz";
+        }
+        EXPECT_EQ(later.statistics().touchDowns, 1U);
+        EXPECT_EQ(later.statistics().teleports, 0U);
+    }
+}
+
+TEST(MovingFramesTest, ASurfaceThatMovesUnderARestingTipGivesTheOppositeOfItsVelocity) {
+    for (const double rate : {30.0, 90.0, 1000.0}) {
+        for (const double speed : {0.001, 0.3, 1.5}) {
+            SceneSurface belt = plate();
+            const glm::dvec3 travel = belt.pose.directionToWorld({speed, 0.0, 0.0});
+            belt.motion.emplace(
+                std::vector<Keyframe>{{0.0, belt.pose}, {1.0, {belt.pose.positionMetres + travel, belt.pose.rotation}}},
+                false);
+            const glm::dvec3 tip = onPlate(belt.pose, 0.1, 0.1);
+            ContactTracker tracker(sceneOf({belt}, 0.004));
+            const auto readings = play(tracker, sampledPath(1.0, rate, [&](double) { return tip; }));
+            for (const ContactReading& reading : readings) {
+                ASSERT_TRUE(reading.touching);
+                EXPECT_LT(speedOf(reading), speed + 1e-9) << rate << " Hz at " << reading.timeSeconds;
+                // Earlier, a stop cannot be distinguished from a tracker that repeats a position.
+                if (reading.timeSeconds > 0.05 + 1.0 / rate) {
+                    EXPECT_NEAR(reading.tangentialVelocityMps.x, -0.6 * speed, 1e-9) << rate << " Hz";
+                    EXPECT_NEAR(reading.tangentialVelocityMps.y, -0.8 * speed, 1e-9) << rate << " Hz";
+                }
+            }
+            EXPECT_EQ(readings.back().touchCounter, 1U);
+        }
+    }
+}
+
 /// A panel in a vehicle: a board of 40 cm at the vehicle's pose.
 SceneSurface panel() {
     return surfaceOf(Box{{0.4, 0.02, 0.4}});
 }
 
-/// The panel, driven for two seconds through a bend.
-SceneSurface driven(double speedMps) {
-    SceneSurface surface = panel();
-    std::vector<Keyframe> keyframes;
-    for (int index = 0; index <= 40; ++index) {
-        const double time = 0.05 * index;
-        const double angle = 0.5 * time;
-        const double radius = speedMps / 0.5;
-        keyframes.push_back({time,
-                             {{radius * std::sin(angle), 0.0, radius * (1.0 - std::cos(angle))},
-                              turned(-angle * 180.0 / std::numbers::pi, {0.0, 1.0, 0.0})}});
-    }
-    surface.motion.emplace(std::move(keyframes), false);
-    return surface;
-}
-
 /// A circle of 5 cm on the board at 0.2 m/s, in its coordinates; the tip has a radius of 2 mm.
 glm::dvec3 circle(double time) {
     return {0.05 * std::cos(4.0 * time), 0.011, 0.05 * std::sin(4.0 * time)};
-}
-
-TEST(MovingFramesTest, AStrokeInAVehicleIsTheSameAtEverySpeed) {
-    for (const double rate : {72.0, 90.0, 120.0}) {
-        const std::vector<ContactReading> wanted = [&] {
-            ContactTracker tracker(sceneOf({panel()}, 0.002));
-            return play(tracker, sampledPath(2.0, rate, circle));
-        }();
-        for (const double speed : {0.5, 3.0, 20.0, 30.0, 250.0}) {
-            const SceneSurface surface = driven(speed);
-            ContactTracker tracker(sceneOf({surface}, 0.002));
-            const auto readings = play(tracker, sampledPath(2.0, rate, [&](double time) {
-                                           return surface.poseAt(time).pointToWorld(circle(time));
-                                       }));
-            for (std::size_t frame = 0; frame < readings.size(); ++frame) {
-                ASSERT_TRUE(readings[frame].touching);
-                // A position of 500 m is rounded to 1e-13 m.
-                ASSERT_NEAR(readings[frame].tangentialVelocityMps.x, wanted[frame].tangentialVelocityMps.x, 1e-6)
-                    << speed << " m/s at " << rate << " Hz, frame " << frame;
-                ASSERT_NEAR(readings[frame].tangentialVelocityMps.y, wanted[frame].tangentialVelocityMps.y, 1e-6);
-            }
-            EXPECT_EQ(readings.back().touchCounter, 1U);
-            EXPECT_EQ(tracker.statistics().teleports, 0U);
-        }
-    }
-}
-
-TEST(MovingFramesTest, ATouchDownInAVehicleHasTheSpeedInItsFrame) {
-    const SceneSurface surface = driven(60.0);
-    ContactTracker tracker(sceneOf({surface}, 0.002));
-    const auto readings = play(tracker, sampledPath(0.42, 90.0, [&](double time) {
-                                   return surface.poseAt(time).pointToWorld({0.0, 0.05 - 0.1 * time, 0.0});
-                               }));
-    EXPECT_TRUE(readings.back().touching);
-    EXPECT_EQ(readings.back().touchCounter, 1U);
-    EXPECT_NEAR(readings.back().approachSpeedMps, 0.1, 1e-6);
 }
 
 TEST(MovingFramesTest, ASlowTrackerCarriedInALiftIsHeldAndNotStopped) {
@@ -152,37 +215,6 @@ TEST(MovingFramesTest, AStrokeOfThreeMetresASecondWithAHardStopIsNoJump) {
         EXPECT_NEAR(fastest, 3.0, 0.5) << rate;
         EXPECT_EQ(tracker.statistics().teleports, 0U) << rate;
         EXPECT_EQ(speedOf(readings.back()), 0.0);
-    }
-}
-
-TEST(MovingFramesTest, AShiftOfTheWorldIsNotFelt) {
-    // Five kilometres within two frames. The spline moves the world before and after it, too.
-    SceneSurface ground = surfaceOf(Box{{4.0, 0.02, 4.0}});
-    const glm::dvec3 shift(-5000.0, 0.0, 300.0);
-    const glm::dquat unturned(1.0, 0.0, 0.0, 0.0);
-    ground.motion.emplace(
-        std::vector<Keyframe>{{0.0, {}}, {0.49, {}}, {0.51, {shift, unturned}}, {1.0, {shift, unturned}}}, false);
-    ContactTracker tracker(sceneOf({ground}, 0.002));
-    const auto readings = play(
-        tracker, sampledPath(1.0, 90.0, [&](double time) { return ground.poseAt(time).pointToWorld(circle(time)); }));
-    for (std::size_t frame = 3; frame < readings.size(); ++frame) {
-        ASSERT_TRUE(readings[frame].touching);
-        ASSERT_NEAR(speedOf(readings[frame]), 0.2, 0.003) << frame;
-    }
-    EXPECT_EQ(readings.back().touchCounter, 1U);
-    EXPECT_EQ(tracker.statistics().teleports, 0U);
-}
-
-TEST(MovingFramesTest, UpdateRatesOfThousandsOfHertzAreMeasuredInFull) {
-    for (const double rate : {2000.0, 2500.0, 4000.0, 5000.0, 6000.0, 8000.0, 10000.0}) {
-        ContactTracker tracker(sceneOf({surfaceOf(Box{{4.0, 0.02, 4.0}})}, 0.002));
-        const auto readings =
-            play(tracker, sampledPath(0.5, rate, [](double time) { return glm::dvec3(0.2 * time, 0.011, 0.0); }));
-        for (const ContactReading& reading : readings) {
-            if (reading.timeSeconds > 0.01) {
-                ASSERT_NEAR(speedOf(reading), 0.2, 1e-6) << rate << " Hz at " << reading.timeSeconds;
-            }
-        }
     }
 }
 

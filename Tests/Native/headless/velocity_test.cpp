@@ -1,4 +1,4 @@
-#include "headless/relative_velocity.hpp"
+#include "headless/tip_path.hpp"
 
 #include "test_scenes.hpp"
 
@@ -6,8 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <numbers>
 #include <random>
 #include <utility>
+#include <vector>
 
 namespace haptoflow::headless {
 namespace {
@@ -15,12 +18,12 @@ namespace {
 using testing::sampledPath;
 using testing::surfaceOf;
 
-const SceneSurface table = surfaceOf(Plane{});
+const SceneSurface atRest = surfaceOf(Plane{});
 
 /// The path of a tip over a surface, sample by sample.
 class PathOn {
 public:
-    explicit PathOn(const SceneSurface& surface = table) : surface_(surface) {}
+    explicit PathOn(const SceneSurface& surface = atRest) : surface_(surface) {}
 
     TipStep add(double timeSeconds, const glm::dvec3& tip) {
         pose_ = surface_.poseAt(timeSeconds);
@@ -39,7 +42,7 @@ private:
 };
 
 /// The speed after each sample.
-std::vector<double> speedsOf(const std::vector<TipSample>& samples, const SceneSurface& surface = table) {
+std::vector<double> speedsOf(const std::vector<TipSample>& samples, const SceneSurface& surface = atRest) {
     PathOn history(surface);
     std::vector<double> speeds;
     for (const TipSample& sample : samples) {
@@ -71,15 +74,6 @@ private:
     double metres_;
     std::mt19937 random_{3};
 };
-
-TEST(VelocityTest, SteadyMotionIsExactFromTheThirdFrameOn) {
-    for (const double rate : {72.0, 90.0, 120.0, 1000.0}) {
-        const auto speeds = speedsOf(sampledPath(0.5, rate, [](double time) { return alongX(0.3 * time); }));
-        for (std::size_t frame = 2; frame < speeds.size(); ++frame) {
-            EXPECT_NEAR(speeds[frame], 0.3, 1e-9) << rate << " Hz, frame " << frame;
-        }
-    }
-}
 
 TEST(VelocityTest, AThirdOfTheSamplesRepeatedAtRandomChangesNothing) {
     std::mt19937 random(4);
@@ -218,18 +212,6 @@ TEST(VelocityTest, ATrackerThatBecomesSlowIsNoticedAndOneThatBecomesFastIsTruste
     }
 }
 
-TEST(VelocityTest, SixtyHertzTrackingInNinetyHertzFramesIsNotFlattened) {
-    const double tick = 1.0 / 60.0;
-    const auto samples =
-        sampledPath(6.0, 90.0, [&](double time) { return alongX(0.3 * tick * std::floor(time / tick + 0.2)); });
-    const auto speeds = speedsOf(samples);
-    double sum = 0.0;
-    for (std::size_t frame = 90; frame < speeds.size(); ++frame) {
-        sum += speeds[frame];
-    }
-    EXPECT_NEAR(sum / static_cast<double>(speeds.size() - 90), 0.3, 0.003);
-}
-
 TEST(VelocityTest, TheNoiseOfATrackerIsFoundFromRestAndFromScribbles) {
     for (const double rate : {72.0, 120.0, 500.0}) {
         for (const double metres : {2e-5, 1e-4, 3e-4}) {
@@ -259,21 +241,6 @@ TEST(VelocityTest, ATrackersNoiseIsBoundedWhateverItSays) {
         history.add(frame / 90.0, alongX(0.1 * frame / 90.0));
     }
     EXPECT_GE(history.noiseMetres(), 5e-6);
-}
-
-TEST(VelocityTest, AKilometreFromTheOriginNothingChanges) {
-    const glm::dvec3 far(1000.0, -1000.0, 1000.0);
-    Noise here(1e-4);
-    Noise there(1e-4);
-    PathOn near;
-    PathOn distant;
-    for (int frame = 0; frame < 1000; ++frame) {
-        const glm::dvec3 place = alongX(0.01 * std::sin(0.2 * frame));
-        near.add(frame / 90.0, place + here.next());
-        distant.add(frame / 90.0, place + there.next() + far);
-        const glm::dvec3 difference = near.nowMps() - distant.nowMps();
-        ASSERT_LT(glm::length(difference), 1e-6) << frame;
-    }
 }
 
 TEST(VelocityTest, AlmostEqualTimesAndHitchesKeepTheVelocityNearTheTrueOne) {
@@ -313,18 +280,6 @@ TEST(VelocityTest, WhateverTheTrackerSaysTheVelocityIsFiniteAndNoFasterThanTheLi
     }
 }
 
-TEST(VelocityTest, ARealStopGivesZeroWithinSixtyMilliseconds) {
-    for (const double rate : {72.0, 90.0, 120.0}) {
-        const auto samples = sampledPath(1.0, rate, [](double time) { return alongX(0.5 * std::min(time, 0.5)); });
-        const auto speeds = speedsOf(samples);
-        for (std::size_t frame = 0; frame < samples.size(); ++frame) {
-            if (samples[frame].timeSeconds > 0.56 + 1.0 / rate) {
-                EXPECT_NEAR(speeds[frame], 0.0, 1e-6) << rate << " Hz at " << samples[frame].timeSeconds;
-            }
-        }
-    }
-}
-
 TEST(VelocityTest, AStopFadesMonotonically) {
     // Of a tracker that has not yet shown that it never repeats itself.
     const auto samples = sampledPath(0.5, 1000.0, [](double time) { return alongX(0.5 * std::min(time, 0.025)); });
@@ -332,21 +287,6 @@ TEST(VelocityTest, AStopFadesMonotonically) {
     for (std::size_t frame = 27; frame < speeds.size(); ++frame) {
         EXPECT_LE(speeds[frame], speeds[frame - 1] + 1e-9);
         EXPECT_GT(speeds[frame], speeds[frame - 1] - 0.05);
-    }
-}
-
-TEST(VelocityTest, ATipThatMovesWithATurningSurfaceHasZeroVelocity) {
-    SceneSurface plate = surfaceOf(Plane{});
-    plate.motion.emplace(std::vector<Keyframe>{{0.0, {{0.0, 0.0, 0.0}, testing::turned(0.0, {0.0, 1.0, 0.0})}},
-                                               {1.0, {{0.5, 0.1, 0.0}, testing::turned(120.0, {0.0, 1.0, 0.0})}},
-                                               {2.0, {{0.0, 0.2, 0.3}, testing::turned(240.0, {0.0, 1.0, 0.2})}}},
-                         false);
-    const glm::dvec3 local(0.2, 0.0, 0.1);
-    PathOn history(plate);
-    for (int frame = 0; frame < 180; ++frame) {
-        const double time = frame / 90.0;
-        history.add(time, plate.poseAt(time).pointToWorld(local));
-        EXPECT_LT(glm::length(history.nowMps()), 1e-9);
     }
 }
 
@@ -365,22 +305,6 @@ TEST(VelocityTest, ATipAtRestOnATurntableHasAngularVelocityTimesArm) {
     EXPECT_NEAR(glm::length(velocity), expected, 0.005 * expected);
     // Unity turns +z towards +x about +y: the material at +x moves towards -z, the tip towards +z relative to it.
     EXPECT_NEAR(velocity.z, expected, 0.005 * expected);
-}
-
-TEST(VelocityTest, APositionHeldOnAMovingSurfaceFadesToTheSurfacesOwnSpeed) {
-    SceneSurface belt = surfaceOf(Plane{});
-    belt.motion.emplace(std::vector<Keyframe>{{0.0, {}}, {10.0, {{2.0, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}}}}, false);
-    PathOn history(belt);
-    double last = 0.0;
-    for (int frame = 0; frame <= 90; ++frame) {
-        const double time = frame / 90.0;
-        history.add(time, alongX(std::min(time, 0.5) * 0.2));
-        last = history.nowMps().x;
-        if (frame == 40) {
-            EXPECT_NEAR(last, 0.0, 1e-9);
-        }
-    }
-    EXPECT_NEAR(last, -0.2, 1e-9);
 }
 
 TEST(VelocityTest, ASurfaceThatJumpsBackAtTheEndOfItsLoopIsNotAStroke) {

@@ -2,7 +2,6 @@
 // call filter on the thread.
 #include "capi/open_engine.hpp"
 #include "realtime/forbidden_calls.hpp"
-#include "realtime/system_call_trap.hpp"
 #include "unity/unity_host.hpp"
 
 #include <gtest/gtest.h>

@@ -32,6 +32,8 @@ from haptoflow_training.recordings.synthetic import load_materials
 from haptoflow_training.training.run_log import source_commit, write_json
 
 _PACKAGE = Path(__file__).resolve().parents[1]
+# Pages and report show it.
+_CHART = _ROOT / "Documentation~" / "images" / "accuracy-time.png"
 _ROOT = _PACKAGE.parents[1]
 
 
@@ -61,7 +63,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "--out", type=Path, default=_PACKAGE / "results", metavar="DIR",
         help="for accuracy-time.json and the measured rows (default: Training/haptoflow_paper/results)",
     )  # fmt: skip
-    parser.add_argument("--document", type=Path, default=_ROOT / "Documentation~" / "accuracy-and-time.md")
+    parser.add_argument("--document", type=Path, default=_PACKAGE / "results" / "accuracy-and-time.md")
     parser.add_argument("--lanes", type=int, default=os.cpu_count() or 1, help="trainings at a time (default: cores)")
     parser.add_argument(
         "--workers", type=int, default=os.cpu_count() or 1, help="processes that record and measure (default: cores)"
@@ -213,9 +215,8 @@ def _write(
     _annotate(place, plan, result)
     result = {**result, "model_sha256": sha256_of(shipped), "model_bytes": shipped.stat().st_size}
     write_json(out, result)
-    images = options.document.parent / "images"
-    images.mkdir(exist_ok=True)
-    draw_chart(result, images / "accuracy-time.png")
+    chart, spectra = _CHART, options.document.parent / "label-spectra.png"
+    draw_chart(result, chart)
     standard = next((row for row in plan if row.extended and place.model_file(row, row.seeds[0]).exists()), None)
     if standard is not None:
         model = place.model_file(standard, standard.seeds[0])
@@ -225,8 +226,8 @@ def _write(
                 generator, generator.embeddings, generator.statistics, steady,
                 update_rate_hz=UPDATE_RATE_HZ, seed=31, open_loop=False,
             )  # fmt: skip
-        draw_spectra(steady, made.closed, images / "label-spectra.png", sha256_of(model))
-    write_document(result, options.document, images, True, standard is not None)
+        draw_spectra(steady, made.closed, spectra, sha256_of(model))
+    write_document(result, options.document, chart, None if standard is None else spectra)
     print(f"evaluate: {out} and {options.document}")
 
 

@@ -31,7 +31,7 @@ _EXAMPLES = """examples:
     --model Packages/com.haptoflow.runtime/Runtime/Models/default.haptoflow \\
     --baseline older/build/native/haptoflow --work work/place \\
     --strokes ../shared/strokes/vr-pen-on-surface/strokes.csv \\
-    --results Training/haptoflow_paper/results/place.json --page Documentation~/place.md
+    --results Training/haptoflow_paper/results/place.json --page Training/haptoflow_paper/results/place.md
 
 Passes alone take a minute or two. With --work, the reference recordings are made there (some minutes, once) and
 rendered from end to end by both engines.

@@ -20,7 +20,7 @@ from haptoflow_training.whole_file import check_writable, write_whole
 _EXAMPLES = """examples:
   haptoflow-paper velocity --engine build/native/haptoflow \\
     --strokes ../shared/strokes/vr-pen-on-surface/strokes.csv \\
-    --results Training/haptoflow_paper/results/velocity.json --page Documentation~/velocity.md
+    --results Training/haptoflow_paper/results/velocity.json --page Training/haptoflow_paper/results/velocity.md
 
 Settings are chosen on the persons of --choosing, figures are those of the others. The product's row comes from
 `haptoflow contact`. It takes some minutes.

@@ -1,5 +1,5 @@
-"""Measures of a generated waveform that only the rows of the comparison have. Documentation~/accuracy-and-time.md
-defines every figure.
+"""Measures of a generated waveform that only the rows of the comparison have; results/accuracy-and-time.md defines
+every figure.
 
 All waveforms are one-dimensional, 2 kHz, m/s^2.
 """

@@ -1,7 +1,7 @@
 """Measures in time of a generated waveform beside a recorded one: impacts, modulation of the envelope, and ribs.
 
 Averaged spectra do not show these: Gaussian noise with the right spectrum would pass. Waveforms are one-dimensional, 2
-kHz, m/s^2. Documentation~/accuracy-and-time.md repeats the definitions.
+kHz, m/s^2. haptoflow_paper/results/accuracy-and-time.md repeats the definitions.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Writes the measured part of Documentation~/place.md: tables of the study's figures, and which goals are met."""
+"""Writes the measured part of results/place.md: tables of the study's figures, and which goals are met."""
 
 from __future__ import annotations
 

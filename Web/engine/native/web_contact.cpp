@@ -1,7 +1,7 @@
-#include "contact_states.hpp"
-#include "input_file.hpp"
+#include "headless/scenes/command_files.hpp"
+#include "headless/scenes/scene_file.hpp"
+#include "headless/scenes/scene_materials.hpp"
 #include "model/label_key.hpp"
-#include "scene_file.hpp"
 #include "web_imports.hpp"
 #include "web_scene.hpp"
 #include "web_text.hpp"
@@ -23,7 +23,7 @@ namespace haptoflow::web {
 
 ResolvedScene resolveScene(const std::string& text, const KnownMaterials& materials) {
     const std::string name = "scene";
-    ResolvedScene resolved{.scene = cli::parseSceneText(text, name), .surfaces = {}, .settings = {}};
+    ResolvedScene resolved{.scene = headless::parseSceneText(text, name), .surfaces = {}, .settings = {}};
     for (headless::SceneSurface& surface : resolved.scene.surfaces) {
         for (auto& [material, weight] : surface.material) {
             if (materials.contains(material)) {
@@ -39,10 +39,10 @@ ResolvedScene resolveScene(const std::string& text, const KnownMaterials& materi
             std::vector<std::string> names;
             std::transform(materials.begin(), materials.end(), std::back_inserter(names),
                            [](const auto& each) { return each.first; });
-            throw cli::InputError(cli::unknownMaterial(name, surface.name, material, names));
+            throw headless::InputError(headless::unknownMaterial(name, surface.name, material, names));
         }
     }
-    resolved.surfaces = cli::propertiesOf(
+    resolved.surfaces = headless::propertiesOf(
         resolved.scene, [&materials](const std::string& material) { return materials.at(material).index; }, name);
     resolved.settings.stiffnessOfLabel = [materials](std::string_view material) -> std::optional<double> {
         const auto found = materials.find(material);
@@ -159,7 +159,7 @@ HAPTO_EXPORT HAPTO_NAMED("hapto_scene_update") int hapto_scene_update(int index,
             sample.forceNewtons = tip[5];
         }
         const headless::ContactReading found = open.tracker.update(sample);
-        writeState(cli::stateOf(found, open.resolved.surfaces, static_cast<effects::EffectMask>(tip[6])), fields);
+        writeState(headless::stateOf(found, open.resolved.surfaces, static_cast<effects::EffectMask>(tip[6])), fields);
         FieldWriter out(reading);
         out.put(found.timeSeconds, found.surfaceIndex, found.penetrationMetres);
         out.putAll(found.pointMetres);

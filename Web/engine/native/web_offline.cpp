@@ -1,14 +1,14 @@
-#include "bench/random_requests.hpp"
 #include "capi/handles.hpp"
-#include "contact_states.hpp"
 #include "effects/actuator_profile.hpp"
 #include "effects/effect.hpp"
 #include "engine/offline_renderer.hpp"
 #include "headless/contact_tracker.hpp"
+#include "headless/scenes/scene_materials.hpp"
+#include "headless/scenes/stroke_file.hpp"
+#include "inference/random_requests.hpp"
 #include "inference/tier_generator.hpp"
 #include "inference/tier_graphs.hpp"
 #include "model/material_file.hpp"
-#include "stroke_file.hpp"
 #include "web_engine.hpp"
 #include "web_imports.hpp"
 #include "web_scene.hpp"
@@ -34,7 +34,7 @@ std::vector<float> samples;
 /// A tier whose runs are timed.
 struct Measured {
     std::unique_ptr<inference::TierGenerator> generator;
-    bench::RandomRequests requests;
+    inference::RandomRequests requests;
 };
 std::unique_ptr<Measured> measured;
 
@@ -123,24 +123,24 @@ std::string render(const json& options) {
         resolveScene(options.at("scene").get<std::string>(), knownMaterials(header, settings.materials));
     const std::string name = "stroke";
     const auto text = options.at("stroke").get<std::string>();
-    const cli::Stroke stroke = cli::parseStroke(text, name);
+    const headless::Stroke stroke = headless::parseStroke(text, name);
     const auto quality = options.at("quality").get<std::string>();
     const auto generator = generatorOf(*open, quality);
     const effects::EffectMask effects = effectsOf(options);
     headless::ContactTracker tracker(resolved.scene, resolved.settings);
-    const std::size_t frames = cli::frameCount(stroke, resolved.scene.updateRateHz, name);
+    const std::size_t frames = headless::frameCount(stroke, resolved.scene.updateRateHz, name);
     std::size_t frame = 0;
     const engine::ContactStateSource next = [&]() -> std::optional<engine::TimedContactState> {
         if (frame == frames) {
             return std::nullopt;
         }
-        const headless::TipSample tip = cli::frameAt(stroke, resolved.scene.updateRateHz, frame);
+        const headless::TipSample tip = headless::frameAt(stroke, resolved.scene.updateRateHz, frame);
         ++frame;
         constexpr std::size_t framesPerReport = 64;
         if (frame % framesPerReport == 0) {
             hapto_progress(static_cast<double>(frame) / static_cast<double>(frames), "rendering");
         }
-        return cli::stateOf(tracker.update(tip), resolved.surfaces, effects);
+        return headless::stateOf(tracker.update(tip), resolved.surfaces, effects);
     };
     samples.clear();
     MemorySink sink;
@@ -175,7 +175,7 @@ HAPTO_EXPORT HAPTO_NAMED("hapto_measure_load") int hapto_measure_load(const char
     return guarded([&] {
         const auto open = openModel();
         measured = std::make_unique<Measured>(
-            Measured{generatorOf(*open, tier), bench::RandomRequests(open->model, bench::requestCount, 1)});
+            Measured{generatorOf(*open, tier), inference::RandomRequests(open->model, inference::requestCount, 1)});
         return 0;
     });
 }

@@ -23,12 +23,12 @@ using KnownMaterials = std::map<std::string, KnownMaterial, std::less<>>;
 /// A scene whose materials are known, and the states of its surfaces.
 struct ResolvedScene {
     headless::Scene scene;
-    /// In the scene's order: see cli::propertiesOf.
+    /// In the scene's order: see headless::propertiesOf.
     std::vector<engine::ContactState> surfaces;
     headless::ContactSettings settings;
 };
 
-/// Reads SCENE.json. Throws cli::InputError, also for a material that is not known, with the nearest names.
+/// Reads SCENE.json. Throws headless::InputError, also for a material that is not known, with the nearest names.
 [[nodiscard]] ResolvedScene resolveScene(const std::string& text, const KnownMaterials& materials);
 
 }  // namespace haptoflow::web

@@ -1,7 +1,7 @@
 #include "web_text.hpp"
 
 #include "haptoflow/haptoflow.h"
-#include "input_file.hpp"
+#include "headless/scenes/command_files.hpp"
 #include "web_imports.hpp"
 
 #include <algorithm>
@@ -50,7 +50,7 @@ int reportException() noexcept {
         throw;
     } catch (const WebError& error) {
         return report(error.code(), error.what());
-    } catch (const cli::InputError& error) {
+    } catch (const headless::InputError& error) {
         return report("input", error.what());
     } catch (const std::invalid_argument& error) {
         return report("invalid-argument", error.what());

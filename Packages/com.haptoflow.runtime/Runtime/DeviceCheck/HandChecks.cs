@@ -202,7 +202,7 @@ namespace HaptoFlow.DeviceCheck
             ("difference", "Did the three plates feel different?",
                 "Motors of one frequency show little of a texture: try another output, or an actuator."),
             ("delay", "Did it begin at once, without a delay\nthat you notice?",
-                "Wireless audio adds 100 ms and more: use a cable or the controller (delay-budget.md)."),
+                "Wireless audio adds 100 ms and more: use a cable or the controller (studies.md)."),
         };
 
         /// <param name="answer">Null where the question was skipped.</param>

@@ -23,7 +23,7 @@ namespace HaptoFlow.DeviceCheck
             const string Group = "Audio thread";
             const double LargestShare = 0.25;
             const string Remedy = "Choose a larger DSP buffer in Project Settings > Audio, or a cheaper quality " +
-                "(performance.md).";
+                "(live-engine.md).";
             double blockMs = SampleRateHz > 0 ? 1000.0 * BlockFrames / SampleRateHz : 0.0;
             double expected = blockMs > 0.0 ? Seconds * 1000.0 / blockMs : 0.0;
             lines.Add(CheckLine.Of(Group, "callbacks", Blocks > 0 && Blocks >= 0.9 * expected,
@@ -81,7 +81,7 @@ namespace HaptoFlow.DeviceCheck
         {
             const string Group = "Engine";
             const double LargestLateShare = 0.01;
-            const string Slow = "Choose a cheaper quality in Project Settings > HaptoFlow, or Auto (performance.md).";
+            const string Slow = "Choose a cheaper quality in Project Settings > HaptoFlow, or Auto (live-engine.md).";
             bool works = WorkerIsAlive && FailedRounds == 0;
             lines.Add(CheckLine.Of(Group, "worker", works,
                 works ? "alive, no failed round" : $"{FailedRounds} failed rounds: {Failure}",

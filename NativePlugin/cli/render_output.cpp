@@ -1,0 +1,161 @@
+#include "render_output.hpp"
+#include "effects/carrier_rendering.hpp"
+#include "effects/device_loudness.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace haptoflow::cli {
+
+namespace {
+
+/// For each effect that ran: its impacts or edges, and the samples that it processed.
+nlohmann::ordered_json effectsOf(const engine::OfflineFigures& figures) {
+    constexpr std::array<const char*, effects::effectKinds> names{
+        "texture", "impact", "edge", "delay", "compensation", "exposure guard", "tone", "signal", "listen"};
+    nlohmann::ordered_json effects = nlohmann::ordered_json::object();
+    for (std::size_t kind = 0; kind < names.size(); ++kind) {
+        if (figures.effectSamples[kind] > 0 || figures.effectEvents[kind] > 0) {
+            effects[names[kind]] = {{"events", figures.effectEvents[kind]}, {"samples", figures.effectSamples[kind]}};
+        }
+    }
+    return effects;
+}
+
+}  // namespace
+
+std::string renderReport(const RenderIdentity& identity, const engine::OfflineFigures& figures) {
+    const bool isSolved = !identity.solver.empty();
+    const nlohmann::ordered_json report{
+        {"name", identity.name},
+        {"model", identity.model},
+        {"labels", identity.labels},
+        {"wav", identity.wav},
+        {"seconds", static_cast<double>(figures.outputSamples) / identity.outputRateHz},
+        {"rms_mps2", figures.rmsMps2},
+        {"peak", figures.peak},
+        {"segments", figures.segments},
+        {"inference_ms", {{"p50", figures.inferenceMsMedian}, {"p99", figures.inferenceMsP99}}},
+        {"nonfinite", figures.nonFinite},
+        {"underruns", figures.underruns},
+        {"sketched", figures.sketched},
+        {"tier", identity.tier},
+        {"solver", isSolved ? nlohmann::ordered_json(identity.solver) : nlohmann::ordered_json()},
+        {"steps", isSolved ? nlohmann::ordered_json(identity.steps) : nlohmann::ordered_json()},
+        {"touches", figures.touches},
+        {"silent_touches", figures.silentTouches},
+        {"missed_touches", identity.missedTouches},
+        {"onsets", figures.onsets},
+        {"skipped", figures.skipped},
+        {"failures", figures.failures},
+        {"sanitised", figures.sanitised},
+        {"limited_samples", figures.limited},
+        {"effects", effectsOf(figures)},
+        {"seams",
+         {{"count", figures.seamStatistics.seams},
+          {"outlier_share", figures.seamStatistics.outlierShare},
+          {"jump_ratio", figures.seamStatistics.jumpRatio}}},
+    };
+    return report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
+}
+
+namespace {
+
+using effects::WaveDecimation;
+using effects::WaveFeatures;
+
+const effects::WaveFeatureOptions& options() {
+    static const effects::WaveFeatureOptions usual;
+    return usual;
+}
+
+/// Time in the render, in seconds, of a sample of the features, with the delay of the decimation subtracted.
+double secondsAt(std::uint64_t sample) {
+    constexpr auto delay = static_cast<double>(WaveDecimation::delaySamples);
+    return std::max(0.0, (static_cast<double>(sample) - delay) / WaveFeatures::sampleRateHz);
+}
+
+/// The part of the device's range that a controller plays by the loudness law.
+float shareOf(float amplitudeMps2) {
+    return effects::deviceShare(effects::DeviceKind::parametric, amplitudeMps2);
+}
+
+nlohmann::ordered_json errorOf(std::span<const float> wave, std::span<const effects::WaveFrame> frames,
+                               const effects::WaveFeatureOptions& cut, effects::CarrierShape shape) {
+    const std::vector<float> played = effects::renderCarrier(frames, {.shape = shape});
+    const auto summary = effects::summarise(effects::intensityErrors(wave, played, cut));
+    return {{"felt_frames", summary.feltFrames},
+            {"mean", summary.meanDb},
+            {"mean_magnitude", summary.meanMagnitudeDb},
+            {"p95", summary.percentile95Db}};
+}
+
+/// Errors of the played intensity.
+nlohmann::ordered_json intensityErrors(std::span<const float> wave, std::span<const effects::WaveFrame> frames) {
+    effects::WaveFeatureOptions motor;
+    motor.frameSeconds = 0.008;
+    motor.minFrequencyHz = 160.0;
+    motor.maxFrequencyHz = 160.0;
+    return {{"frames", errorOf(wave, frames, options(), effects::CarrierShape::linear)},
+            {"motor_160_hz", errorOf(wave, effects::framesOf(wave, motor), motor, effects::CarrierShape::held)}};
+}
+
+}  // namespace
+
+ParametricFrames::ParametricFrames(double outputRateHz)
+    : decimation_(static_cast<std::size_t>(outputRateHz / WaveFeatures::sampleRateHz)), features_(options()) {}
+
+void ParametricFrames::take(std::span<const float> samples, float fullScaleMps2) {
+    for (const float sample : samples) {
+        float decimated = 0.0F;
+        if (decimation_.take(sample * fullScaleMps2, decimated)) {
+            feed(decimated);
+        }
+    }
+}
+
+void ParametricFrames::feed(float sampleMps2) {
+    wave_.push_back(sampleMps2);
+    effects::WaveFrame frame;
+    const auto progress = features_.process(std::span(&sampleMps2, 1), std::span(&frame, 1));
+    if (progress.frames > 0) {
+        frames_.push_back(frame);
+    }
+}
+
+std::string ParametricFrames::toJson() {
+    // The last frame is complete only some samples after its end.
+    for (std::size_t i = 0; i < WaveFeatures::lookaheadSamples + WaveDecimation::delaySamples; ++i) {
+        feed(0.0F);
+    }
+    nlohmann::ordered_json frames = nlohmann::ordered_json::array();
+    nlohmann::ordered_json transients = nlohmann::ordered_json::array();
+    for (const effects::WaveFrame& frame : frames_) {
+        const double seconds = secondsAt(frame.firstSample);
+        frames.push_back(
+            {seconds, frame.amplitudeMps2, frame.frequencyHz, frame.intensity, shareOf(frame.amplitudeMps2)});
+        if (frame.transient.amplitudeMps2 > 0.0F) {
+            transients.push_back({seconds + static_cast<double>(frame.transient.offsetSeconds),
+                                  frame.transient.amplitudeMps2, frame.transient.frequencyHz,
+                                  shareOf(frame.transient.amplitudeMps2)});
+        }
+    }
+    const nlohmann::ordered_json document{
+        {"format", "haptoflow parametric"},
+        {"version", 1},
+        {"frame_seconds", options().frameSeconds},
+        {"frequency_range_hz", {options().minFrequencyHz, options().maxFrequencyHz}},
+        {"frame_columns", {"seconds", "amplitude_mps2", "frequency_hz", "intensity", "device_share"}},
+        {"frames", std::move(frames)},
+        {"transient_columns", {"seconds", "amplitude_mps2", "frequency_hz", "device_share"}},
+        {"transients", std::move(transients)},
+        {"intensity_error_db", intensityErrors(wave_, frames_)},
+    };
+    return document.dump() + '\n';
+}
+
+}  // namespace haptoflow::cli

@@ -1,0 +1,53 @@
+#pragma once
+
+#include "effects/wave_decimation.hpp"
+#include "effects/wave_features.hpp"
+#include "engine/offline_renderer.hpp"
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace haptoflow::cli {
+
+struct RenderIdentity {
+    std::string name{};
+    std::string model{};
+    std::vector<std::string> labels{};
+    std::string wav{};
+    std::string tier{};
+    /// Empty for a tier that is evaluated once, without solver and steps.
+    std::string solver{};
+    int steps = 0;
+    double outputRateHz = 0.0;
+    /// Touches of the stroke that begin and end between two frames.
+    std::uint64_t missedTouches = 0;
+};
+
+/// One render as JSON: `name`, `labels`, `wav`, `seconds`, `rms_mps2`, `peak`, `segments`, `inference_ms` {p50, p99},
+/// `nonfinite`, `underruns` and the engine's other counts. `solver` and `steps` are null for a tier without them.
+[[nodiscard]] std::string renderReport(const RenderIdentity& identity, const engine::OfflineFigures& figures);
+
+/// Collects the frames that a device with one carrier gets for a render.
+class ParametricFrames {
+public:
+    /// `outputRateHz`: a multiple of 2000 Hz. Throws std::invalid_argument.
+    explicit ParametricFrames(double outputRateHz);
+
+    /// Processes the next samples, +-1 at `fullScaleMps2`.
+    void take(std::span<const float> samples, float fullScaleMps2);
+    /// The frames as JSON; Documentation~/effects-and-outputs.md describes the format.
+    [[nodiscard]] std::string toJson();
+
+private:
+    void feed(float sampleMps2);
+
+    effects::WaveDecimation decimation_;
+    effects::WaveFeatures features_;
+    std::vector<effects::WaveFrame> frames_;
+    // The wave at 2 kHz, for the errors of the played intensity.
+    std::vector<float> wave_;
+};
+
+}  // namespace haptoflow::cli
