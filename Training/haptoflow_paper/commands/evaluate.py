@@ -32,9 +32,9 @@ from haptoflow_training.recordings.synthetic import load_materials
 from haptoflow_training.training.run_log import source_commit, write_json
 
 _PACKAGE = Path(__file__).resolve().parents[1]
+_ROOT = _PACKAGE.parents[1]
 # Pages and report show it.
 _CHART = _ROOT / "Documentation~" / "images" / "accuracy-time.png"
-_ROOT = _PACKAGE.parents[1]
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
