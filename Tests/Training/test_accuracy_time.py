@@ -127,7 +127,7 @@ def test_the_page_covers_the_measured_rows_and_starts_with_who_is_ahead(
     images.mkdir()
     draw_chart(result, images / "accuracy-time.png")
     draw_spectra(pairs, [pair.independent for pair in pairs], images / "label-spectra.png", "0" * 64)
-    write_document(result, tmp_path / "document.md", images, True, True)
+    write_document(result, tmp_path / "document.md", images / "accuracy-time.png", images / "label-spectra.png")
     text = (tmp_path / "document.md").read_text(encoding="utf-8")
     top = "\n".join(text.splitlines()[:10])
     assert "**As published**, 1 rival, 9 comparisons" in top and "ahead in" in top and "behind in 0" in top

@@ -48,7 +48,7 @@ def grown(tmp_path_factory: pytest.TempPathFactory) -> Path:
     _ribbed(folder / "recordings" / "rack.csv", 35.0)
     (folder / "labels.toml").write_text(LABEL.format("wood") + LABEL.format("rack"), encoding="utf-8")
     words = ["--recordings", str(folder / "recordings"), "--labels", str(folder / "labels.toml")]
-    out = ["--out", str(folder / "run"), "--export", str(folder / "own.haptoflow"), "--minutes", "0.2"]
+    out = ["--out", str(folder / "run"), "--export", str(folder / "own.haptoflow"), "--minutes", "0.1"]
     assert cli.main(["train", *words, *out]) == 0
     return folder
 

@@ -78,7 +78,7 @@ ROOT = Path(__file__).parents[2]
 STROKES = ROOT.parent / "shared" / "strokes" / "vr-pen-on-surface" / "strokes.csv"
 ENGINE = Path(os.environ.get("HAPTOFLOW_ENGINE", ROOT / "build" / "native" / "haptoflow"))
 RESULTS = ROOT / "Training" / "haptoflow_paper" / "results" / "velocity.json"
-PAGE = ROOT / "Documentation~" / "velocity.md"
+PAGE = ROOT / "Training" / "haptoflow_paper" / "results" / "velocity.md"
 
 
 @pytest.mark.parametrize("rate_hz", [72.0, 500.0])

@@ -93,7 +93,7 @@ def test_the_committed_golden_plans_are_what_the_command_writes(tmp_path: Path) 
     assert {case["seed"] for case in golden["similarity"]} == {1, 2**63 + 5}
 
 
-PUBLISHED = Path(__file__).parents[2] / "Documentation~" / "benchmarks.md"
+PUBLISHED = Path(__file__).parents[2] / "Training" / "results" / "benchmarks.md"
 ROWS = [
     {"block_frames": 256, "burst_blocks": 1, "p50": 2.0, "p99": 5.0},
     {"block_frames": 256, "burst_blocks": 2, "p50": 4.0, "p99": 10.0},
@@ -176,7 +176,8 @@ def test_the_lag_from_stylus_to_vibration_is_a_row_for_each_kind_of_stroke_and_v
 
 ROOT = Path(__file__).parents[2]
 PAGES = ROOT / "Documentation~"
-LOGS, ANALYSIS, BUDGET = (PAGES / f"{name}.md" for name in ("study-logs", "study-analysis", "delay-budget"))
+FILES, STUDIES = PAGES / "study-files.md", PAGES / "studies.md"
+RESULTS = ROOT / "Training" / "results"
 # Options added to a command, so that a test does not take minutes.
 SHORTER = {"power": ["--simulations", "10"]}
 
@@ -195,20 +196,16 @@ def commands(page: Path) -> list[list[str]]:
 @pytest.mark.parametrize(
     ("page", "steps"),
     [
-        (LOGS, ["simulate", "simulate", "check", "merge", "analyse"]),
-        (ANALYSIS, ["power", "power", "simulate", "simulate", "analyse"]),
-        (BUDGET, ["budget", "budget"]),
+        (FILES, ["power", "power", "simulate", "simulate", "check", "merge", "analyse"]),
+        (STUDIES, ["budget", "budget"]),
     ],
 )
 def test_every_command_of_a_page_runs_in_its_order(
     page: Path, steps: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    (tmp_path / "Documentation~").mkdir()
-    for name in (page.name, "benchmarks.md"):
-        (tmp_path / "Documentation~" / name).write_bytes((PAGES / name).read_bytes())
-    lags = tmp_path / "Training" / "results" / "default" / "stylus-lag.json"
-    lags.parent.mkdir(parents=True)
-    lags.write_bytes((ROOT / lags.relative_to(tmp_path)).read_bytes())
+    (tmp_path / "Training" / "results" / "default").mkdir(parents=True)
+    for name in ("benchmarks.md", "default/stylus-lag.json"):
+        (tmp_path / "Training" / "results" / name).write_bytes((RESULTS / name).read_bytes())
     monkeypatch.chdir(tmp_path)
     ran = []
     for words in commands(page):
@@ -222,7 +219,7 @@ def test_every_command_of_a_page_runs_in_its_order(
 
 
 def test_every_column_and_key_of_the_logs_is_explained() -> None:
-    named = set(re.findall(r"`([a-z0-9_]+)`", LOGS.read_text(encoding="utf-8")))
+    named = set(re.findall(r"`([a-z0-9_]+)`", FILES.read_text(encoding="utf-8")))
     for columns in COLUMNS.values():
         for column in columns:
             assert column.name in named, column.name
@@ -231,8 +228,8 @@ def test_every_column_and_key_of_the_logs_is_explained() -> None:
         assert key in named, key
 
 
-def test_the_budget_page_shows_the_published_benchmark() -> None:
-    page = BUDGET.read_text(encoding="utf-8")
-    lags = read_lags(ROOT / "Training" / "results" / "default" / "stylus-lag.json")
-    words = budget_words(read_bench(PAGES / "benchmarks.md"), "images/delay-budget.png", None, lags)
+def test_the_published_budget_is_that_of_the_published_benchmark() -> None:
+    page = (RESULTS / "delay-budget.md").read_text(encoding="utf-8")
+    chart = "../../Documentation~/images/delay-budget.png"
+    words = budget_words(read_bench(PUBLISHED), chart, None, read_lags(RESULTS / "default" / "stylus-lag.json"))
     assert page == with_measured_words(page, words), "write it anew: haptoflow-training study budget --page"

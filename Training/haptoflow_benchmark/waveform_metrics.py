@@ -1,4 +1,4 @@
-"""Measures of a generated waveform beside a recorded one. haptoflow_paper/results/accuracy-and-time.md defines every figure.
+"""Measures of a generated waveform beside a recorded one. accuracy-and-time.md of the comparison defines every figure.
 
 All waveforms are one-dimensional, 2 kHz, m/s^2.
 """

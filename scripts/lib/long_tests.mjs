@@ -69,6 +69,10 @@ export const longTests = {
       tests: ['test_a_model_of_the_published_sizes_computes_the_same_in_the_engine_as_in_pytorch'],
     },
     {
+      because: 'a flow model is distilled whole; the tests beside it render and prepare its recordings, and test_a_cluster_training_has_the_tiers_that_ship_and_states_the_data_set trains and exports such tiers',
+      tests: ['test_the_whole_way_from_a_flow_model_to_what_ships'],
+    },
+    {
       because: 'a model is trained, two steps long, on files from a hub on the loopback address; test_chosen_textures_are_downloaded_once_and_handed_to_the_training stops where the training begins',
       tests: ['test_a_model_of_chosen_textures_has_their_labels_and_licence'],
     },

@@ -104,7 +104,9 @@ async function sanitizers({ all }) {
 async function training({ all }) {
   // Own recordings are read by the library.
   await buildNative({ targets: ['audioplugin_haptoflow'] });
-  const args = ['-m', 'pytest', inRepository('Tests', 'Training'), '-q', '-n', String(os.cpus().length), '--junitxml', results('training.xml')];
+  // Whole files: what a file's fixtures make is made once.
+  const args = ['-m', 'pytest', inRepository('Tests', 'Training'), '-q', '-n', String(os.cpus().length), '--dist', 'loadfile'];
+  args.push('--junitxml', results('training.xml'));
   if (!all) args.push('-k', `not (${longTestsOf('training').join(' or ')})`);
   const env = { OPENBLAS_NUM_THREADS: '1', PYTHONPATH: inRepository('Training'), PYTHONDONTWRITEBYTECODE: '1' };
   return judgeJunit('training.xml', pythonOrFail(), args, { env, limitSeconds: 1800 });

@@ -34,7 +34,7 @@ public:
     /// Start of the knee, as a share of the ceiling.
     static constexpr float knee = 0.7F;
     /// At this full scale, less than one sample in a thousand lies above the knee when recorded strokes are rendered
-    /// over all labels of the shipped model (Documentation~/actuator-wiring.md). The C header, C#, Python and
+    /// over all labels of the shipped model (Documentation~/devices.md). The C header, C#, Python and
     /// JavaScript repeat the value; a test compares them.
     static constexpr float defaultFullScaleMps2 = 200.0F;
 

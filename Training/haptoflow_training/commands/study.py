@@ -24,7 +24,7 @@ from haptoflow_training.studies.simulation import (
 from haptoflow_training.studies.study_folder import read_faultless, read_folder
 from haptoflow_training.whole_file import write_whole
 
-_PUBLISHED = Path("Documentation~") / "benchmarks.md"
+_PUBLISHED = Path("Training") / "results" / "benchmarks.md"
 _PUBLISHED_LAGS = Path("Training") / "results" / "default" / "stylus-lag.json"
 
 
@@ -250,9 +250,9 @@ def _add_budget(parser: argparse.ArgumentParser) -> None:
     parser.epilog = """examples:
   haptoflow-training study budget
   haptoflow-training study budget --bench out/bench.json --device-ms 25
-  haptoflow-training study budget --page Documentation~/delay-budget.md --chart Documentation~/images/delay-budget.png
+  haptoflow-training study budget --page Training/results/delay-budget.md --chart Documentation~/images/delay-budget.png
 
-The first reads the tables of Documentation~/benchmarks.md, the second those of `npm run bench` on this machine with a
+The first reads the tables of Training/results/benchmarks.md, the second those of `npm run bench` on this machine with a
 device delay that you measured. The third writes the page anew after `npm run bench -- --publish`.
 """
     parser.add_argument("--bench", type=Path, default=_PUBLISHED, help="bench.json, or the page that publishes it")

@@ -308,7 +308,7 @@ def _similarity_results(result: SimilarityResult) -> dict[str, Any]:
 
 INTRODUCTION = (
     "This report was written by haptoflow-training study analyse from the logs of a folder. "
-    "Documentation~/study-analysis.md explains every test and how it was validated."
+    "Documentation~/study-files.md explains every test and how it was validated."
 )
 SIMULATED = (
     "Every answer and rating in this report was drawn at random by a program. It shows what the analysis does, and "
