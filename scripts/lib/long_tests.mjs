@@ -19,7 +19,7 @@ export const longTests = {
       tests: ['LearnerTest.EqualSeedsGiveEqualBytesAndAnotherSeedAnotherMaterial'],
     },
     {
-      because: 'the figures of the benchmark are measured once more for each device; TheReportHasEveryKeyOfTheContract reads a whole report',
+      because: 'the figures of the benchmark are measured once more for each device; TheReportHoldsEveryFigureOfTheContractWithTheRatioToItsReference reads a whole report',
       tests: ['BenchCommandTest.LatenciesHaveARowForEachDeviceWithItsGoalAfterTheDefaultBlocksFigures'],
     },
   ],

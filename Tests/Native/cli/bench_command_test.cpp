@@ -65,7 +65,7 @@ void expectRatio(const Json& ratio, const Json& numerator, const Json& denominat
 
 /// Every distribution of the report is ranked.
 void expectRankedWithin(const Json& node, const std::string& where) {
-    if (node.is_object() && node.contains("p99") && node.contains("worst")) {
+    if (node.is_object() && node.contains("count") && node.contains("p99")) {
         expectRanked(node, where);
     }
     for (const auto& [key, child] : node.items()) {

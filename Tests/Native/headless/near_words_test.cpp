@@ -20,8 +20,14 @@ TEST(NearWordsTest, ADistanceCountsLettersAddedRemovedChangedOrSwapped) {
         const char* other;
         std::size_t apart;
     };
-    for (const Row& row : {Row{"wood", "wood", 0}, {"wod", "wood", 1}, {"woood", "wood", 1}, {"wold", "wood", 1},
-                           {"owod", "wood", 1}, {"", "wood", 4}, {"fur", "", 3}, {"METAL-Mesh", "metal_mesh", 0}}) {
+    for (const Row& row : {Row{"wood", "wood", 0},
+                           {"wod", "wood", 1},
+                           {"woood", "wood", 1},
+                           {"wold", "wood", 1},
+                           {"owod", "wood", 1},
+                           {"", "wood", 4},
+                           {"fur", "", 3},
+                           {"METAL-Mesh", "metal_mesh", 0}}) {
         EXPECT_EQ(lettersApart(row.one, row.other), row.apart) << row.one << ", " << row.other;
     }
 }

@@ -1,5 +1,7 @@
 #include "headless/scenes/scene_file.hpp"
 
+#include "headless/scenes/command_files.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
