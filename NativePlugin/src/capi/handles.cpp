@@ -113,4 +113,18 @@ inference::LoadLimits loadLimits(const haptoflow_cancellation* cancellation, dou
     return limits;
 }
 
+haptoflow_label_info describe(const model::Label& label) {
+    haptoflow_label_info info{};
+    info.is_periodic = label.wavelengthMetres ? 1 : 0;
+    info.name = label.name.c_str();
+    info.category = label.category.c_str();
+    info.stiffness_newtons_per_metre = label.stiffnessNewtonsPerMetre;
+    info.friction_coefficient = label.frictionCoefficient;
+    info.wavelength_metres = label.wavelengthMetres.value_or(0.0);
+    info.speed_level_exponent = label.speedLevelExponent;
+    info.force_level_exponent = label.forceLevelExponent;
+    info.frequency_exponent = label.frequencyExponent;
+    return info;
+}
+
 }  // namespace haptoflow::capi

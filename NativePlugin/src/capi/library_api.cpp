@@ -25,9 +25,6 @@ haptoflow_status haptoflow_cancellation_close(haptoflow_cancellation** cancellat
     return guarded([&] { closeHandle(cancellations(), cancellation, "cancellation"); });
 }
 
-using namespace haptoflow;
-using namespace haptoflow::capi;
-
 namespace {}  // namespace
 
 haptoflow_status haptoflow_runtime_open(const haptoflow_runtime_options* options, haptoflow_runtime** runtime) {
@@ -58,9 +55,6 @@ haptoflow_status haptoflow_runtime_close(haptoflow_runtime** runtime) {
         }
     });
 }
-
-using namespace haptoflow;
-using namespace haptoflow::capi;
 
 static_assert(std::string_view(HAPTOFLOW_VERSION_TEXT) == HAPTOFLOW_VERSION,
               "the version macros of haptoflow.h differ from package.json");

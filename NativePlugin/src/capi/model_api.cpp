@@ -162,9 +162,6 @@ haptoflow_status haptoflow_model_tier(const haptoflow_model* model, uint32_t ind
     });
 }
 
-using namespace haptoflow;
-using namespace haptoflow::capi;
-
 static_assert(inference::segmentSamples == HAPTOFLOW_SEGMENT_SAMPLES);
 static_assert(inference::embeddingSize == HAPTOFLOW_EMBEDDING_SIZE);
 static_assert(skeleton::Phases{}.size() == HAPTOFLOW_PHASES);

@@ -76,9 +76,6 @@ haptoflow_status haptoflow_device_wave_process(haptoflow_device_wave* wave, floa
     });
 }
 
-using namespace haptoflow;
-using namespace haptoflow::capi;
-
 namespace haptoflow::capi {
 
 struct OpenWaveFeatures {

@@ -49,8 +49,7 @@ namespace HaptoFlow
         /// loaded.</summary>
         public static void UseSettings() => HapticSession.UseSettings();
 
-        /// <summary>Changes the quality from the next segment on, and in the active settings. A tier that is not loaded
-        /// yet is loaded on another thread while the present one plays on.</summary>
+        /// <summary>Changes the quality from the next segment on, and in the active settings.</summary>
         public static void SetQuality(HapticQuality quality)
         {
             HaptoFlowSettings.Active.Quality = quality;
