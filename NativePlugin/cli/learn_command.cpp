@@ -147,7 +147,8 @@ recordings::MaterialRecording readRecording(const LearnOptions& options) {
         if (words.forceNewtons && !recording.forceNewtons.empty()) {
             throw UsageError("--force-newtons: " + path + " has a force of its own; leave the option out");
         }
-        recordings::requireMotionAndForce(recording, path, "--speed-mps", "--force-newtons");
+        recordings::requireMotionAndForce(recording.description, path, recording.hasMotion(), recording.hasForce(),
+                                          "--speed-mps", "--force-newtons");
         std::ranges::for_each(recording.description.notes, note);
         return recording;
     } catch (const recordings::RecordingUnusable& error) {

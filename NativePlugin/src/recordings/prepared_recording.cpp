@@ -35,15 +35,8 @@ Channel channelOf(const Recording& recording, std::size_t axis, std::size_t samp
     return channel;
 }
 
-std::vector<float> oneAxis(const Recording& recording, std::size_t samples) {
-    std::array<std::vector<double>, 3> axes;
-    for (std::size_t axis = 0; axis < recording.axisCount; ++axis) {
-        axes[axis] = bandPassed(resampled(channelOf(recording, axis, samples), recording.rateHz, dsp::waveformRateHz));
-    }
-    const std::vector<double> wave = recording.axisCount == 3 ? combineAxes(axes) : std::move(axes[0]);
-    std::vector<float> result(wave.size());
-    std::ranges::transform(wave, result.begin(), [](double value) { return static_cast<float>(value); });
-    return result;
+std::size_t preparedSamples(const Recording& recording) {
+    return std::min(recording.sampleCount(), static_cast<std::size_t>(maximumSeconds * recording.rateHz));
 }
 
 class Neighbourhoods {
@@ -158,11 +151,20 @@ std::array<double, 3> PreparedRecording::meanMotion(std::size_t first, std::size
     return mean;
 }
 
+std::vector<float> combinedWave(const Recording& recording) {
+    std::array<std::vector<double>, 3> axes;
+    for (std::size_t axis = 0; axis < recording.axisCount; ++axis) {
+        const Channel channel = channelOf(recording, axis, preparedSamples(recording));
+        axes[axis] = bandPassed(resampled(channel, recording.rateHz, dsp::waveformRateHz));
+    }
+    const std::vector<double> wave = recording.axisCount == 3 ? combineAxes(axes) : std::move(axes[0]);
+    return {wave.begin(), wave.end()};
+}
+
 PreparedRecording prepareRecording(const Recording& recording) {
-    const std::size_t samples =
-        std::min(recording.sampleCount(), static_cast<std::size_t>(maximumSeconds * recording.rateHz));
+    const std::size_t samples = preparedSamples(recording);
     PreparedRecording prepared;
-    prepared.wave = oneAxis(recording, samples);
+    prepared.wave = combinedWave(recording);
     const std::size_t count = prepared.wave.size();
     prepared.isUsable = Neighbourhoods(recording, samples, count).usable();
     prepared.bandwidthHz = 0.5 * flatShare * std::min(recording.rateHz, dsp::waveformRateHz);

@@ -28,9 +28,12 @@ struct PreparedRecording {
     [[nodiscard]] std::array<double, 3> meanMotion(std::size_t first, std::size_t count) const;
 };
 
-/// Resamples (windowed sinc), combines three axes (DFT321), filters without phase shift and removes the sensor's noise,
-/// as in training. Uses the first `maximumSeconds`. Call `checkRecording` first. Throws RecordingUnusable if the
-/// recording is nothing but noise.
+/// The first `maximumSeconds` as one axis at 2 kHz, in m/s^2: resampled (windowed sinc), three axes combined (DFT321),
+/// filtered without phase shift.
+[[nodiscard]] std::vector<float> combinedWave(const Recording& recording);
+
+/// The combined wave without the sensor's noise, and its motion. Uses the first `maximumSeconds`. Call `checkRecording`
+/// first. Throws RecordingUnusable if the recording is nothing but noise.
 [[nodiscard]] PreparedRecording prepareRecording(const Recording& recording);
 
 }  // namespace haptoflow::recordings

@@ -334,16 +334,16 @@ MaterialRecording readMaterialRecording(RecordingFiles& files, const fs::path& p
     return Reader(files, path, words).read();
 }
 
-void requireMotionAndForce(const MaterialRecording& recording, const fs::path& path, const std::string& speedOption,
-                           const std::string& forceOption) {
+void requireMotionAndForce(const RecordingDescription& description, const fs::path& path, bool hasMotion, bool hasForce,
+                           const std::string& speedOption, const std::string& forceOption) {
     const auto alternative = [](const std::string& option) { return option.empty() ? option : "; or " + option; };
-    const std::string sidecar = utf8Of(recording.description.sidecar.filename());
-    if (!recording.hasMotion()) {
+    const std::string sidecar = utf8Of(description.sidecar.filename());
+    if (!hasMotion) {
         fail(utf8Of(path), "no motion in it or beside it",
              "columns " + motionForms() + "; or the key speed_mps, velocity_mps or motion in " + sidecar +
                  alternative(speedOption));
     }
-    if (!recording.hasForce()) {
+    if (!hasForce) {
         fail(utf8Of(path), "no force in it or beside it",
              "a column " + forceForms() + "; or the key force_newtons in " + sidecar + alternative(forceOption));
     }

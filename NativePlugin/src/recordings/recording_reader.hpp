@@ -78,8 +78,8 @@ struct MaterialRecording {
 
 /// Throws RecordingUnusable that names the columns and keys which can give them if motion or force is unknown.
 /// `speedOption` and `forceOption` are named, too, if they are not empty.
-void requireMotionAndForce(const MaterialRecording& recording, const std::filesystem::path& path,
-                           const std::string& speedOption = "", const std::string& forceOption = "");
+void requireMotionAndForce(const RecordingDescription& description, const std::filesystem::path& path, bool hasMotion,
+                           bool hasForce, const std::string& speedOption = "", const std::string& forceOption = "");
 
 /// Reads what `readMaterialRecording` reads but for the rows.
 [[nodiscard]] RecordingDescription describeRecording(RecordingFiles& files, const std::filesystem::path& path);

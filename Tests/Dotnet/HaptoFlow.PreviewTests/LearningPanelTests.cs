@@ -11,7 +11,7 @@ namespace HaptoFlow.PreviewTests
         private static SkiaCanvas Panel(Palette palette, Box box, string report, double pixelsPerPoint = 1.0)
         {
             var canvas = new SkiaCanvas(box.Width, box.Height, pixelsPerPoint, palette.Window);
-            LearningPanel.Draw(canvas, palette, canvas.Whole, LearningCurves.Read(report)!);
+            LearningPanel.Draw(canvas, palette, canvas.Whole, LearningReport.Read(report)!.Curves!);
             return canvas;
         }
 
@@ -72,12 +72,12 @@ namespace HaptoFlow.PreviewTests
         [TestCase("{\"nearest_label\": \"wood\", \"turn_degrees\": 0}")]
         [TestCase("not JSON")]
         public void AReportWithoutCurvesIsNotDrawn(string report) =>
-            Assert.That(LearningCurves.Read(report), Is.Null);
+            Assert.That(LearningReport.Read(report)?.Curves, Is.Null);
 
         [Test]
         public void UnknownFiguresOfAReportAreRead()
         {
-            LearningCurves curves = LearningCurves.Read(MadeReports.Of(2, 1, 1))!;
+            LearningCurves curves = LearningReport.Read(MadeReports.Of(2, 1, 1))!.Curves!;
             Assert.That(curves.Speeds[1].Learnt.RibsDecibels, Is.EqualTo(new double?[] { -6.1, null }));
             Assert.That(curves.Speeds[1].Recorded.Kurtosis, Is.EqualTo(3.4));
             Assert.That(curves.Forces.Single().RecordedMps, Is.EqualTo((0.02, 0.034)));

@@ -304,7 +304,7 @@ namespace HaptoFlow.PreviewTests
         public void ARepaintOfTheCurvesMakesNoGarbage()
         {
             PreviewView view = PreviewView.Of(window.position, PreviewRoom.WithoutStroke, null);
-            LearningCurves curves = LearningCurves.Read(MadeReports.Of(6, 2, 1))!;
+            LearningCurves curves = LearningReport.Read(MadeReports.Of(6, 2, 1))!.Curves!;
             int drawings = 0;
             var picture = new EditorPicture(canvas =>
             {
@@ -326,7 +326,11 @@ namespace HaptoFlow.PreviewTests
         public void TheAssetAndTheExportedFileContainTheLearntMaterial()
         {
             window.Take(Wave());
-            State.Change("Material", changed => changed.Material = Text());
+            State.Change("Material", changed =>
+            {
+                changed.Material = Text();
+                changed.Report = "{\"nearest_label\": \"jute\"}";
+            });
             window.Finish();
             WindowHost.AnswerToSave = name => "Assets/" + name;
             Press("Save as Haptic Material\u2026");

@@ -157,6 +157,9 @@ protected:
             input<haptoflow_recording_options>("haptoflow_recording_options", "haptoflow_recording_read",
                                                offsetof(haptoflow_recording_options, files), recordingOptions_,
                                                opening(haptoflow_recording_read, haptoflow_recording_close)),
+            input<haptoflow_recording_info>("haptoflow_recording_info", "haptoflow_recording_create",
+                                            offsetof(haptoflow_recording_info, acceleration), infoOf(made_),
+                                            opening(haptoflow_recording_create, haptoflow_recording_close)),
             input<haptoflow_learning_options>("haptoflow_learning_options", "haptoflow_learn_material",
                                               offsetof(haptoflow_learning_options, seed), learningOptions_,
                                               opening(haptoflow_learn_material, haptoflow_learning_close)),
@@ -214,7 +217,8 @@ protected:
     haptoflow_generator_options generatorOptions_{};
     haptoflow_engine_options engineOptions_{};
     learning::testing::MadeRecording made_{{}, {.seconds = 4.0}};
-    haptoflow_learning_options learningOptions_ = optionsOf(made_, open_.runtime, open_.model);
+    MadeHandle madeRecording_{infoOf(made_)};
+    haptoflow_learning_options learningOptions_ = optionsOf(madeRecording_.recording, open_.runtime, open_.model);
     haptoflow_recording_options recordingOptions_{};
     haptoflow_recording* recording_ = nullptr;
     haptoflow_generator* generator_ = nullptr;
