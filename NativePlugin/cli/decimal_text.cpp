@@ -1,6 +1,6 @@
 #include "decimal_text.hpp"
 
-#include "recordings/decimal_number.hpp"
+#include "recordings/table_rows.hpp"
 
 #include <cmath>
 #include <iomanip>

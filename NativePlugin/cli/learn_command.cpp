@@ -13,7 +13,6 @@
 #include "option_values.hpp"
 #include "output_file.hpp"
 #include "progress_bar.hpp"
-#include "recordings/material_words.hpp"
 #include "recordings/recording_reader.hpp"
 #include "recordings/table_rows.hpp"
 

@@ -4,7 +4,7 @@
 #include "exit_codes.hpp"
 #include "input_file.hpp"
 #include "model/plain_text.hpp"
-#include "recordings/decimal_number.hpp"
+#include "recordings/table_rows.hpp"
 
 #include <charconv>
 #include <optional>

@@ -2,11 +2,9 @@
 #include "dsp/sample_rates.hpp"
 #include "learning/learner.hpp"
 #include "learning/wave_vectors.hpp"
-#include "recordings/material_words.hpp"
 #include "recordings/noise_removal.hpp"
 #include "recordings/prepared_recording.hpp"
 #include "recordings/recording_reader.hpp"
-#include "recordings/resampling.hpp"
 
 #include <algorithm>
 #include <array>

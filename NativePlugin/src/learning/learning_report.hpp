@@ -1,12 +1,21 @@
 #pragma once
 
+#include "learning/closed_loop.hpp"
 #include "learning/frame_figures.hpp"
+#include "learning/learning_settings.hpp"
+#include "learning/level_law.hpp"
+#include "learning/tone_fit.hpp"
 #include "learning/wave_vectors.hpp"
+#include "model/model_file.hpp"
 #include "recordings/sensor_noise.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -103,5 +112,36 @@ struct LearningReport {
 
 /// The report as JSON, ending in a line feed.
 [[nodiscard]] std::string reportJson(const LearningReport& report);
+
+/// Rounds to the significant digits, which makes files smaller and equal on platforms whose last bits differ.
+inline double rounded(double value, double perUnit) {
+    return std::round(value * perUnit) / perUnit + 0.0;
+}
+
+template <typename Range>
+nlohmann::ordered_json roundedNumbers(const Range& values, double perUnit) {
+    nlohmann::ordered_json result = nlohmann::ordered_json::array();
+    for (const auto value : values) {
+        result.push_back(rounded(static_cast<double>(value), perUnit));
+    }
+    return result;
+}
+
+/// The content of a material file.
+struct MaterialContent {
+    const LearningSettings& settings;
+    const LearningReport& report;
+    /// The label at which the search began: source of the properties that the recording does not show.
+    const model::Label& start;
+    const Embedding& embedding;
+    const LevelLaw& level;
+    const model::ToneTable& tone;
+    float impulseGain = 1.0F;
+    double frequencyExponent = 0.0;
+    std::optional<double> wavelengthMetres;
+};
+
+/// The text of a `.haptomaterial` file, ending in a line feed.
+[[nodiscard]] std::string materialText(const model::ModelFile& model, const MaterialContent& content);
 
 }  // namespace haptoflow::learning

@@ -1,6 +1,6 @@
 #include "recordings/force_zero.hpp"
 
-#include "recordings/frame_statistics.hpp"
+#include "recordings/sensor_noise.hpp"
 
 #include <algorithm>
 #include <array>

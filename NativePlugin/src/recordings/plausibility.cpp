@@ -1,6 +1,6 @@
 #include "recordings/plausibility.hpp"
 
-#include "recordings/tip_motion.hpp"
+#include "recordings/recording_table.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,12 +1,16 @@
 #include "recordings/recording_reader.hpp"
 
+#include "model/name_index.hpp"
+#include "model/plain_text.hpp"
 #include "recordings/force_zero.hpp"
 #include "recordings/plausibility.hpp"
 #include "recordings/recording_sidecar.hpp"
-#include "recordings/tip_motion.hpp"
+#include "recordings/recording_table.hpp"
+#include "recordings/table_rows.hpp"
 #include "recordings/wave_file.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <limits>
 
@@ -363,6 +367,24 @@ RecordingDescription describeRecording(RecordingFiles& files, const fs::path& pa
         describeTable("the motion file", *description.motion);
     }
     return description;
+}
+
+std::string materialName(const RecordingDescription& description, const std::filesystem::path& path) {
+    const std::string text = description.label.empty() ? utf8Of(path.stem()) : description.label;
+    const bool isUtf8 = model::isUtf8(text);
+    std::string name;
+    for (const char letter : text) {
+        const auto code = static_cast<unsigned char>(letter);
+        const bool isSpace = letter == '_' || letter == '-' || std::isspace(code) != 0 || std::iscntrl(code) != 0 ||
+                             (code >= 0x80U && !isUtf8);
+        name += isSpace ? ' ' : static_cast<char>(code < 0x80U ? std::tolower(code) : code);
+    }
+    name = trimmed(model::shortened(trimmed(name), model::nameBytes));
+    return name.empty() ? "material" : name;
+}
+
+std::string provenanceOf(const RecordingDescription& description, const std::filesystem::path& path) {
+    return model::printable(utf8Of(path.filename())) + (description.source.empty() ? "" : ", " + description.source);
 }
 
 }  // namespace haptoflow::recordings

@@ -1,13 +1,14 @@
 #include "recordings/sensor_noise.hpp"
 
+#include "dsp/fourier_transform.hpp"
 #include "dsp/sample_rates.hpp"
-#include "recordings/frame_statistics.hpp"
-#include "recordings/quiet_part.hpp"
 #include "recordings/recording.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -15,7 +16,280 @@
 namespace haptoflow::recordings {
 namespace {
 
+using Complex = std::complex<double>;
+using Window = std::array<double, ShortTimeSpectrum::frameSamples>;
+
+Window squareRootHann() {
+    Window window{};
+    for (std::size_t i = 0; i < window.size(); ++i) {
+        window[i] = std::sin(std::numbers::pi * static_cast<double>(i) / static_cast<double>(window.size()));
+    }
+    return window;
+}
+
+}  // namespace
+
+ShortTimeSpectrum::ShortTimeSpectrum(std::span<const float> wave) : samples_(wave.size()) {
+    const Window window = squareRootHann();
+    const std::size_t frames = (samples_ + hop - 1) / hop + 1;
+    values_.reserve(frames * bins);
+    std::vector<Complex> frame(frameSamples);
+    for (std::size_t each = 0; each < frames; ++each) {
+        for (std::size_t i = 0; i < frameSamples; ++i) {
+            const std::size_t sample = each * hop + i;
+            const bool isInside = sample >= hop && sample - hop < samples_;
+            frame[i] = isInside ? window[i] * static_cast<double>(wave[sample - hop]) : 0.0;
+        }
+        dsp::fourierTransform(frame, dsp::Direction::forward);
+        values_.insert(values_.end(), frame.begin(), frame.begin() + bins);
+    }
+}
+
+SpectrumCells ShortTimeSpectrum::power() const {
+    SpectrumCells cells(values_.size());
+    std::ranges::transform(values_, cells.begin(), [](const Complex& value) { return std::norm(value); });
+    return cells;
+}
+
+void ShortTimeSpectrum::scale(const SpectrumCells& gains) {
+    for (std::size_t i = 0; i < values_.size(); ++i) {
+        values_[i] *= gains[i];
+    }
+}
+
+std::vector<float> ShortTimeSpectrum::wave() const {
+    const Window window = squareRootHann();
+    std::vector<double> sum((frames() + 1) * hop);
+    std::vector<Complex> frame(frameSamples);
+    for (std::size_t each = 0; each < frames(); ++each) {
+        const auto first = values_.begin() + static_cast<std::ptrdiff_t>(each * bins);
+        std::copy_n(first, bins, frame.begin());
+        for (std::size_t bin = 1; bin + 1 < bins; ++bin) {
+            frame[frameSamples - bin] = std::conj(frame[bin]);
+        }
+        dsp::fourierTransform(frame, dsp::Direction::inverse);
+        for (std::size_t i = 0; i < frameSamples; ++i) {
+            sum[each * hop + i] += window[i] * frame[i].real();
+        }
+    }
+    std::vector<float> wave(samples_);
+    std::transform(sum.begin() + hop, sum.begin() + static_cast<std::ptrdiff_t>(hop + samples_), wave.begin(),
+                   [](double value) { return static_cast<float>(value); });
+    return wave;
+}
+
+double ShortTimeSpectrum::meanSquare(std::span<const double> power) {
+    double sum = 0.0;
+    for (std::size_t bin = 0; bin < bins; ++bin) {
+        sum += (bin == 0 || bin + 1 == bins ? 1.0 : 2.0) * power[bin];
+    }
+    constexpr double windowEnergy = 0.5 * frameSamples;
+    return sum / (static_cast<double>(frameSamples) * windowEnergy);
+}
+
+namespace {
+
+/// A tracker's noise gives a resting tip this speed now and then, but not for long.
+constexpr double restMps = 0.004;
+constexpr double meanRestMps = 0.002;
+/// A hand in the air is never as still as on a surface.
+constexpr double restInAirMps = 0.02;
+/// The filters ring, and the means of the motion reach, for this long.
+constexpr std::size_t restMarginSamples = 100;
+
+/// How often something holds before each sample, and before the end.
+class Count {
+public:
+    template <typename Condition>
+    Count(std::size_t samples, Condition condition) : before_(samples + 1) {
+        for (std::size_t i = 0; i < samples; ++i) {
+            before_[i + 1] = before_[i] + (condition(i) ? 1U : 0U);
+        }
+    }
+
+    [[nodiscard]] bool isFull(std::size_t first, std::size_t end) const {
+        return before_[end] - before_[first] == end - first;
+    }
+
+private:
+    std::vector<std::uint32_t> before_;
+};
+
+std::array<double, 3> meanMotionOf(std::span<const std::array<float, 3>> motion) {
+    std::array<double, 3> mean{};
+    for (const std::array<float, 3>& each : motion) {
+        for (std::size_t axis = 0; axis < mean.size(); ++axis) {
+            mean[axis] += static_cast<double>(each[axis]) / static_cast<double>(motion.size());
+        }
+    }
+    return mean;
+}
+
+}  // namespace
+
+std::vector<FrameMotion> motionOfFrames(std::size_t frames, std::span<const std::array<float, 3>> motion,
+                                        std::span<const std::uint8_t> isUsable) {
+    constexpr std::size_t hop = ShortTimeSpectrum::hop;
+    constexpr std::size_t length = ShortTimeSpectrum::frameSamples;
+    const std::size_t count = motion.size();
+    const auto speedAt = [&](std::size_t i) {
+        return std::hypot(static_cast<double>(motion[i][0]), static_cast<double>(motion[i][1]));
+    };
+    const Count usable(count, [&](std::size_t i) { return isUsable[i] != 0; });
+    const Count resting(count, [&](std::size_t i) {
+        const bool isInAir = motion[i][2] < lightestTouchNewtons;
+        return isUsable[i] != 0 && speedAt(i) < (isInAir ? restInAirMps : restMps);
+    });
+    std::vector<FrameMotion> result(frames);
+    for (std::size_t frame = 1; frame < frames; ++frame) {
+        const std::size_t first = (frame - 1) * hop;
+        const std::size_t end = first + length;
+        if (end > count || !usable.isFull(first, end)) {
+            continue;
+        }
+        FrameMotion& each = result[frame];
+        each.isUsable = true;
+        const std::size_t from = first - std::min(first, restMarginSamples);
+        const std::size_t to = std::min(end + restMarginSamples, count);
+        const std::array<double, 3> around = meanMotionOf(motion.subspan(from, to - from));
+        each.isResting = resting.isFull(from, to) &&
+                         (around[2] < lightestTouchNewtons || std::hypot(around[0], around[1]) < meanRestMps);
+        each.isTouching = meanMotionOf(motion.subspan(first, length))[2] >= lightestTouchNewtons;
+        for (std::size_t i = first; i < end; ++i) {
+            each.speedMps += speedAt(i) / static_cast<double>(length);
+        }
+    }
+    return result;
+}
+
+namespace {
+
 constexpr std::size_t bins = ShortTimeSpectrum::bins;
+
+}  // namespace
+
+std::vector<double> meanSquaresOf(const SpectrumCells& power, const Frames& frames) {
+    std::vector<double> levels(frames.size());
+    std::ranges::transform(frames, levels.begin(), [&](std::size_t frame) {
+        return ShortTimeSpectrum::meanSquare(std::span(power).subspan(frame * bins, bins));
+    });
+    return levels;
+}
+
+std::vector<double> meanSpectrum(const SpectrumCells& power, std::span<const std::size_t> frames) {
+    std::vector<double> mean(bins);
+    for (const std::size_t frame : frames) {
+        for (std::size_t bin = 0; bin < bins; ++bin) {
+            mean[bin] += power[frame * bins + bin] / static_cast<double>(frames.size());
+        }
+    }
+    return mean;
+}
+
+std::vector<double> smoothed(std::span<const double> spectrum) {
+    constexpr std::size_t reach = 2;
+    std::vector<double> result(spectrum.size());
+    for (std::size_t bin = 0; bin < spectrum.size(); ++bin) {
+        const std::size_t first = bin - std::min(bin, reach);
+        result[bin] = meanOf(spectrum.subspan(first, std::min(bin + reach + 1, spectrum.size()) - first));
+    }
+    return result;
+}
+
+double meanOf(std::span<const double> values) {
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+double quantile(std::vector<double> values, double share) {
+    const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    std::ranges::nth_element(values, at);
+    return *at;
+}
+
+namespace {
+
+constexpr double slowMps = 0.015;
+constexpr double fastMps = 0.04;
+constexpr double slowestGrowth = 1.2;
+constexpr std::size_t minimumFrames = 16;
+/// Upper quartile of speed^1.2 over the lower one: a line needs a length.
+constexpr double minimumSpread = 1.5;
+constexpr double minimumShare = 0.5;
+constexpr double minimumCertainty = 3.0;
+constexpr double maximumUnsteadiness = 0.5;
+constexpr double minimumFastRatio = 4.0;
+constexpr double maximumMps2 = 0.1;
+
+struct Line {
+    double atZero = 0.0;
+    double atZeroError = 0.0;
+};
+
+Line lineThrough(std::span<const double> places, std::span<const double> values) {
+    const auto count = static_cast<double>(places.size());
+    const double meanPlace = meanOf(places);
+    const double meanValue = meanOf(values);
+    double squares = 0.0;
+    double products = 0.0;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        squares += (places[i] - meanPlace) * (places[i] - meanPlace);
+        products += (places[i] - meanPlace) * (values[i] - meanValue);
+    }
+    const double slope = products / squares;
+    double residual = 0.0;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const double off = values[i] - meanValue - slope * (places[i] - meanPlace);
+        residual += off * off / (count - 2.0);
+    }
+    return {.atZero = meanValue - slope * meanPlace,
+            .atZeroError = std::sqrt(residual * (1.0 / count + meanPlace * meanPlace / squares))};
+}
+
+double deviationOf(std::span<const double> values) {
+    const double mean = meanOf(values);
+    double squares = 0.0;
+    for (const double value : values) {
+        squares += (value - mean) * (value - mean);
+    }
+    return std::sqrt(squares / static_cast<double>(values.size()));
+}
+
+bool isNoise(double left, double error, std::span<const double> slow, double fast) {
+    const double mean = meanOf(slow);
+    return left >= minimumShare * mean && left >= minimumCertainty * error && left <= maximumMps2 * maximumMps2 &&
+           deviationOf(slow) <= maximumUnsteadiness * mean && fast >= minimumFastRatio * left;
+}
+
+}  // namespace
+
+std::optional<std::vector<double>> noiseOfQuietPart(const SpectrumCells& power, std::span<const FrameMotion> motion) {
+    const Frames slow = framesWhere(motion, [](const FrameMotion& each) { return each.speedMps < slowMps; });
+    const Frames fast = framesWhere(motion, [](const FrameMotion& each) { return each.speedMps > fastMps; });
+    if (slow.size() < minimumFrames || fast.size() < minimumFrames) {
+        return std::nullopt;
+    }
+    std::vector<double> growth(slow.size());
+    std::ranges::transform(slow, growth.begin(),
+                           [&](std::size_t frame) { return std::pow(motion[frame].speedMps, slowestGrowth); });
+    if (!(quantile(growth, 0.75) > minimumSpread * quantile(growth, 0.25))) {
+        return std::nullopt;
+    }
+    const std::vector<double> levels = meanSquaresOf(power, slow);
+    const Line level = lineThrough(growth, levels);
+    if (!isNoise(level.atZero, level.atZeroError, levels, quantile(meanSquaresOf(power, fast), 0.5))) {
+        return std::nullopt;
+    }
+    std::vector<double> noise(bins);
+    std::vector<double> values(slow.size());
+    for (std::size_t bin = 0; bin < bins; ++bin) {
+        std::ranges::transform(slow, values.begin(), [&](std::size_t frame) { return power[frame * bins + bin]; });
+        noise[bin] = std::clamp(lineThrough(growth, values).atZero, 0.0, meanOf(values));
+    }
+    return smoothed(noise);
+}
+
+namespace {
+
 constexpr double minimumRestSeconds = 0.2;
 /// A louder resting frame, against the median one, has felt a knock or the hand.
 constexpr double knockRatio = 3.0;

@@ -7,8 +7,8 @@
 #include "material_output.hpp"
 #include "model/material_file.hpp"
 #include "model/model_file.hpp"
+#include "recordings/prepared_recording.hpp"
 #include "recordings/recording_reader.hpp"
-#include "recordings/resampling.hpp"
 #include "wav_file.hpp"
 
 #include <gmock/gmock.h>

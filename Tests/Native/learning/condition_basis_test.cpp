@@ -1,4 +1,3 @@
-#include "learning/condition_basis.hpp"
 #include "learning/gamma_regression.hpp"
 
 #include <gtest/gtest.h>

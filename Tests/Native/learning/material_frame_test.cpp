@@ -1,4 +1,4 @@
-#include "learning/material_frame.hpp"
+#include "learning/wave_vectors.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,6 @@
 #include "learning/made_recording.hpp"
 #include "recordings/dft321.hpp"
 #include "recordings/prepared_recording.hpp"
-#include "recordings/resampling.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "learning/record_next.hpp"
+#include "learning/sliding.hpp"
 
 #include "learning/learner.hpp"
 #include "learning/made_recording.hpp"
