@@ -5,8 +5,15 @@
 #include "recordings/recording.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <stdexcept>
+
+#if defined(_WIN32)
+#include <windows.h>
+#else
+#include <ctime>
+#endif
 
 namespace haptoflow::learning {
 namespace {
@@ -44,18 +51,6 @@ void checkSettings(const LearningSettings& settings) {
         }
     }
 }
-
-}  // namespace haptoflow::learning
-
-#if defined(_WIN32)
-#include <windows.h>
-#else
-#include <ctime>
-#endif
-
-#include <chrono>
-
-namespace haptoflow::learning {
 
 double threadSeconds() noexcept {
 #if defined(_WIN32)

@@ -111,6 +111,18 @@ double clippedShare(std::span<const float> values, std::size_t stride) {
     return static_cast<double>(clipped) / static_cast<double>(finite);
 }
 
+void fail(const std::string& place, const std::string& found, const std::string& expected) {
+    throw RecordingUnusable(place + ": " + found + "; expected " + expected);
+}
+
+std::string joined(const std::vector<std::string>& words) {
+    std::string text;
+    for (const std::string& word : words) {
+        text += (text.empty() ? "" : ", ") + word;
+    }
+    return text;
+}
+
 std::string plainNumber(double value) {
     constexpr double beyondDigits = 1000.0;
     std::ostringstream text;

@@ -23,18 +23,6 @@ constexpr double unknownNumber = std::numeric_limits<double>::quiet_NaN();
 /// A longer step between readings of motion or force is a gap.
 constexpr double longestMotionStepSeconds = 0.25;
 
-[[noreturn]] void fail(const std::string& path, const std::string& found, const std::string& expected) {
-    throw RecordingUnusable(path + ": " + found + "; expected " + expected);
-}
-
-std::string joined(const std::vector<std::string>& words) {
-    std::string text;
-    for (const std::string& word : words) {
-        text += (text.empty() ? "" : ", ") + word;
-    }
-    return text;
-}
-
 void noteUnknown(const std::string& path, const std::vector<std::string>& unknown, std::vector<std::string>& notes) {
     if (!unknown.empty()) {
         notes.push_back(path + ": columns " + joined(unknown) + " are not known and are ignored");
