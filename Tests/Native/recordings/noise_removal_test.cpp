@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 
 namespace haptoflow::recordings {
 namespace {
@@ -64,7 +63,6 @@ TEST_P(NoisyStaircase, TheLevelOfSlowAndFastSlidingIsThatOfTheTextureAlone) {
         const double truth = meanSquareOf(stepOf(texture.clean, step));
         const double before = decibels(meanSquareOf(stepOf(measured.wave, step)), truth);
         const double after = decibels(meanSquareOf(stepOf(texture.wave, step)), truth);
-        std::cout << "level at " << 1000.0 * speeds[step] << " mm/s: " << before << " dB, then " << after << " dB\n";
         EXPECT_NEAR(after, 0.0, speeds[step] >= 0.05 ? 0.1 : 1.0) << speeds[step];
         EXPECT_GT(before, speeds[step] > 0.005 ? 0.0 : 5.0);
     }
@@ -86,8 +84,6 @@ TEST_P(NoisyStaircase, TheSpectrumIsThatOfTheTextureAlone) {
             meanBefore += std::abs(decibels(inBand(measured.wave), truth)) / (edges.size() - 1);
             meanAfter += std::abs(decibels(inBand(texture.wave), truth)) / (edges.size() - 1);
         }
-        std::cout << "bands at " << 1000.0 * speeds[step] << " mm/s: " << meanBefore << " dB, then " << meanAfter
-                  << " dB\n";
         EXPECT_LT(meanAfter, 0.4 * meanBefore + 0.05) << speeds[step];
     }
 }
@@ -151,8 +147,6 @@ TEST(NoiseRemoval, WithoutRestTheNoiseIsFoundInTheQuietPart) {
         const double truth = meanSquareOf(stepOf(texture.clean, step));
         const double after = decibels(meanSquareOf(stepOf(texture.wave, step)), truth);
         const double before = decibels(meanSquareOf(stepOf(measured.wave, step)), truth);
-        std::cout << "quiet part, level at " << 1000.0 * slowAndFast[step] << " mm/s: " << before << " dB, then "
-                  << after << " dB\n";
         EXPECT_GT(after, -0.1) << slowAndFast[step];
         EXPECT_LT(after, 0.5 * before + 0.05) << slowAndFast[step];
     }
@@ -260,15 +254,6 @@ TEST(NoiseRemoval, APartThatIsUnknownIsNeitherRestNorChanged) {
     EXPECT_NEAR(decibels(remove(texture).rmsMps2, noiseMps2), 0.0, 0.5);
     EXPECT_TRUE(std::ranges::all_of(std::span(texture.wave).subspan(2200, 3600),
                                     [](float value) { return std::abs(value) < 1e-6F; }));
-}
-
-TEST(NoiseRemoval, TheSameWaveGivesTheSameBits) {
-    const std::vector<double> speedsMps = staircase(speeds, 1.0);
-    NoisyTexture one(speedsMps, smooth, hiss(speedsMps.size(), noiseMps2, 0.0, 12));
-    NoisyTexture other = one;
-    (void)remove(one);
-    (void)remove(other);
-    EXPECT_EQ(one.wave, other.wave);
 }
 
 TEST(ShortTimeSpectrumTest, WhatIsNotScaledComesBack) {
