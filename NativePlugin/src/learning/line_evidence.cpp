@@ -37,7 +37,7 @@ std::vector<std::size_t> similarWindows(std::span<const PathWindow> windows, std
     return order;
 }
 
-double medianOf(std::vector<double>& values) {
+double middleOf(std::vector<double>& values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::ranges::nth_element(values, middle);
     return *middle;
@@ -66,7 +66,7 @@ void divideByBackground(std::span<const PathWindow> windows, double cyclesPerMm,
                     pool.push_back(power[column]);
                 }
             }
-            logs[place] = pool.empty() ? 0.0 : std::log(std::max(medianOf(pool) / medianOfNoise, smallestPower));
+            logs[place] = pool.empty() ? 0.0 : std::log(std::max(middleOf(pool) / medianOfNoise, smallestPower));
         }
         const double hertzPerColumn = cyclesPerMm * windows[w].speedMmps;
         const double placesPerNat = static_cast<double>(places - 1) / std::log(highestLineHz / lowestLineHz);
