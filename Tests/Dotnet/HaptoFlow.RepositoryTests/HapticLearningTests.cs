@@ -109,10 +109,8 @@ namespace HaptoFlow.RepositoryTests
         }
 
         [Test]
-        public void InvalidArgumentsAreRefusedAtOnceAndADamagedModelAtTheEnd()
+        public void ADamagedModelIsRefusedAtTheEnd()
         {
-            Assert.Throws<ArgumentException>(() => HapticLearning.Start(Model, MadeRecordings.Doormat(),
-                new LearningOptions { WaveVectorsPerMillimetre = new float[3] }));
             byte[] damaged = (byte[])Model.Clone();
             damaged[100] ^= 1;
             using HapticLearning learning =

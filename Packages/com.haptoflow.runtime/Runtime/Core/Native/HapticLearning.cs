@@ -25,15 +25,8 @@ namespace HaptoFlow
         /// <summary>Licence of the recording; empty for what its files say.</summary>
         public string Licence { get; set; } = "";
 
-        /// <summary>Name of the tier that the material is fitted to; null for the model's default tier.</summary>
-        public string? Tier { get; set; }
-
         /// <summary>Seed of all noise.</summary>
         public ulong Seed { get; set; } = 1;
-
-        /// <summary>Wave vectors of a ruled surface: k1x, k1y, k2x, k2y in cycles per millimetre; zeros for a surface
-        /// without ribs; null to estimate them from the recording.</summary>
-        public float[]? WaveVectorsPerMillimetre { get; set; }
 
         /// <summary>Time limit of the fit on one core, in seconds; 0 for 20.</summary>
         public double SecondsLimit { get; set; }
@@ -89,14 +82,8 @@ namespace HaptoFlow
         /// <param name="recording">A recording of known speed and force with at least 10 s of sliding. Otherwise <see
         /// cref="Problem"/> tells what is missing.</param>
         /// <exception cref="HaptoFlowException">The native library is missing.</exception>
-        /// <exception cref="ArgumentException">There are wave vectors, but not two of two numbers.</exception>
         public static HapticLearning Start(byte[] modelFile, Recording recording, LearningOptions options)
         {
-            if (options.WaveVectorsPerMillimetre is { } vectors && vectors.Length != 4)
-            {
-                throw new ArgumentException(
-                    $"{vectors.Length} numbers of wave vectors; expected 4, or none at all", nameof(options));
-            }
             lock (Running)
             {
                 var learning = new HapticLearning(modelFile, recording, options);
@@ -177,18 +164,15 @@ namespace HaptoFlow
             OnnxRuntime runtime, HapticModel model, Recording recording, LearningOptions options, IntPtr context)
         {
             IntPtr opened;
-            fixed (byte* tier = options.Tier != null ? NativeCall.Utf8(options.Tier) : null)
             fixed (byte* name = NativeCall.Utf8(options.Name), category = NativeCall.Utf8(options.Category))
             fixed (byte* description = NativeCall.Utf8(options.Description))
             fixed (byte* licence = NativeCall.Utf8(options.Licence))
-            fixed (float* waveVectors = options.WaveVectorsPerMillimetre)
             {
                 var native = new NativeLearningOptions
                 {
                     StructSize = (uint)sizeof(NativeLearningOptions),
                     Runtime = runtime.Handle.Value,
                     Model = model.Handle.Value,
-                    Tier = (IntPtr)tier,
                     Name = (IntPtr)name,
                     Category = (IntPtr)category,
                     Description = (IntPtr)description,
@@ -198,7 +182,6 @@ namespace HaptoFlow
                     Progress = LearningProgress.Function,
                     ProgressContext = context,
                     Cancellation = cancellation.Handle.Value,
-                    WaveVectors = waveVectors,
                 };
                 recording.Give(ref native);
                 NativeCall.Check(NativeMethods.LearnMaterial(&native, &opened));
