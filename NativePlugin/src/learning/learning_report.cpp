@@ -1,6 +1,9 @@
 #include "learning/learning_report.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <optional>
 #include <utility>
@@ -10,6 +13,20 @@ namespace haptoflow::learning {
 using Json = nlohmann::ordered_json;
 
 namespace {
+
+/// Rounds to the significant digits, which makes files smaller and equal on platforms whose last bits differ.
+double rounded(double value, double perUnit) {
+    return std::round(value * perUnit) / perUnit + 0.0;
+}
+
+template <typename Range>
+nlohmann::ordered_json roundedNumbers(const Range& values, double perUnit) {
+    nlohmann::ordered_json result = nlohmann::ordered_json::array();
+    for (const auto value : values) {
+        result.push_back(rounded(static_cast<double>(value), perUnit));
+    }
+    return result;
+}
 
 Json numberOrNull(const std::optional<double>& number, double perUnit) {
     return number ? Json(rounded(*number, perUnit)) : Json();

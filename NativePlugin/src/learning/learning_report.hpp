@@ -9,10 +9,7 @@
 #include "model/model_file.hpp"
 #include "recordings/sensor_noise.hpp"
 
-#include <nlohmann/json.hpp>
-
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -112,20 +109,6 @@ struct LearningReport {
 
 /// The report as JSON, ending in a line feed.
 [[nodiscard]] std::string reportJson(const LearningReport& report);
-
-/// Rounds to the significant digits, which makes files smaller and equal on platforms whose last bits differ.
-inline double rounded(double value, double perUnit) {
-    return std::round(value * perUnit) / perUnit + 0.0;
-}
-
-template <typename Range>
-nlohmann::ordered_json roundedNumbers(const Range& values, double perUnit) {
-    nlohmann::ordered_json result = nlohmann::ordered_json::array();
-    for (const auto value : values) {
-        result.push_back(rounded(static_cast<double>(value), perUnit));
-    }
-    return result;
-}
 
 /// The content of a material file.
 struct MaterialContent {

@@ -12,6 +12,12 @@
 namespace haptoflow::learning {
 namespace {
 
+/// The band in which lines are sought: between the hand's own motion and the end of a recording's band.
+constexpr double lowestLineHz = 15.0;
+constexpr double highestLineHz = 800.0;
+/// Of the power of noise at one frequency, which is chi-squared with two degrees of freedom, over its mean.
+constexpr double medianOfNoise = std::numbers::ln2;
+
 constexpr std::size_t places = 41;
 constexpr double reachHz = 6.0;
 constexpr double relativeReach = 0.12;
@@ -43,8 +49,11 @@ double middleOf(std::vector<double>& values) {
     return *middle;
 }
 
-}  // namespace
-
+/// Divides the power of each window by the mean power of noise at its frequency and speed, estimated from the windows
+/// of the most similar speeds: resonances of surface and tool stay at their frequency while the direction changes, and
+/// ribs do not. The median over windows and neighbouring frequencies ignores lines.
+///
+/// `spectra`: a row for each window, whose column c is the wave number c * `cyclesPerMm`.
 void divideByBackground(std::span<const PathWindow> windows, double cyclesPerMm,
                         std::vector<std::vector<double>>& spectra) {
     const std::vector<std::vector<double>> original = spectra;
@@ -79,8 +88,6 @@ void divideByBackground(std::span<const PathWindow> windows, double cyclesPerMm,
         }
     }
 }
-
-namespace {
 
 constexpr double minimumAlongPerMm = 0.08;
 /// At least one window in this many must cover a vector: strokes go in all directions, and only some cross given ribs.

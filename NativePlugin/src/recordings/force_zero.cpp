@@ -1,7 +1,5 @@
 #include "recordings/force_zero.hpp"
 
-#include "recordings/sensor_noise.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>

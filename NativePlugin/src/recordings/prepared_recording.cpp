@@ -4,7 +4,7 @@
 #include "dsp/kaiser_window.hpp"
 #include "dsp/sample_rates.hpp"
 #include "recordings/dft321.hpp"
-#include "recordings/noise_removal.hpp"
+#include "recordings/sensor_noise.hpp"
 
 #include <algorithm>
 #include <bit>

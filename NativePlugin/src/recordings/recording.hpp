@@ -64,6 +64,9 @@ void checkSizes(const Recording& recording);
 /// Throws as checkSizes does, and RecordingUnusable if the samples are too short, silent, clipped or not finite.
 void checkRecording(const Recording& recording);
 
+/// The value below which `share` of one value or more lies.
+[[nodiscard]] double quantile(std::vector<double> values, double share);
+
 /// Throws RecordingUnusable "PLACE: FOUND; expected EXPECTED".
 [[noreturn]] void fail(const std::string& place, const std::string& found, const std::string& expected);
 

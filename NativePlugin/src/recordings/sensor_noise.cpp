@@ -1,13 +1,11 @@
 #include "recordings/sensor_noise.hpp"
 
-#include "dsp/fourier_transform.hpp"
 #include "dsp/sample_rates.hpp"
 #include "recordings/recording.hpp"
+#include "recordings/short_time_spectrum.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 #include <optional>
 #include <string>
@@ -16,79 +14,8 @@
 namespace haptoflow::recordings {
 namespace {
 
-using Complex = std::complex<double>;
-using Window = std::array<double, ShortTimeSpectrum::frameSamples>;
-
-Window squareRootHann() {
-    Window window{};
-    for (std::size_t i = 0; i < window.size(); ++i) {
-        window[i] = std::sin(std::numbers::pi * static_cast<double>(i) / static_cast<double>(window.size()));
-    }
-    return window;
-}
-
-}  // namespace
-
-ShortTimeSpectrum::ShortTimeSpectrum(std::span<const float> wave) : samples_(wave.size()) {
-    const Window window = squareRootHann();
-    const std::size_t frames = (samples_ + hop - 1) / hop + 1;
-    values_.reserve(frames * bins);
-    std::vector<Complex> frame(frameSamples);
-    for (std::size_t each = 0; each < frames; ++each) {
-        for (std::size_t i = 0; i < frameSamples; ++i) {
-            const std::size_t sample = each * hop + i;
-            const bool isInside = sample >= hop && sample - hop < samples_;
-            frame[i] = isInside ? window[i] * static_cast<double>(wave[sample - hop]) : 0.0;
-        }
-        dsp::fourierTransform(frame, dsp::Direction::forward);
-        values_.insert(values_.end(), frame.begin(), frame.begin() + bins);
-    }
-}
-
-SpectrumCells ShortTimeSpectrum::power() const {
-    SpectrumCells cells(values_.size());
-    std::ranges::transform(values_, cells.begin(), [](const Complex& value) { return std::norm(value); });
-    return cells;
-}
-
-void ShortTimeSpectrum::scale(const SpectrumCells& gains) {
-    for (std::size_t i = 0; i < values_.size(); ++i) {
-        values_[i] *= gains[i];
-    }
-}
-
-std::vector<float> ShortTimeSpectrum::wave() const {
-    const Window window = squareRootHann();
-    std::vector<double> sum((frames() + 1) * hop);
-    std::vector<Complex> frame(frameSamples);
-    for (std::size_t each = 0; each < frames(); ++each) {
-        const auto first = values_.begin() + static_cast<std::ptrdiff_t>(each * bins);
-        std::copy_n(first, bins, frame.begin());
-        for (std::size_t bin = 1; bin + 1 < bins; ++bin) {
-            frame[frameSamples - bin] = std::conj(frame[bin]);
-        }
-        dsp::fourierTransform(frame, dsp::Direction::inverse);
-        for (std::size_t i = 0; i < frameSamples; ++i) {
-            sum[each * hop + i] += window[i] * frame[i].real();
-        }
-    }
-    std::vector<float> wave(samples_);
-    std::transform(sum.begin() + hop, sum.begin() + static_cast<std::ptrdiff_t>(hop + samples_), wave.begin(),
-                   [](double value) { return static_cast<float>(value); });
-    return wave;
-}
-
-double ShortTimeSpectrum::meanSquare(std::span<const double> power) {
-    double sum = 0.0;
-    for (std::size_t bin = 0; bin < bins; ++bin) {
-        sum += (bin == 0 || bin + 1 == bins ? 1.0 : 2.0) * power[bin];
-    }
-    constexpr double windowEnergy = 0.5 * frameSamples;
-    return sum / (static_cast<double>(frameSamples) * windowEnergy);
-}
-
-namespace {
-
+constexpr std::size_t bins = ShortTimeSpectrum::bins;
+constexpr double lightestTouchNewtons = 0.02;
 /// A tracker's noise gives a resting tip this speed now and then, but not for long.
 constexpr double restMps = 0.004;
 constexpr double meanRestMps = 0.002;
@@ -96,6 +23,31 @@ constexpr double meanRestMps = 0.002;
 constexpr double restInAirMps = 0.02;
 /// The filters ring, and the means of the motion reach, for this long.
 constexpr std::size_t restMarginSamples = 100;
+
+/// How the tip moves during one frame of a ShortTimeSpectrum.
+struct FrameMotion {
+    /// False at the ends of the recording and where the motion is unknown; the other members then mean nothing.
+    bool isUsable = false;
+    /// The tip rests from 50 ms before the frame to 50 ms after it.
+    bool isResting = false;
+    bool isTouching = false;
+    double speedMps = 0.0;
+};
+
+/// Numbers of frames of a ShortTimeSpectrum, ascending.
+using Frames = std::vector<std::size_t>;
+
+/// The usable frames of which `condition` holds.
+template <typename Condition>
+Frames framesWhere(std::span<const FrameMotion> motion, Condition condition) {
+    Frames frames;
+    for (std::size_t frame = 0; frame < motion.size(); ++frame) {
+        if (motion[frame].isUsable && condition(motion[frame])) {
+            frames.push_back(frame);
+        }
+    }
+    return frames;
+}
 
 /// How often something holds before each sample, and before the end.
 class Count {
@@ -125,8 +77,7 @@ std::array<double, 3> meanMotionOf(std::span<const std::array<float, 3>> motion)
     return mean;
 }
 
-}  // namespace
-
+/// For each frame. `motion`, for each sample: vx, vy in m/s and force in N.
 std::vector<FrameMotion> motionOfFrames(std::size_t frames, std::span<const std::array<float, 3>> motion,
                                         std::span<const std::uint8_t> isUsable) {
     constexpr std::size_t hop = ShortTimeSpectrum::hop;
@@ -162,12 +113,7 @@ std::vector<FrameMotion> motionOfFrames(std::size_t frames, std::span<const std:
     return result;
 }
 
-namespace {
-
-constexpr std::size_t bins = ShortTimeSpectrum::bins;
-
-}  // namespace
-
+/// Mean square of each frame.
 std::vector<double> meanSquaresOf(const SpectrumCells& power, const Frames& frames) {
     std::vector<double> levels(frames.size());
     std::ranges::transform(frames, levels.begin(), [&](std::size_t frame) {
@@ -186,6 +132,11 @@ std::vector<double> meanSpectrum(const SpectrumCells& power, std::span<const std
     return mean;
 }
 
+double meanOf(std::span<const double> values) {
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+/// Mean over two bins on each side: noise has a smooth spectrum, and few frames of it a rough one.
 std::vector<double> smoothed(std::span<const double> spectrum) {
     constexpr std::size_t reach = 2;
     std::vector<double> result(spectrum.size());
@@ -195,18 +146,6 @@ std::vector<double> smoothed(std::span<const double> spectrum) {
     }
     return result;
 }
-
-double meanOf(std::span<const double> values) {
-    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
-
-double quantile(std::vector<double> values, double share) {
-    const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-    std::ranges::nth_element(values, at);
-    return *at;
-}
-
-namespace {
 
 constexpr double slowMps = 0.015;
 constexpr double fastMps = 0.04;
@@ -260,8 +199,12 @@ bool isNoise(double left, double error, std::span<const double> slow, double fas
            deviationOf(slow) <= maximumUnsteadiness * mean && fast >= minimumFastRatio * left;
 }
 
-}  // namespace
-
+/// The mean power of the sensor's noise in each bin, found where the tip is slower than 15 mm/s. A straight line is
+/// fitted to the power over speed^1.2, and its value at speed zero is the noise. The power of every label grows at
+/// least as fast as speed^1.2, so that the line never takes a part of the texture for noise.
+///
+/// None unless that is most of what is there, steady, below 0.1 m/s^2 and far below the level of fast strokes: a
+/// texture must never be taken for noise.
 std::optional<std::vector<double>> noiseOfQuietPart(const SpectrumCells& power, std::span<const FrameMotion> motion) {
     const Frames slow = framesWhere(motion, [](const FrameMotion& each) { return each.speedMps < slowMps; });
     const Frames fast = framesWhere(motion, [](const FrameMotion& each) { return each.speedMps > fastMps; });
@@ -287,8 +230,6 @@ std::optional<std::vector<double>> noiseOfQuietPart(const SpectrumCells& power, 
     }
     return smoothed(noise);
 }
-
-namespace {
 
 constexpr double minimumRestSeconds = 0.2;
 /// A louder resting frame, against the median one, has felt a knock or the hand.
@@ -362,13 +303,9 @@ std::optional<std::vector<double>> noiseAtRest(const SpectrumCells& power, std::
     return noise;
 }
 
-}  // namespace
-
-std::string_view nameOf(NoiseSource source) {
-    constexpr std::array<std::string_view, 3> names{"none", "rest", "quiet part"};
-    return names[static_cast<std::size_t>(source)];
-}
-
+/// Finds the noise where the tip rests for 0.2 s or more in all, knocks left out; otherwise in the quiet part. A rest
+/// that is louder than the quietest sliding is not believed: then the motion is wrong. Throws RecordingUnusable if the
+/// recording is no stronger where the tip slides than where it rests.
 SensorNoise findSensorNoise(const SpectrumCells& power, std::span<const FrameMotion> motion) {
     SensorNoise noise{.source = NoiseSource::rest, .rmsMps2 = 0.0, .power = {}};
     std::optional<std::vector<double>> found = noiseAtRest(power, motion);
@@ -379,6 +316,94 @@ SensorNoise findSensorNoise(const SpectrumCells& power, std::span<const FrameMot
     noise.power = std::move(found).value_or(std::vector<double>(bins));
     noise.rmsMps2 = std::sqrt(ShortTimeSpectrum::meanSquare(noise.power));
     return noise.rmsMps2 >= negligibleMps2 ? noise : SensorNoise{};
+}
+
+/// Frames and bins on each side whose mean power stands for a cell's: enough that the power of noise hardly varies.
+constexpr std::size_t narrowFrames = 2;
+constexpr std::size_t wideFrames = 16;
+constexpr std::size_t neighbourBins = 2;
+/// White and coloured noise exceed their expectation by this factor, over the narrow neighbourhood, in 0.3 % of cells.
+constexpr double clearRatio = 1.9;
+constexpr double lowestPowerGain = 0.01;
+
+/// Sums over `reach` frames and `neighbourBins` bins on each side; fewer at the ends.
+SpectrumCells sumsAround(const SpectrumCells& cells, std::size_t reach) {
+    const std::size_t frames = cells.size() / bins;
+    SpectrumCells overBins(cells.size());
+    for (std::size_t frame = 0; frame < frames; ++frame) {
+        for (std::size_t bin = 0; bin < bins; ++bin) {
+            const std::size_t end = std::min(bin + neighbourBins + 1, bins);
+            for (std::size_t other = bin - std::min(bin, neighbourBins); other < end; ++other) {
+                overBins[frame * bins + bin] += cells[frame * bins + other];
+            }
+        }
+    }
+    SpectrumCells sums(cells.size());
+    for (std::size_t frame = 0; frame < frames; ++frame) {
+        const std::size_t end = std::min(frame + reach + 1, frames);
+        for (std::size_t other = frame - std::min(frame, reach); other < end; ++other) {
+            for (std::size_t bin = 0; bin < bins; ++bin) {
+                sums[frame * bins + bin] += overBins[other * bins + bin];
+            }
+        }
+    }
+    return sums;
+}
+
+/// The share of a cell's power that is left without the noise: 1 where there is none, never below the lowest gain.
+double shareOf(double power, double noise) {
+    return noise > 0.0 ? std::max(1.0 - noise / std::max(power, noise), lowestPowerGain) : 1.0;
+}
+
+/// A cell that stands out from the noise takes the share of its narrow neighbourhood, which follows attacks and
+/// strokes. The others share a wide one: their estimates are uncertain, and cut off at zero one by one they would not
+/// have the right mean.
+SpectrumCells gainsOf(SpectrumCells power, std::span<const double> noisePower, std::span<const FrameMotion> motion) {
+    SpectrumCells noise(power.size());
+    for (std::size_t cell = 0; cell < power.size(); ++cell) {
+        const bool isUsable = motion[cell / bins].isUsable;
+        noise[cell] = isUsable ? noisePower[cell % bins] : 0.0;
+        power[cell] = isUsable ? power[cell] : 0.0;
+    }
+    const SpectrumCells narrowPower = sumsAround(power, narrowFrames);
+    const SpectrumCells narrowNoise = sumsAround(noise, narrowFrames);
+    const auto isClear = [&](std::size_t cell) { return narrowPower[cell] > clearRatio * narrowNoise[cell]; };
+    for (std::size_t cell = 0; cell < power.size(); ++cell) {
+        if (isClear(cell)) {
+            power[cell] = 0.0;
+            noise[cell] = 0.0;
+        }
+    }
+    const SpectrumCells widePower = sumsAround(power, wideFrames);
+    const SpectrumCells wideNoise = sumsAround(noise, wideFrames);
+    SpectrumCells gains(power.size(), 1.0);
+    for (std::size_t cell = 0; cell < gains.size(); ++cell) {
+        if (motion[cell / bins].isUsable) {
+            gains[cell] = std::sqrt(isClear(cell) ? shareOf(narrowPower[cell], narrowNoise[cell])
+                                                  : shareOf(widePower[cell], wideNoise[cell]));
+        }
+    }
+    return gains;
+}
+
+}  // namespace
+
+std::string_view nameOf(NoiseSource source) {
+    constexpr std::array<std::string_view, 3> names{"none", "rest", "quiet part"};
+    return names[static_cast<std::size_t>(source)];
+}
+
+SensorNoise removeSensorNoise(std::span<float> wave, std::span<const std::array<float, 3>> motion,
+                              std::span<const std::uint8_t> isUsable) {
+    ShortTimeSpectrum spectrum(wave);
+    const std::vector<FrameMotion> frames = motionOfFrames(spectrum.frames(), motion, isUsable);
+    const SpectrumCells power = spectrum.power();
+    SensorNoise noise = findSensorNoise(power, frames);
+    if (noise.source != NoiseSource::none) {
+        spectrum.scale(gainsOf(power, noise.power, frames));
+        std::ranges::copy(spectrum.wave(), wave.begin());
+    }
+    return noise;
 }
 
 }  // namespace haptoflow::recordings

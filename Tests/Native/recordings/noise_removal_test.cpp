@@ -1,7 +1,8 @@
-#include "recordings/noise_removal.hpp"
+#include "recordings/sensor_noise.hpp"
 
 #include "recordings/noisy_texture.hpp"
 #include "recordings/recording.hpp"
+#include "recordings/short_time_spectrum.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
