@@ -51,12 +51,12 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void TheSmallestWindowIsLegible([Values] bool dark, [Values(1, 2, 3, 4, 5, 6)] int speeds,
-            [Values(1, 3)] int forces, [Values(0, 2)] int ribs)
+        public void TheSmallestWindowIsLegible(
+            [Values(1, 4, 6)] int speeds, [Values(1, 3)] int forces, [Values(0, 2)] int ribs)
         {
-            using SkiaCanvas canvas = Panel(dark ? Palette.Dark : Palette.Light,
+            using SkiaCanvas canvas = Panel(Palette.Light,
                 new PreviewLayout(0.0, 0.0, PreviewRoom.WithoutStroke).Charts, MadeReports.Of(speeds, forces, ribs));
-            Save($"curves-smallest-{(dark ? "dark" : "light")}-{speeds}-{forces}-{ribs}", canvas);
+            Save($"curves-smallest-{speeds}-{forces}-{ribs}", canvas);
         }
 
         [TestCase("record slower strokes, down to 20 mm/s", "To gain most, record slower strokes, down to 20 mm/s.")]

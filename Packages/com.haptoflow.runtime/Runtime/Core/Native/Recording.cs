@@ -14,8 +14,6 @@ namespace HaptoFlow.Recordings
     {
         private readonly NativeHandle handle;
         private readonly NativeRecordingInfo info;
-        private readonly double? enteredMps;
-        private readonly double? enteredNewtons;
 
         private Recording(Recording other, double? speedMps, double? forceNewtons)
         {
@@ -23,8 +21,10 @@ namespace HaptoFlow.Recordings
             info = other.info;
             Name = other.Name;
             Remarks = other.Remarks;
-            enteredMps = speedMps;
-            enteredNewtons = forceNewtons;
+            ConstantVelocityMps = other.KnowsSpeed || speedMps == null
+                ? other.ConstantVelocityMps
+                : (speedMps.Value, 0.0);
+            ConstantForceNewtons = other.KnowsForce ? other.ConstantForceNewtons : forceNewtons;
         }
 
         internal Recording(string name, NativeHandle handle)
@@ -34,6 +34,14 @@ namespace HaptoFlow.Recordings
             var read = new NativeRecordingInfo { StructSize = (uint)sizeof(NativeRecordingInfo) };
             handle.Check(NativeMethods.RecordingGetInfo(handle.Value, &read));
             info = read;
+            if (!double.IsNaN(read.ConstantVelocityMps[0]))
+            {
+                ConstantVelocityMps = (read.ConstantVelocityMps[0], read.ConstantVelocityMps[1]);
+            }
+            if (!double.IsNaN(read.ConstantForceNewtons))
+            {
+                ConstantForceNewtons = read.ConstantForceNewtons;
+            }
             Remarks = NativeCall.Text(info.Notes).Split(new[] { '\n' }, StringSplitOptions.RemoveEmptyEntries);
         }
 
@@ -78,13 +86,10 @@ namespace HaptoFlow.Recordings
         public bool KnowsMotion => KnowsSpeed && KnowsForce;
 
         /// <summary>Velocity in m/s along the two axes of the surface; null where unknown or not constant.</summary>
-        public (double X, double Y)? ConstantVelocityMps => info.VelocityMps != null ? null
-            : !double.IsNaN(info.ConstantVelocityMps[0]) ? (info.ConstantVelocityMps[0], info.ConstantVelocityMps[1])
-            : enteredMps is { } speed ? (speed, 0.0) : ((double, double)?)null;
+        public (double X, double Y)? ConstantVelocityMps { get; }
 
         /// <summary>Force in N; null where unknown or not constant.</summary>
-        public double? ConstantForceNewtons => info.ForceNewtons != null ? null
-            : !double.IsNaN(info.ConstantForceNewtons) ? info.ConstantForceNewtons : enteredNewtons;
+        public double? ConstantForceNewtons { get; }
 
         /// <summary>Velocity in m/s along the surface's two axes; zero where unknown.</summary>
         public (double X, double Y) VelocityAt(int sample) => info.VelocityMps != null
@@ -114,12 +119,13 @@ namespace HaptoFlow.Recordings
             return wave;
         }
 
-        /// <summary>Sets what learning needs of the recording, which must stay referenced until the call ends.</summary>
+        /// <summary>Sets what learning needs of the recording, which must stay referenced until the call ends. The library
+        /// takes the constants only where the files have no motion or no force.</summary>
         internal void Give(ref NativeLearningOptions options)
         {
             options.Recording = handle.Value;
-            options.SpeedMps = enteredMps ?? 0.0;
-            options.ForceNewtons = enteredNewtons ?? 0.0;
+            options.SpeedMps = ConstantVelocityMps?.X ?? 0.0;
+            options.ForceNewtons = ConstantForceNewtons ?? 0.0;
         }
 
         private string Text(IntPtr utf8)
