@@ -1209,22 +1209,22 @@ typedef struct haptoflow_learning_options {
 } haptoflow_learning_options;
 
 /* Learns a material and returns when it is done. Close *learning with haptoflow_learning_close. Errors:
- * INVALID_ARGUMENT, RECORDING_UNUSABLE (no speed or no force, too short, silent, nothing but noise, clipped, not finite, no motion, or a
- * speed, force or level that no hand reaches: the message says which), CANCELLED, MODEL_INCONSISTENT, INFERENCE_FAILED,
- * TIER_TOO_SLOW, OUT_OF_MEMORY. [loader-thread] Blocks for seconds; allocates. */
+ * INVALID_ARGUMENT, RECORDING_UNUSABLE (no speed or no force, too short, silent, nothing but noise, clipped, not
+ * finite, no motion, or a speed, force or level that no hand reaches: the message says which), CANCELLED,
+ * MODEL_INCONSISTENT, INFERENCE_FAILED, TIER_TOO_SLOW, OUT_OF_MEMORY. [loader-thread] Blocks for seconds; allocates. */
 HAPTOFLOW_API haptoflow_status haptoflow_learn_material(const haptoflow_learning_options* options,
                                                         haptoflow_learning** learning);
 
-/* Sets *material to the text of the material file and *report to a JSON object with the results: start_label (whose render is nearest to the recording: the search began
- * there), start_distance_db, nearest_label (of haptoflow_model_nearest_label for the learnt embedding),
- * fitted_distance_db, spectral_distance_db, other_tiers (the same distance on each other tier, and whether it is
- * further_off), level_error_db, spectra and levels (of recording, material and nearest label,
- * over speed and force: see Documentation~/own-materials.md), sliding_seconds, speed_mps, force_newtons,
- * level_exponents, wave_vectors, turn_degrees (from the recording's first axis to the material's first axis, which is
- * perpendicular to its most distinct ribs), sensor_noise (mps2, and from: "rest", "quiet part" or "none"; it was
- * removed before), seeds (only of a model without a skeleton), segments, seconds, stopped_early, record_next, warnings
- * and more. Both are valid until the learning is closed. Errors: INVALID_ARGUMENT. [any-thread] Blocks while another
- * thread opens or closes a handle. */
+/* Sets *material to the text of the material file and *report to a JSON object with the results: start_label (whose
+ * render is nearest to the recording: the search began there), start_distance_db, nearest_label (of
+ * haptoflow_model_nearest_label for the learnt embedding), fitted_distance_db, spectral_distance_db, other_tiers (the
+ * same distance on each other tier, and whether it is further_off), level_error_db, spectra and levels (of recording,
+ * material and nearest label, over speed and force: see Documentation~/own-materials.md), sliding_seconds, speed_mps,
+ * force_newtons, level_exponents, wave_vectors, turn_degrees (from the recording's first axis to the material's first
+ * axis, which is perpendicular to its most distinct ribs), sensor_noise (mps2, and from: "rest", "quiet part" or
+ * "none"; it was removed before), seeds (only of a model without a skeleton), segments, seconds, stopped_early,
+ * record_next, warnings and more. Both are valid until the learning is closed. Errors: INVALID_ARGUMENT. [any-thread]
+ * Blocks while another thread opens or closes a handle. */
 HAPTOFLOW_API haptoflow_status haptoflow_learning_results(const haptoflow_learning* learning, const char** material,
                                                           const char** report);
 

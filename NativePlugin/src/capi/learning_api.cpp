@@ -2,9 +2,9 @@
 #include "dsp/sample_rates.hpp"
 #include "learning/learner.hpp"
 #include "learning/wave_vectors.hpp"
-#include "recordings/sensor_noise.hpp"
 #include "recordings/prepared_recording.hpp"
 #include "recordings/recording_reader.hpp"
+#include "recordings/sensor_noise.hpp"
 
 #include <algorithm>
 #include <array>
