@@ -281,41 +281,6 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void EveryTooltipIsOfWholeSentences()
-        {
-            window.Take(Wave());
-            State.Change("Report", changed => changed.Report = MadeReports.Of(6, 2, 1));
-            State.Change("View", changed => changed.ShowsCurves = true);
-            window.Finish();
-            foreach (string tip in Screen().Select(item => item.Tooltip).Where(tip => tip.Length > 0))
-            {
-                Assert.That(char.IsUpper(tip[0]) && tip.EndsWith(".", StringComparison.Ordinal), Is.True, tip);
-            }
-        }
-
-        [Test]
-        public void ARepaintOfTheCurvesMakesNoGarbage()
-        {
-            PreviewView view = PreviewView.Of(window.position, PreviewRoom.WithoutStroke, null);
-            LearningCurves curves = LearningReport.Read(MadeReports.Of(6, 2, 1))!.Curves!;
-            int drawings = 0;
-            var picture = new EditorPicture(canvas =>
-            {
-                ++drawings;
-                LearningPanel.Draw(canvas, view.Palette, view.Layout.Charts, curves);
-            });
-            picture.OnGUI(curves, view);
-            ScreenPaint.Clear();
-            picture.OnGUI(curves, view);
-            ScreenPaint.Clear();
-            long before = GC.GetAllocatedBytesForCurrentThread();
-            picture.OnGUI(curves, view);
-            Assert.That(GC.GetAllocatedBytesForCurrentThread() - before, Is.Zero);
-            Assert.That(drawings, Is.EqualTo(1));
-            picture.Release();
-        }
-
-        [Test]
         public void TheAssetAndTheExportedFileContainTheLearntMaterial()
         {
             window.Take(Wave());
