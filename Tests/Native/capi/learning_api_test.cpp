@@ -114,7 +114,7 @@ TEST_F(LearningApiTest, ARecordingWithoutMotionNeedsTheCallersSpeedAndForce) {
     EXPECT_THAT(message(), HasSubstr("no_motion.csv: no force in it or beside it"));
     given.force_newtons = 1.0;
     EXPECT_EQ(haptoflow_learn_material(&given, &learning_), HAPTOFLOW_RECORDING_UNUSABLE);
-    EXPECT_THAT(message(), HasSubstr("lasts 1 s")) << "nothing but the length is wrong";
+    EXPECT_THAT(message(), HasSubstr("lasts 0.5 s")) << "nothing but the length is wrong";
     EXPECT_EQ(haptoflow_recording_close(&recording), HAPTOFLOW_OK);
 }
 

@@ -2,9 +2,9 @@
 #include "command_line.hpp"
 
 #include "exit_codes.hpp"
+#include "learn_output.hpp"
 #include "learning/made_recording.hpp"
 #include "learning/texture_figures.hpp"
-#include "material_output.hpp"
 #include "model/material_file.hpp"
 #include "model/model_file.hpp"
 #include "recordings/prepared_recording.hpp"
