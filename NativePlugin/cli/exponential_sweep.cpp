@@ -1,6 +1,6 @@
 #include "exponential_sweep.hpp"
 
-#include "recordings/decimal_number.hpp"
+#include "recordings/table_rows.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,7 @@
 #include "commands.hpp"
 #include "headless/scenes/command_files.hpp"
+#include "learn_output.hpp"
 #include "learning/learner.hpp"
-#include "learning_picture.hpp"
-#include "material_output.hpp"
 #include "messages.hpp"
 #include "model/header_node.hpp"
 #include "model/model_file.hpp"
@@ -10,7 +9,6 @@
 #include "model_location.hpp"
 #include "option_values.hpp"
 #include "output_file.hpp"
-#include "recordings/material_words.hpp"
 #include "recordings/recording_reader.hpp"
 #include "recordings/table_rows.hpp"
 
@@ -144,7 +142,8 @@ recordings::MaterialRecording readRecording(const LearnOptions& options) {
         if (words.forceNewtons && !recording.forceNewtons.empty()) {
             throw UsageError("--force-newtons: " + path + " has a force of its own; leave the option out");
         }
-        recordings::requireMotionAndForce(recording, path, "--speed-mps", "--force-newtons");
+        recordings::requireMotionAndForce(recording.description, path, recording.hasMotion(), recording.hasForce(),
+                                          "--speed-mps", "--force-newtons");
         std::ranges::for_each(recording.description.notes, note);
         return recording;
     } catch (const recordings::RecordingUnusable& error) {

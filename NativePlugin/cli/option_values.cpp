@@ -4,7 +4,7 @@
 #include "headless/scenes/command_files.hpp"
 #include "messages.hpp"
 #include "model/plain_text.hpp"
-#include "recordings/decimal_number.hpp"
+#include "recordings/table_rows.hpp"
 
 #include <charconv>
 #include <optional>

@@ -15,7 +15,7 @@ export const longTests = {
       tests: ['DocumentationExamplesTest.EveryExampleOfTheHelpRuns'],
     },
     {
-      because: 'materials are learnt three times over; LearningApiTest.EqualOptionsGiveEqualBytes learns two through the C interface',
+      because: 'materials are learnt three times over; LearnCommandTest.ATableGivesMaterialReportAndPictureWithEqualBytesEachTime learns two by the command line',
       tests: ['LearnerTest.EqualSeedsGiveEqualBytesAndAnotherSeedAnotherMaterial'],
     },
     {
@@ -79,8 +79,8 @@ export const longTests = {
   ],
   dotnet: [
     {
-      because: 'a material is learnt to its end, several times; one learning to its end stays, and cancelling, saving and options have tests of their own',
-      tests: ['TwoLearningsRunAtOnceAndTheSameSeedGivesTheSameBytes', 'TouchingTheButtonLearnsTheRecordingForTheSpecimen'],
+      because: 'a material is learnt to its end; another learning to its end stays, and cancelling, saving and options have tests of their own',
+      tests: ['TouchingTheButtonLearnsTheRecordingForTheSpecimen'],
     },
     {
       because: 'worlds move at every pair of frame and physics rates; the tests that it calls run for four pairs',

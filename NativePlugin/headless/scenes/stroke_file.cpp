@@ -1,7 +1,6 @@
 #include "headless/scenes/stroke_file.hpp"
 
 #include "headless/scenes/command_files.hpp"
-#include "recordings/decimal_number.hpp"
 #include "recordings/recording.hpp"
 #include "recordings/table_rows.hpp"
 #include "recordings/track.hpp"

@@ -1004,13 +1004,17 @@ typedef struct haptoflow_track {
 /* Pointers are valid until the recording is closed; null where there is nothing. */
 typedef struct haptoflow_recording_info {
     uint32_t struct_size;
-    /* 1 or 3. */
+    /* Axes of the acceleration: 1 or 3, interleaved. */
     uint32_t axis_count;
+    /* 1000 to 192000. */
     double sample_rate_hz;
-    /* Of the first 300 s, in the form of haptoflow_learning_options. A gap is not finite. */
+    /* Of the first 300 s. */
     uint64_t sample_count;
+    /* sample_count * axis_count numbers in m/s^2, with or without gravity. A gap is not finite. */
     const float* acceleration_mps2;
+    /* vx and vy for each sample; null for constant_velocity_mps. */
     const float* velocity_mps;
+    /* The force for each sample; null for constant_force_newtons. */
     const float* force_newtons;
     /* Not finite where unknown or not constant. */
     double constant_velocity_mps[2];
@@ -1029,7 +1033,7 @@ typedef struct haptoflow_recording_info {
     const char* motion_path;
     /* What was ignored, corrected or looks odd, one sentence on each line; empty for nothing. */
     const char* notes;
-    /* The name and the provenance that `haptoflow learn` gives the material: for haptoflow_learning_options. */
+    /* The name and the provenance of a material that is learnt from it. */
     const char* material_name;
     const char* provenance;
 } haptoflow_recording_info;
@@ -1040,16 +1044,21 @@ typedef struct haptoflow_recording_info {
 HAPTOFLOW_API haptoflow_status haptoflow_recording_read(const haptoflow_recording_options* options,
                                                         haptoflow_recording** recording);
 
+/* Copies a recording from memory: the samples, the constants and the texts of *info; its tracks are not read. Close
+ * *recording with haptoflow_recording_close. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. [any-thread] Blocks while another
+ * thread opens or closes a handle; allocates. */
+HAPTOFLOW_API haptoflow_status haptoflow_recording_create(const haptoflow_recording_info* info,
+                                                          haptoflow_recording** recording);
+
 /* Fills *info. Errors: INVALID_ARGUMENT. [any-thread] Blocks while another thread opens or closes a handle. */
 HAPTOFLOW_API haptoflow_status haptoflow_recording_get_info(const haptoflow_recording* recording,
                                                             haptoflow_recording_info* info);
 
-/* Combines sample_count * axis_count numbers, as in haptoflow_learning_options, into one axis of 10 to 1000 Hz at 2000
- * Hz, as learning does before it removes the noise. Writes wave_count samples in m/s^2, zeros beyond the end of the
- * recording. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. [any-thread] Never blocks; allocates; takes about 10 ms per
- * second of recording. */
-HAPTOFLOW_API haptoflow_status haptoflow_recording_wave(const float* acceleration_mps2, uint64_t sample_count,
-                                                        uint32_t axis_count, double sample_rate_hz, float* wave_mps2,
+/* Combines the beginning of a recording into one axis of 10 to 1000 Hz at 2000 Hz, as learning does before it removes
+ * the noise. Writes wave_count samples in m/s^2, zeros beyond the end of the recording. Errors: INVALID_ARGUMENT,
+ * OUT_OF_MEMORY. [any-thread] Blocks while another thread opens or closes a handle; allocates; takes about 10 ms per
+ * second of wave. */
+HAPTOFLOW_API haptoflow_status haptoflow_recording_wave(const haptoflow_recording* recording, float* wave_mps2,
                                                         uint64_t wave_count);
 
 /* Where the noise of a recording's sensor was found. */
@@ -1096,31 +1105,23 @@ typedef void (*haptoflow_progress_callback)(void* context, double share, const c
 
 typedef struct haptoflow_learning_options {
     uint32_t struct_size;
-    /* Axes of the acceleration: 1 or 3, interleaved. */
-    uint32_t axis_count;
+    uint32_t reserved;
+    /* With motion and force; the first 300 s are used. A sample that is not finite excludes the samples around it. */
+    const haptoflow_recording* recording;
+    /* The speed in m/s along the first axis and the force in N of a recording that has none; 0 for none. */
+    double speed_mps;
+    double force_newtons;
     const haptoflow_runtime* runtime;
     /* The material will work with this model and with others of the same embedding space. */
     const haptoflow_model* model;
     /* Name of the tier; null for the model's default. */
     const char* tier;
-    /* The material's name: lower case like a label's, 1 to 128 bytes. */
+    /* The material's name: lower case like a label's, 1 to 128 bytes; null or empty for the recording's. */
     const char* name;
-    /* Defaults for null or empty: the category of the start label; no description; the licence "unknown". */
+    /* Defaults for null or empty: the category of the start label; no description; the recording's licence. */
     const char* category;
     const char* description;
     const char* licence;
-    /* sample_count * axis_count numbers in m/s^2, with or without gravity. A sample that is not finite excludes the
-     * samples around it. The first 300 s are used. */
-    const float* acceleration_mps2;
-    uint64_t sample_count;
-    /* 1000 to 192000. */
-    double sample_rate_hz;
-    /* vx and vy for each sample; null for constant_velocity_mps. */
-    const float* velocity_mps;
-    double constant_velocity_mps[2];
-    /* The force for each sample; null for constant_force_newtons. */
-    const float* force_newtons;
-    double constant_force_newtons;
     /* Equal options give equal bytes, unless seconds_limit ends the fit early. */
     uint64_t seed;
     /* Seconds of the calling thread's processor time after which the fit ends with its best result; 0 for 20. A fit
@@ -1134,35 +1135,30 @@ typedef struct haptoflow_learning_options {
     /* The wave vectors k1x, k1y, k2x, k2y in cycles per millimetre along the recording's axes, zeros for a surface
      * without ribs; null to find them in the recording. */
     const float* wave_vectors;
-    /* Description of the recording for the provenance, for example its file name; null or empty for none. */
-    const char* recordings;
     /* Null or empty to learn a new material. A label of the model: the material keeps its embedding and wave vectors,
      * in the recording's own frame, and only level and tone are fitted to the recording. */
     const char* label;
 } haptoflow_learning_options;
 
 /* Learns a material and returns when it is done. Close *learning with haptoflow_learning_close. Errors:
- * INVALID_ARGUMENT, RECORDING_UNUSABLE (too short, silent, nothing but noise, clipped, not finite, no motion, or a
- * speed, force or level that no hand reaches: the message says which), CANCELLED, MODEL_INCONSISTENT, INFERENCE_FAILED,
- * TIER_TOO_SLOW, OUT_OF_MEMORY. [loader-thread] Blocks for seconds; allocates. */
+ * INVALID_ARGUMENT, RECORDING_UNUSABLE (no speed or no force, too short, silent, nothing but noise, clipped, not
+ * finite, no motion, or a speed, force or level that no hand reaches: the message says which), CANCELLED,
+ * MODEL_INCONSISTENT, INFERENCE_FAILED, TIER_TOO_SLOW, OUT_OF_MEMORY. [loader-thread] Blocks for seconds; allocates. */
 HAPTOFLOW_API haptoflow_status haptoflow_learn_material(const haptoflow_learning_options* options,
                                                         haptoflow_learning** learning);
 
-/* Sets *json to the text of the material file, which is valid until the learning is closed. Errors: INVALID_ARGUMENT.
- * [any-thread] Blocks while another thread opens or closes a handle. */
-HAPTOFLOW_API haptoflow_status haptoflow_learning_material(const haptoflow_learning* learning, const char** json);
-
-/* Sets *json to a JSON object with the results: start_label (whose render is nearest to the recording: the search began
- * there), start_distance_db, nearest_label (of haptoflow_model_nearest_label for the learnt embedding),
- * fitted_distance_db, spectral_distance_db, other_tiers (the same distance on each other tier, and whether it is
- * further_off), level_error_db, spectra and levels (of recording, material and nearest label,
- * over speed and force: see Documentation~/own-materials.md), sliding_seconds, speed_mps, force_newtons,
- * level_exponents, wave_vectors, turn_degrees (from the recording's first axis to the material's first axis, which is
- * perpendicular to its most distinct ribs), sensor_noise (mps2, and from: "rest", "quiet part" or "none"; it was
- * removed before), seeds (only of a model without a skeleton), segments, seconds, stopped_early, record_next, warnings
- * and more. It is valid until the learning is closed. Errors: INVALID_ARGUMENT. [any-thread] Blocks while another
- * thread opens or closes a handle. */
-HAPTOFLOW_API haptoflow_status haptoflow_learning_report(const haptoflow_learning* learning, const char** json);
+/* Sets *material to the text of the material file and *report to a JSON object with the results: start_label (whose
+ * render is nearest to the recording: the search began there), start_distance_db, nearest_label (of
+ * haptoflow_model_nearest_label for the learnt embedding), fitted_distance_db, spectral_distance_db, other_tiers (the
+ * same distance on each other tier, and whether it is further_off), level_error_db, spectra and levels (of recording,
+ * material and nearest label, over speed and force: see Documentation~/own-materials.md), sliding_seconds, speed_mps,
+ * force_newtons, level_exponents, wave_vectors, turn_degrees (from the recording's first axis to the material's first
+ * axis, which is perpendicular to its most distinct ribs), sensor_noise (mps2, and from: "rest", "quiet part" or
+ * "none"; it was removed before), seeds (only of a model without a skeleton), segments, seconds, stopped_early,
+ * record_next, warnings and more. Both are valid until the learning is closed. Errors: INVALID_ARGUMENT. [any-thread]
+ * Blocks while another thread opens or closes a handle. */
+HAPTOFLOW_API haptoflow_status haptoflow_learning_results(const haptoflow_learning* learning, const char** material,
+                                                          const char** report);
 
 /* Closes *learning and sets it to null; a null handle is allowed. Errors: INVALID_ARGUMENT.
  * [any-thread] Blocks while another thread opens or closes a handle. */

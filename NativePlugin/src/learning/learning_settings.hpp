@@ -45,4 +45,8 @@ struct LearningSettings {
 /// outside the possible range.
 void checkSettings(const LearningSettings& settings);
 
+/// Processor time of the calling thread in seconds; elapsed time on platforms that do not count it. Only differences on
+/// one thread are meaningful.
+[[nodiscard]] double threadSeconds() noexcept;
+
 }  // namespace haptoflow::learning

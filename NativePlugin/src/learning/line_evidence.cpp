@@ -1,15 +1,93 @@
 #include "learning/line_evidence.hpp"
 
-#include "learning/line_background.hpp"
-
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <numbers>
+#include <numeric>
 #include <set>
 
 namespace haptoflow::learning {
 namespace {
+
+/// The band in which lines are sought: between the hand's own motion and the end of a recording's band.
+constexpr double lowestLineHz = 15.0;
+constexpr double highestLineHz = 800.0;
+/// Of the power of noise at one frequency, which is chi-squared with two degrees of freedom, over its mean.
+constexpr double medianOfNoise = std::numbers::ln2;
+
+constexpr std::size_t places = 41;
+constexpr double reachHz = 6.0;
+constexpr double relativeReach = 0.12;
+constexpr std::size_t fewestSimilar = 12;
+constexpr std::size_t mostSimilar = 40;
+constexpr std::size_t similarShare = 5;
+constexpr double smallestPower = 1e-12;
+
+/// Evenly spaced on a logarithmic scale.
+double placeHz(std::size_t place) {
+    return lowestLineHz *
+           std::pow(highestLineHz / lowestLineHz, static_cast<double>(place) / static_cast<double>(places - 1));
+}
+
+/// The windows of the most similar speeds, itself included.
+std::vector<std::size_t> similarWindows(std::span<const PathWindow> windows, std::size_t window) {
+    std::vector<std::size_t> order(windows.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, {}, [&](std::size_t other) {
+        return std::abs(std::log(windows[other].speedMmps / windows[window].speedMmps));
+    });
+    order.resize(std::min(order.size(), std::clamp(windows.size() / similarShare, fewestSimilar, mostSimilar)));
+    return order;
+}
+
+double middleOf(std::vector<double>& values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::ranges::nth_element(values, middle);
+    return *middle;
+}
+
+/// Divides the power of each window by the mean power of noise at its frequency and speed, estimated from the windows
+/// of the most similar speeds: resonances of surface and tool stay at their frequency while the direction changes, and
+/// ribs do not. The median over windows and neighbouring frequencies ignores lines.
+///
+/// `spectra`: a row for each window, whose column c is the wave number c * `cyclesPerMm`.
+void divideByBackground(std::span<const PathWindow> windows, double cyclesPerMm,
+                        std::vector<std::vector<double>>& spectra) {
+    const std::vector<std::vector<double>> original = spectra;
+    for (std::size_t w = 0; w < windows.size(); ++w) {
+        const std::vector<std::size_t> similar = similarWindows(windows, w);
+        std::array<double, places> logs{};
+        std::vector<double> pool;
+        for (std::size_t place = 0; place < places; ++place) {
+            const double hertz = placeHz(place);
+            const double reach = std::max(reachHz, relativeReach * hertz);
+            pool.clear();
+            for (const std::size_t other : similar) {
+                const double hertzPerColumn = cyclesPerMm * windows[other].speedMmps;
+                const double from = std::max(hertz - reach, lowestLineHz) / hertzPerColumn;
+                const double to = std::min(hertz + reach, highestLineHz) / hertzPerColumn;
+                const std::vector<double>& power = original[other];
+                for (auto column = static_cast<std::size_t>(std::ceil(from));
+                     column < power.size() && static_cast<double>(column) <= to; ++column) {
+                    pool.push_back(power[column]);
+                }
+            }
+            logs[place] = pool.empty() ? 0.0 : std::log(std::max(middleOf(pool) / medianOfNoise, smallestPower));
+        }
+        const double hertzPerColumn = cyclesPerMm * windows[w].speedMmps;
+        const double placesPerNat = static_cast<double>(places - 1) / std::log(highestLineHz / lowestLineHz);
+        for (std::size_t column = 0; column < spectra[w].size(); ++column) {
+            const double hertz = std::clamp(static_cast<double>(column) * hertzPerColumn, lowestLineHz, highestLineHz);
+            const double place = placesPerNat * std::log(hertz / lowestLineHz);
+            const auto below = std::min(static_cast<std::size_t>(place), places - 2);
+            spectra[w][column] *=
+                std::exp(-std::lerp(logs[below], logs[below + 1], place - static_cast<double>(below)));
+        }
+    }
+}
 
 constexpr double minimumAlongPerMm = 0.08;
 /// At least one window in this many must cover a vector: strokes go in all directions, and only some cross given ribs.

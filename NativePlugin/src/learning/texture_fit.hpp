@@ -1,7 +1,6 @@
 #pragma once
 
 #include "learning/closed_loop.hpp"
-#include "learning/embedding_space.hpp"
 #include "learning/sliding.hpp"
 #include "learning/texture_figures.hpp"
 

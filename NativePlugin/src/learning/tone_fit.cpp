@@ -1,7 +1,6 @@
 #include "learning/tone_fit.hpp"
 
 #include "dsp/tone_filter.hpp"
-#include "learning/condition_basis.hpp"
 #include "learning/frame_figures.hpp"
 #include "learning/gamma_regression.hpp"
 #include "learning/linear_algebra.hpp"

@@ -1,7 +1,5 @@
 #include "recordings/force_zero.hpp"
 
-#include "recordings/frame_statistics.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "recordings/plausibility.hpp"
 
-#include "recordings/tip_motion.hpp"
+#include "recordings/recording_table.hpp"
 
 #include <algorithm>
 #include <array>
@@ -12,7 +12,6 @@
 namespace haptoflow::recordings {
 namespace {
 
-constexpr double gravityMps2 = 9.80665;
 // An accelerometer at rest measures gravity, unless its signal is high-passed.
 constexpr std::array restInG{0.9, 1.1};
 constexpr std::array restInMps2{6.0, 14.0};
@@ -27,10 +26,6 @@ constexpr double maximumForceNewtons = 100.0;
 constexpr double weakestNewtons = 0.002;
 constexpr double spikeNewtons = 20.0;
 constexpr double spikeRatio = 8.0;
-
-[[noreturn]] void fail(const std::string& place, const std::string& found, const std::string& expected) {
-    throw RecordingUnusable(place + ": " + found + "; expected " + expected);
-}
 
 bool isWithin(double value, const std::array<double, 2>& limits) {
     return value > limits[0] && value < limits[1];

@@ -4,8 +4,10 @@
 #include "recordings/sensor_noise.hpp"
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace haptoflow::recordings {
@@ -28,9 +30,35 @@ struct PreparedRecording {
     [[nodiscard]] std::array<double, 3> meanMotion(std::size_t first, std::size_t count) const;
 };
 
-/// Resamples (windowed sinc), combines three axes (DFT321), filters without phase shift and removes the sensor's noise,
-/// as in training. Uses the first `maximumSeconds`. Call `checkRecording` first. Throws RecordingUnusable if the
-/// recording is nothing but noise.
+/// The first `maximumSeconds` as one axis at 2 kHz, in m/s^2: resampled (windowed sinc), three axes combined (DFT321),
+/// filtered without phase shift.
+[[nodiscard]] std::vector<float> combinedWave(const Recording& recording);
+
+/// The combined wave without the sensor's noise, and its motion. Uses the first `maximumSeconds`. Call `checkRecording`
+/// first. Throws RecordingUnusable if the recording is nothing but noise.
 [[nodiscard]] PreparedRecording prepareRecording(const Recording& recording);
+
+/// One channel of interleaved samples without its mean; samples that are not finite count as the mean.
+struct Channel {
+    const float* first = nullptr;
+    std::size_t stride = 1;
+    std::size_t count = 0;
+    double mean = 0.0;
+
+    [[nodiscard]] double at(std::size_t sample) const {
+        const double value = first[sample * stride];
+        return std::isfinite(value) ? value - mean : 0.0;
+    }
+};
+
+/// Resamples a signal from one rate to another, both 1 kHz or more, with a Kaiser-windowed sinc without delay: -6 dB at
+/// half of the lower rate, flat to 95 % of it, -66 dB 5 % above it. Sample 0 stays sample 0; the signal is zero beyond
+/// its ends. Home-made: libsoxr would be one more library to ship with the plugin on every platform (the tests of dsp
+/// compare with it).
+[[nodiscard]] std::vector<double> resampled(const Channel& channel, double fromHz, double toHz);
+
+/// 10 Hz high-pass and 1 kHz low-pass filter at 2 kHz with the magnitudes of fourth-order Butterworth filters run
+/// forward and backward, without phase shift. The ends are reflected.
+[[nodiscard]] std::vector<double> bandPassed(std::span<const double> values);
 
 }  // namespace haptoflow::recordings

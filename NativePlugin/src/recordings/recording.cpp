@@ -7,6 +7,7 @@
 #include <locale>
 #include <sstream>
 #include <string>
+#include <vector>
 
 namespace haptoflow::recordings {
 namespace {
@@ -109,6 +110,24 @@ double clippedShare(std::span<const float> values, std::size_t stride) {
         clipped += run == minimumClippedRun ? minimumClippedRun : (run > minimumClippedRun ? 1 : 0);
     }
     return static_cast<double>(clipped) / static_cast<double>(finite);
+}
+
+double quantile(std::vector<double> values, double share) {
+    const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    std::ranges::nth_element(values, at);
+    return *at;
+}
+
+void fail(const std::string& place, const std::string& found, const std::string& expected) {
+    throw RecordingUnusable(place + ": " + found + "; expected " + expected);
+}
+
+std::string joined(const std::vector<std::string>& words) {
+    std::string text;
+    for (const std::string& word : words) {
+        text += (text.empty() ? "" : ", ") + word;
+    }
+    return text;
 }
 
 std::string plainNumber(double value) {

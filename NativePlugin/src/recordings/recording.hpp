@@ -5,6 +5,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace haptoflow::recordings {
 
@@ -33,6 +34,7 @@ struct Recording {
     [[nodiscard]] double seconds() const { return static_cast<double>(sampleCount()) / rateHz; }
 };
 
+inline constexpr double gravityMps2 = 9.80665;
 inline constexpr double lowestRateHz = 1000.0;
 inline constexpr double highestRateHz = 192'000.0;
 /// Maximum speed of a hand in m/s; a larger number is in another unit.
@@ -61,6 +63,15 @@ void checkSizes(const Recording& recording);
 
 /// Throws as checkSizes does, and RecordingUnusable if the samples are too short, silent, clipped or not finite.
 void checkRecording(const Recording& recording);
+
+/// The value below which `share` of one value or more lies.
+[[nodiscard]] double quantile(std::vector<double> values, double share);
+
+/// Throws RecordingUnusable "PLACE: FOUND; expected EXPECTED".
+[[noreturn]] void fail(const std::string& place, const std::string& found, const std::string& expected);
+
+/// The words with commas between them, for messages.
+[[nodiscard]] std::string joined(const std::vector<std::string>& words);
 
 /// A number for messages: three significant digits with a decimal point, in every locale: "0.0823", "12.5", "1200".
 [[nodiscard]] std::string plainNumber(double value);

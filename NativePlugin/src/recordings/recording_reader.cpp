@@ -1,12 +1,16 @@
 #include "recordings/recording_reader.hpp"
 
+#include "model/header_node.hpp"
+#include "model/plain_text.hpp"
 #include "recordings/force_zero.hpp"
 #include "recordings/plausibility.hpp"
 #include "recordings/recording_sidecar.hpp"
-#include "recordings/tip_motion.hpp"
+#include "recordings/recording_table.hpp"
+#include "recordings/table_rows.hpp"
 #include "recordings/wave_file.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <limits>
 
@@ -18,18 +22,6 @@ namespace fs = std::filesystem;
 constexpr double unknownNumber = std::numeric_limits<double>::quiet_NaN();
 /// A longer step between readings of motion or force is a gap.
 constexpr double longestMotionStepSeconds = 0.25;
-
-[[noreturn]] void fail(const std::string& path, const std::string& found, const std::string& expected) {
-    throw RecordingUnusable(path + ": " + found + "; expected " + expected);
-}
-
-std::string joined(const std::vector<std::string>& words) {
-    std::string text;
-    for (const std::string& word : words) {
-        text += (text.empty() ? "" : ", ") + word;
-    }
-    return text;
-}
 
 void noteUnknown(const std::string& path, const std::vector<std::string>& unknown, std::vector<std::string>& notes) {
     if (!unknown.empty()) {
@@ -334,16 +326,16 @@ MaterialRecording readMaterialRecording(RecordingFiles& files, const fs::path& p
     return Reader(files, path, words).read();
 }
 
-void requireMotionAndForce(const MaterialRecording& recording, const fs::path& path, const std::string& speedOption,
-                           const std::string& forceOption) {
+void requireMotionAndForce(const RecordingDescription& description, const fs::path& path, bool hasMotion, bool hasForce,
+                           const std::string& speedOption, const std::string& forceOption) {
     const auto alternative = [](const std::string& option) { return option.empty() ? option : "; or " + option; };
-    const std::string sidecar = utf8Of(recording.description.sidecar.filename());
-    if (!recording.hasMotion()) {
+    const std::string sidecar = utf8Of(description.sidecar.filename());
+    if (!hasMotion) {
         fail(utf8Of(path), "no motion in it or beside it",
              "columns " + motionForms() + "; or the key speed_mps, velocity_mps or motion in " + sidecar +
                  alternative(speedOption));
     }
-    if (!recording.hasForce()) {
+    if (!hasForce) {
         fail(utf8Of(path), "no force in it or beside it",
              "a column " + forceForms() + "; or the key force_newtons in " + sidecar + alternative(forceOption));
     }
@@ -363,6 +355,24 @@ RecordingDescription describeRecording(RecordingFiles& files, const fs::path& pa
         describeTable("the motion file", *description.motion);
     }
     return description;
+}
+
+std::string materialName(const RecordingDescription& description, const std::filesystem::path& path) {
+    const std::string text = description.label.empty() ? utf8Of(path.stem()) : description.label;
+    const bool isUtf8 = model::isUtf8(text);
+    std::string name;
+    for (const char letter : text) {
+        const auto code = static_cast<unsigned char>(letter);
+        const bool isSpace = letter == '_' || letter == '-' || std::isspace(code) != 0 || std::iscntrl(code) != 0 ||
+                             (code >= 0x80U && !isUtf8);
+        name += isSpace ? ' ' : static_cast<char>(code < 0x80U ? std::tolower(code) : code);
+    }
+    name = trimmed(model::shortened(trimmed(name), model::nameBytes));
+    return name.empty() ? "material" : name;
+}
+
+std::string provenanceOf(const RecordingDescription& description, const std::filesystem::path& path) {
+    return model::printable(utf8Of(path.filename())) + (description.source.empty() ? "" : ", " + description.source);
 }
 
 }  // namespace haptoflow::recordings

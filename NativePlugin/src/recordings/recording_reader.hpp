@@ -78,10 +78,17 @@ struct MaterialRecording {
 
 /// Throws RecordingUnusable that names the columns and keys which can give them if motion or force is unknown.
 /// `speedOption` and `forceOption` are named, too, if they are not empty.
-void requireMotionAndForce(const MaterialRecording& recording, const std::filesystem::path& path,
-                           const std::string& speedOption = "", const std::string& forceOption = "");
+void requireMotionAndForce(const RecordingDescription& description, const std::filesystem::path& path, bool hasMotion,
+                           bool hasForce, const std::string& speedOption = "", const std::string& forceOption = "");
 
 /// Reads what `readMaterialRecording` reads but for the rows.
 [[nodiscard]] RecordingDescription describeRecording(RecordingFiles& files, const std::filesystem::path& path);
+
+/// What a material learnt from one recording is called where nobody names it: the sidecar's label or else the file's
+/// name, in lower case, with blanks for dashes, underscores and control characters.
+[[nodiscard]] std::string materialName(const RecordingDescription& description, const std::filesystem::path& path);
+
+/// What such a material's provenance says of the recording: the file's name and the sidecar's source.
+[[nodiscard]] std::string provenanceOf(const RecordingDescription& description, const std::filesystem::path& path);
 
 }  // namespace haptoflow::recordings

@@ -34,7 +34,7 @@ std::string allKeys() {
 }
 
 [[noreturn]] void fail(const fs::path& file, const std::string& found, const std::string& expected) {
-    throw RecordingUnusable(utf8Of(file) + ": " + found + "; expected " + expected);
+    recordings::fail(utf8Of(file), found, expected);
 }
 
 json documentIn(RecordingFiles& files, const std::string& role, const fs::path& file) {

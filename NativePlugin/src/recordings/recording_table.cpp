@@ -14,7 +14,6 @@ namespace haptoflow::recordings {
 namespace {
 
 constexpr std::string_view timeColumn = "time_s";
-constexpr double gravityMps2 = 9.80665;
 constexpr std::size_t maximumColumns = 256;
 constexpr std::size_t maximumRows = 60'000'000;
 
@@ -45,14 +44,6 @@ const std::vector<ColumnForm>& allMotionForms() {
 const std::vector<ColumnForm>& allForceForms() {
     static const std::vector<ColumnForm> forms{{{"force_newtons"}, 1.0}, {{"force_millinewtons"}, 1e-3}};
     return forms;
-}
-
-std::string joined(const std::vector<std::string>& words) {
-    std::string text;
-    for (const std::string& word : words) {
-        text += (text.empty() ? "" : ", ") + word;
-    }
-    return text;
 }
 
 std::string namesOf(const std::vector<ColumnForm>& forms) {
@@ -139,7 +130,7 @@ public:
 
 private:
     [[noreturn]] void fail(const std::string& found, const std::string& expected) const {
-        throw RecordingUnusable(path_ + ": " + found + "; expected " + expected);
+        recordings::fail(path_, found, expected);
     }
 
     void readHeader() {

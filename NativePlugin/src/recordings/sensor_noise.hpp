@@ -1,8 +1,6 @@
 #pragma once
 
-#include "recordings/frame_motion.hpp"
-#include "recordings/short_time_spectrum.hpp"
-
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string_view>
@@ -30,9 +28,14 @@ struct SensorNoise {
     std::vector<double> power;
 };
 
-/// Finds the noise where the tip rests for 0.2 s or more in all, knocks left out; otherwise in the quiet part
-/// (quiet_part.hpp). A rest that is louder than the quietest sliding is not believed: then the motion is wrong. Throws
-/// RecordingUnusable if the recording is no stronger where the tip slides than where it rests.
-[[nodiscard]] SensorNoise findSensorNoise(const SpectrumCells& power, std::span<const FrameMotion> motion);
+/// Finds the sensor's noise and subtracts its power from the wave's, at every time and frequency, so that level and
+/// spectrum are those of the surface. What is far above the noise is not changed, attacks included; where no noise is
+/// found, no bit is. The power left is at least a hundredth of what was there.
+///
+/// wave: 2 kHz, m/s^2. motion: vx, vy in m/s and force in N for each sample. isUsable: 0 where the wave is unknown; it
+/// is finite there, too. Throws RecordingUnusable if the recording is no stronger where the tip
+/// slides than where it rests.
+SensorNoise removeSensorNoise(std::span<float> wave, std::span<const std::array<float, 3>> motion,
+                              std::span<const std::uint8_t> isUsable);
 
 }  // namespace haptoflow::recordings

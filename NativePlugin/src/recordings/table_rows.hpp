@@ -9,6 +9,11 @@
 
 namespace haptoflow::recordings {
 
+/// The number that the whole text represents, with a decimal point in every locale and an optional plus sign. The minus
+/// may be U+2212, as some languages write it. Empty for any other text, and for numbers too large or too small to
+/// represent.
+[[nodiscard]] std::optional<double> decimalNumber(std::string_view text);
+
 /// A table of text as spreadsheets and instruments write it: its first row names the columns. Home-made: strokes and
 /// recordings need the number of a line for errors, and the build has no CSV library.
 ///

@@ -21,10 +21,6 @@ constexpr unsigned floatTag = 3;
 constexpr unsigned extensibleTag = 0xfffe;
 constexpr std::size_t minimumSamples = 4;
 
-[[noreturn]] void fail(const std::string& name, const std::string& found, const std::string& expected) {
-    throw RecordingUnusable(name + ": " + found + "; expected " + expected);
-}
-
 /// Little-endian, of up to 8 bytes.
 std::uint64_t numberIn(std::string_view bytes) {
     std::uint64_t number = 0;

@@ -58,19 +58,19 @@ namespace HaptoFlow.PreviewTests
                 Active = 1,
             }, CancellationToken.None);
             Assert.That(result.Problem, Is.Null);
-            LearningCurves curves = LearningCurves.Read(learning.Report!)!;
+            LearningReport report = LearningReport.Read(learning.Report!)!;
             foreach ((string file, bool showsCurves) in new[]
                      {
                          ("new-material.png", false), ("new-material-curves.png", true),
                      })
             {
                 using SkiaCanvas picture = WindowPicture.Draw(showsCurves, layout, recording.Label, recording.Licence,
-                    NewMaterialControls.Describe(recording), LearningReportText.Of(learning.Report!),
+                    NewMaterialControls.Describe(recording), report.Sentences,
                     (canvas, palette, box) =>
                     {
                         if (showsCurves)
                         {
-                            LearningPanel.Draw(canvas, palette, box, curves);
+                            LearningPanel.Draw(canvas, palette, box, report.Curves!);
                         }
                         else
                         {

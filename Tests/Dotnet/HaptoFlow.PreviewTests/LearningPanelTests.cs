@@ -11,7 +11,7 @@ namespace HaptoFlow.PreviewTests
         private static SkiaCanvas Panel(Palette palette, Box box, string report, double pixelsPerPoint = 1.0)
         {
             var canvas = new SkiaCanvas(box.Width, box.Height, pixelsPerPoint, palette.Window);
-            LearningPanel.Draw(canvas, palette, canvas.Whole, LearningCurves.Read(report)!);
+            LearningPanel.Draw(canvas, palette, canvas.Whole, LearningReport.Read(report)!.Curves!);
             return canvas;
         }
 
@@ -51,12 +51,12 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void TheSmallestWindowIsLegible([Values] bool dark, [Values(1, 2, 3, 4, 5, 6)] int speeds,
-            [Values(1, 3)] int forces, [Values(0, 2)] int ribs)
+        public void TheSmallestWindowIsLegible(
+            [Values(1, 4, 6)] int speeds, [Values(1, 3)] int forces, [Values(0, 2)] int ribs)
         {
-            using SkiaCanvas canvas = Panel(dark ? Palette.Dark : Palette.Light,
+            using SkiaCanvas canvas = Panel(Palette.Light,
                 new PreviewLayout(0.0, 0.0, PreviewRoom.WithoutStroke).Charts, MadeReports.Of(speeds, forces, ribs));
-            Save($"curves-smallest-{(dark ? "dark" : "light")}-{speeds}-{forces}-{ribs}", canvas);
+            Save($"curves-smallest-{speeds}-{forces}-{ribs}", canvas);
         }
 
         [TestCase("record slower strokes, down to 20 mm/s", "To gain most, record slower strokes, down to 20 mm/s.")]
@@ -72,12 +72,12 @@ namespace HaptoFlow.PreviewTests
         [TestCase("{\"nearest_label\": \"wood\", \"turn_degrees\": 0}")]
         [TestCase("not JSON")]
         public void AReportWithoutCurvesIsNotDrawn(string report) =>
-            Assert.That(LearningCurves.Read(report), Is.Null);
+            Assert.That(LearningReport.Read(report)?.Curves, Is.Null);
 
         [Test]
         public void UnknownFiguresOfAReportAreRead()
         {
-            LearningCurves curves = LearningCurves.Read(MadeReports.Of(2, 1, 1))!;
+            LearningCurves curves = LearningReport.Read(MadeReports.Of(2, 1, 1))!.Curves!;
             Assert.That(curves.Speeds[1].Learnt.RibsDecibels, Is.EqualTo(new double?[] { -6.1, null }));
             Assert.That(curves.Speeds[1].Recorded.Kurtosis, Is.EqualTo(3.4));
             Assert.That(curves.Forces.Single().RecordedMps, Is.EqualTo((0.02, 0.034)));

@@ -86,7 +86,7 @@ namespace HaptoFlow.SampleTests
         }
 
         [TestCase("", "is empty")]
-        [TestCase("time_s,acceleration_mps2\n0,1\n0.001,2\n0.002,1\n0.003,3\n", "speed or force is missing")]
+        [TestCase("time_s,acceleration_mps2\n0,1\n0.001,2\n0.002,1\n0.003,3\n", "no motion in it or beside it")]
         [TestCase("time_s,acceleration\n0,1\n", "expected acceleration")]
         public void AnInvalidRecordingIsReportedAndTheSceneContinues(string text, string message)
         {

@@ -119,7 +119,9 @@ TEST(ArgumentTest, NullPointersAreRefusedByEveryFunction) {
     haptoflow_device_wave* deviceWave = nullptr;
     ASSERT_EQ(haptoflow_device_wave_create(8000.0, &deviceWave), HAPTOFLOW_OK) << message();
     const learning::testing::MadeRecording made({}, {.seconds = 4.0});
-    const haptoflow_learning_options learningOptions = optionsOf(made, open.runtime, open.model);
+    const MadeHandle madeRecording(infoOf(made));
+    const haptoflow_recording_info madeInfo = infoOf(made);
+    const haptoflow_learning_options learningOptions = optionsOf(madeRecording.recording, open.runtime, open.model);
     const std::string plain = HAPTOFLOW_TEST_GOLDEN_DIR "/recordings/files/plain.csv";
     haptoflow_recording_options recordingOptions{};
     recordingOptions.struct_size = sizeof(recordingOptions);
@@ -133,7 +135,8 @@ TEST(ArgumentTest, NullPointersAreRefusedByEveryFunction) {
     haptoflow_learning* learning = nullptr;
     ASSERT_EQ(haptoflow_learn_material(&learningOptions, &learning), HAPTOFLOW_OK) << message();
     const char* learnt = nullptr;
-    ASSERT_EQ(haptoflow_learning_material(learning, &learnt), HAPTOFLOW_OK) << message();
+    const char* report = nullptr;
+    ASSERT_EQ(haptoflow_learning_results(learning, &learnt, &report), HAPTOFLOW_OK) << message();
     haptoflow_material* noMaterial = nullptr;
     haptoflow_material* material = nullptr;
     ASSERT_EQ(haptoflow_material_read(learnt, std::strlen(learnt), &material), HAPTOFLOW_OK) << message();
@@ -298,12 +301,15 @@ TEST(ArgumentTest, NullPointersAreRefusedByEveryFunction) {
         {"haptoflow_recording_read",
          {[&] { return haptoflow_recording_read(nullptr, &noRecording); },
           [&] { return haptoflow_recording_read(&recordingOptions, nullptr); }}},
+        {"haptoflow_recording_create",
+         {[&] { return haptoflow_recording_create(nullptr, &noRecording); },
+          [&] { return haptoflow_recording_create(&madeInfo, nullptr); }}},
         {"haptoflow_recording_get_info",
          {[&] { return haptoflow_recording_get_info(nullptr, &recordingInfo); },
           [&] { return haptoflow_recording_get_info(recording, nullptr); }}},
         {"haptoflow_recording_wave",
-         {[&] { return haptoflow_recording_wave(nullptr, 1, 1, 2000.0, numbers.data(), 1); },
-          [&] { return haptoflow_recording_wave(numbers.data(), 1, 1, 2000.0, nullptr, 1); }}},
+         {[&] { return haptoflow_recording_wave(nullptr, numbers.data(), 1); },
+          [&] { return haptoflow_recording_wave(recording, nullptr, 1); }}},
         {"haptoflow_recording_remove_noise",
          {[&] { return removeNoise(nullptr, numbers.data(), numbers.data(), &noiseSource, &noise); },
           [&] { return removeNoise(numbers.data(), nullptr, numbers.data(), &noiseSource, &noise); },
@@ -314,12 +320,10 @@ TEST(ArgumentTest, NullPointersAreRefusedByEveryFunction) {
          {[&] { return haptoflow_resample(nullptr, 1, 2000.0, numbers.data(), 1, 8000.0); },
           [&] { return haptoflow_resample(numbers.data(), 1, 2000.0, nullptr, 1, 8000.0); }}},
         {"haptoflow_recording_close", {[&] { return haptoflow_recording_close(nullptr); }}},
-        {"haptoflow_learning_material",
-         {[&] { return haptoflow_learning_material(nullptr, &text); },
-          [&] { return haptoflow_learning_material(learning, nullptr); }}},
-        {"haptoflow_learning_report",
-         {[&] { return haptoflow_learning_report(nullptr, &text); },
-          [&] { return haptoflow_learning_report(learning, nullptr); }}},
+        {"haptoflow_learning_results",
+         {[&] { return haptoflow_learning_results(nullptr, &learnt, &report); },
+          [&] { return haptoflow_learning_results(learning, nullptr, &report); },
+          [&] { return haptoflow_learning_results(learning, &learnt, nullptr); }}},
         {"haptoflow_learning_close", {[&] { return haptoflow_learning_close(nullptr); }}},
         {"haptoflow_struct_size",
          {[&] { return haptoflow_struct_size(nullptr, &count); },

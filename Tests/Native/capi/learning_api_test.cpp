@@ -1,4 +1,4 @@
-// Learning through the C interface: a material's text, progress, cancellation, unusable recordings.
+// Recordings and learning through the C interface: handles, defaults, progress, cancellation, refusals.
 #include "inference/gaussian_noise.hpp"
 #include "learning_options.hpp"
 #include "open_engine.hpp"
@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <string>
@@ -19,6 +20,7 @@ namespace haptoflow::capi::testing {
 namespace {
 
 using learning::testing::MadeRecording;
+using ::testing::HasSubstr;
 
 class LearningApiTest : public WithTinyModel {
 protected:
@@ -28,31 +30,43 @@ protected:
         WithTinyModel::TearDown();
     }
 
-    [[nodiscard]] haptoflow_learning_options options() const { return optionsOf(made_, runtime_, model_); }
-
-    [[nodiscard]] std::string materialText() const {
-        const char* json = nullptr;
-        EXPECT_EQ(haptoflow_learning_material(learning_, &json), HAPTOFLOW_OK) << message();
-        return json != nullptr ? json : "";
-    }
+    [[nodiscard]] haptoflow_learning_options options() const { return optionsOf(open_.recording, runtime_, model_); }
 
     MadeRecording made_{{}, {}};
+    MadeHandle open_{infoOf(made_)};
     haptoflow_learning* learning_ = nullptr;
 };
 
-TEST_F(LearningApiTest, ALearntMaterialIsRegisteredBesideTheModelsLabels) {
+TEST_F(LearningApiTest, ALearntMaterialIsRegisteredBesideTheModelsLabelsAndProgressEndsAtOne) {
+    std::vector<double> shares;
     auto given = options();
     given.category = "wood";
     given.licence = "CC BY 4.0";
+    given.progress = [](void* context, double share, const char* doing) {
+        EXPECT_NE(doing, nullptr);
+        static_cast<std::vector<double>*>(context)->push_back(share);
+    };
+    given.progress_context = &shares;
     ASSERT_EQ(haptoflow_learn_material(&given, &learning_), HAPTOFLOW_OK) << message();
-    const std::string text = materialText();
+    ASSERT_GT(shares.size(), 5U);
+    EXPECT_TRUE(std::ranges::is_sorted(shares));
+    EXPECT_DOUBLE_EQ(shares.back(), 1.0);
+
+    const char* text = nullptr;
+    const char* report = nullptr;
+    ASSERT_EQ(haptoflow_learning_results(learning_, &text, &report), HAPTOFLOW_OK) << message();
     const nlohmann::json json = nlohmann::json::parse(text);
-    EXPECT_EQ(json["name"], "made surface");
+    EXPECT_EQ(json["name"], "made surface") << "the recording's own";
     EXPECT_EQ(json["category"], "wood");
     EXPECT_EQ(json["provenance"]["licence"], "CC BY 4.0");
     const char* space = nullptr;
     ASSERT_EQ(haptoflow_model_space(model_, &space), HAPTOFLOW_OK);
     EXPECT_EQ(json["space"], space);
+    const nlohmann::json figures = nlohmann::json::parse(report);
+    EXPECT_TRUE(figures.contains("nearest_label"));
+    uint32_t tiers = 0;
+    EXPECT_EQ(haptoflow_model_tier_count(model_, &tiers), HAPTOFLOW_OK);
+    EXPECT_EQ(figures.at("other_tiers").size(), tiers - 1U);
 
     haptoflow_engine_options engineOptions{};
     engineOptions.struct_size = sizeof(engineOptions);
@@ -63,45 +77,11 @@ TEST_F(LearningApiTest, ALearntMaterialIsRegisteredBesideTheModelsLabels) {
     haptoflow_engine* engine = nullptr;
     ASSERT_EQ(haptoflow_engine_create(&engineOptions, &engine), HAPTOFLOW_OK) << message();
     uint32_t index = 0;
-    EXPECT_EQ(haptoflow_engine_register_material(engine, text.data(), text.size(), &index), HAPTOFLOW_OK) << message();
+    EXPECT_EQ(haptoflow_engine_register_material(engine, text, std::strlen(text), &index), HAPTOFLOW_OK) << message();
     uint32_t labels = 0;
     EXPECT_EQ(haptoflow_model_label_count(model_, &labels), HAPTOFLOW_OK);
     EXPECT_EQ(index, labels);
     EXPECT_EQ(haptoflow_engine_close(&engine), HAPTOFLOW_OK);
-
-    const char* report = nullptr;
-    ASSERT_EQ(haptoflow_learning_report(learning_, &report), HAPTOFLOW_OK) << message();
-    const nlohmann::json figures = nlohmann::json::parse(report);
-    EXPECT_TRUE(figures.contains("nearest_label"));
-    EXPECT_TRUE(figures.contains("start_label"));
-    uint32_t tiers = 0;
-    EXPECT_EQ(haptoflow_model_tier_count(model_, &tiers), HAPTOFLOW_OK);
-    EXPECT_EQ(figures.at("other_tiers").size(), tiers - 1U);
-    EXPECT_GT(figures["segments"].get<int>(), 1000);
-    EXPECT_FALSE(figures["stopped_early"].get<bool>());
-}
-
-TEST_F(LearningApiTest, EqualOptionsGiveEqualBytes) {
-    const auto given = options();
-    ASSERT_EQ(haptoflow_learn_material(&given, &learning_), HAPTOFLOW_OK) << message();
-    const std::string first = materialText();
-    ASSERT_EQ(haptoflow_learning_close(&learning_), HAPTOFLOW_OK);
-    ASSERT_EQ(haptoflow_learn_material(&given, &learning_), HAPTOFLOW_OK) << message();
-    EXPECT_EQ(materialText(), first);
-}
-
-TEST_F(LearningApiTest, ProgressRisesAndEndsAtOne) {
-    std::vector<double> shares;
-    auto given = options();
-    given.progress = [](void* context, double share, const char* doing) {
-        EXPECT_NE(doing, nullptr);
-        static_cast<std::vector<double>*>(context)->push_back(share);
-    };
-    given.progress_context = &shares;
-    ASSERT_EQ(haptoflow_learn_material(&given, &learning_), HAPTOFLOW_OK) << message();
-    ASSERT_GT(shares.size(), 5U);
-    EXPECT_TRUE(std::ranges::is_sorted(shares));
-    EXPECT_DOUBLE_EQ(shares.back(), 1.0);
 }
 
 TEST_F(LearningApiTest, ACancellationEndsLearningAndLeavesTheOutputUnchanged) {
@@ -120,60 +100,96 @@ TEST_F(LearningApiTest, ACancellationEndsLearningAndLeavesTheOutputUnchanged) {
     EXPECT_EQ(haptoflow_cancellation_close(&cancellation), HAPTOFLOW_OK);
 }
 
-TEST_F(LearningApiTest, AnUnusableRecordingIsReported) {
-    auto given = options();
-    given.sample_count = 4000;
+TEST_F(LearningApiTest, ARecordingWithoutMotionNeedsTheCallersSpeedAndForce) {
+    haptoflow_recording_options reading{};
+    reading.struct_size = sizeof(reading);
+    reading.path = HAPTOFLOW_TEST_GOLDEN_DIR "/recordings/files/no_motion.csv";
+    haptoflow_recording* recording = nullptr;
+    ASSERT_EQ(haptoflow_recording_read(&reading, &recording), HAPTOFLOW_OK) << message();
+    auto given = optionsOf(recording, runtime_, model_);
     EXPECT_EQ(haptoflow_learn_material(&given, &learning_), HAPTOFLOW_RECORDING_UNUSABLE);
-    EXPECT_THAT(message(), ::testing::HasSubstr("lasts 1 s"));
-    EXPECT_STREQ(haptoflow_status_name(HAPTOFLOW_RECORDING_UNUSABLE), "HAPTOFLOW_RECORDING_UNUSABLE");
+    EXPECT_THAT(message(), HasSubstr("no_motion.csv: no motion in it or beside it"));
+    given.speed_mps = 0.08;
+    EXPECT_EQ(haptoflow_learn_material(&given, &learning_), HAPTOFLOW_RECORDING_UNUSABLE);
+    EXPECT_THAT(message(), HasSubstr("no_motion.csv: no force in it or beside it"));
+    given.force_newtons = 1.0;
+    EXPECT_EQ(haptoflow_learn_material(&given, &learning_), HAPTOFLOW_RECORDING_UNUSABLE);
+    EXPECT_THAT(message(), HasSubstr("lasts 0.5 s")) << "nothing but the length is wrong";
+    EXPECT_EQ(haptoflow_recording_close(&recording), HAPTOFLOW_OK);
 }
 
-TEST_F(LearningApiTest, ArgumentsOutOfRangeAreRefusedByName) {
-    const auto expectRefused = [&](const haptoflow_learning_options& given, const std::string& named) {
-        EXPECT_EQ(haptoflow_learn_material(&given, &learning_), HAPTOFLOW_INVALID_ARGUMENT) << named;
-        EXPECT_THAT(message(), ::testing::HasSubstr(named));
-    };
-    auto given = options();
-    given.axis_count = 2;
-    expectRefused(given, "axis_count");
-    given = options();
-    given.acceleration_mps2 = nullptr;
-    expectRefused(given, "acceleration_mps2");
-    given = options();
-    given.name = nullptr;
-    expectRefused(given, "name");
-    given = options();
-    given.name = "Denim";
-    expectRefused(given, "Denim");
-    given = options();
-    given.sample_rate_hz = 500.0;
-    expectRefused(given, "500 Hz");
-    given = options();
-    given.seconds_limit = -1.0;
-    expectRefused(given, "seconds_limit");
-    given = options();
-    given.tier = "none";
-    expectRefused(given, "none");
-    given = options();
-    given.sample_count = ~uint64_t{0};
-    expectRefused(given, "sample_count");
+TEST_F(LearningApiTest, OptionsOutOfRangeAreRefusedByName) {
     const std::array<float, 4> wild{1000.0F, 0.0F, 0.0F, 0.0F};
-    given = options();
-    given.wave_vectors = wild.data();
-    expectRefused(given, "wave_vectors");
-    given = options();
-    given.runtime = nullptr;
-    EXPECT_EQ(haptoflow_learn_material(&given, &learning_), HAPTOFLOW_INVALID_ARGUMENT);
-    EXPECT_EQ(haptoflow_learn_material(nullptr, &learning_), HAPTOFLOW_INVALID_ARGUMENT);
-    given = options();
-    EXPECT_EQ(haptoflow_learn_material(&given, nullptr), HAPTOFLOW_INVALID_ARGUMENT);
-    const char* json = nullptr;
-    EXPECT_EQ(haptoflow_learning_material(nullptr, &json), HAPTOFLOW_INVALID_ARGUMENT);
-    EXPECT_EQ(haptoflow_learning_report(nullptr, &json), HAPTOFLOW_INVALID_ARGUMENT);
-    EXPECT_EQ(haptoflow_learning_close(nullptr), HAPTOFLOW_INVALID_ARGUMENT);
+    using Change = std::function<void(haptoflow_learning_options&)>;
+    const std::vector<std::pair<Change, const char*>> cases{
+        {[](auto& given) { given.recording = nullptr; }, "recording"},
+        {[](auto& given) { given.runtime = nullptr; }, ""},
+        {[](auto& given) { given.name = "Denim"; }, "Denim"},
+        {[](auto& given) { given.seconds_limit = -1.0; }, "seconds_limit"},
+        {[](auto& given) { given.tier = "none"; }, "none"},
+        {[&](auto& given) { given.wave_vectors = wild.data(); }, "wave_vectors"},
+    };
+    for (const auto& [change, named] : cases) {
+        auto given = options();
+        change(given);
+        EXPECT_EQ(haptoflow_learn_material(&given, &learning_), HAPTOFLOW_INVALID_ARGUMENT) << named;
+        EXPECT_THAT(message(), HasSubstr(named));
+    }
 }
 
-TEST(RecordingWaveTest, AToneOnOneOfThreeAxesKeepsItsWaveWithoutGravity) {
+TEST_F(LearningApiTest, SamplesOutOfRangeAreRefusedByName) {
+    using Change = std::function<void(haptoflow_recording_info&)>;
+    const std::vector<std::pair<Change, const char*>> cases{
+        {[](auto& info) { info.axis_count = 2; }, "2 axes"},
+        {[](auto& info) { info.acceleration_mps2 = nullptr; }, "acceleration_mps2"},
+        {[](auto& info) { info.sample_rate_hz = 500.0; }, "500 Hz"},
+        {[](auto& info) { info.sample_count = ~uint64_t{0}; }, "sample_count"},
+        {[](auto& info) {
+             info.force_newtons = nullptr;
+             info.constant_force_newtons = -1.0;
+         },
+         "-1 N"},
+    };
+    for (const auto& [change, named] : cases) {
+        haptoflow_recording_info info = infoOf(made_);
+        change(info);
+        haptoflow_recording* recording = nullptr;
+        EXPECT_EQ(haptoflow_recording_create(&info, &recording), HAPTOFLOW_INVALID_ARGUMENT) << named;
+        EXPECT_THAT(message(), HasSubstr(named));
+    }
+    std::array<float, 8> numbers{};
+    EXPECT_EQ(haptoflow_resample(numbers.data(), 2, 2000.0, numbers.data(), 8, 1e9), HAPTOFLOW_INVALID_ARGUMENT);
+    EXPECT_THAT(message(), HasSubstr("expected 1000 to 192000 Hz"));
+}
+
+TEST(RecordingApiTest, ARecordingOfSamplesKeepsThemAndItsTexts) {
+    const std::array<float, 4> wave{1.0F, 2.0F, 3.0F, 4.0F};
+    const std::array<float, 8> velocity{0.1F, 0.0F, 0.1F, 0.0F, 0.1F, 0.0F, 0.1F, 0.0F};
+    haptoflow_recording_info given{};
+    given.struct_size = sizeof(given);
+    given.axis_count = 1;
+    given.sample_rate_hz = 2000.0;
+    given.sample_count = wave.size();
+    given.acceleration_mps2 = wave.data();
+    given.velocity_mps = velocity.data();
+    given.constant_force_newtons = 1.5;
+    given.label = "felt";
+    given.licence = "CC0";
+    given.provenance = "our hall";
+    const MadeHandle open(given);
+    haptoflow_recording_info info{};
+    info.struct_size = sizeof(info);
+    ASSERT_EQ(haptoflow_recording_get_info(open.recording, &info), HAPTOFLOW_OK) << message();
+    EXPECT_EQ(info.sample_count, 4U);
+    EXPECT_EQ(info.acceleration_mps2[3], 4.0F);
+    EXPECT_EQ(info.velocity_mps[6], 0.1F);
+    EXPECT_TRUE(std::isnan(info.constant_velocity_mps[0]));
+    EXPECT_EQ(info.force_newtons, nullptr);
+    EXPECT_EQ(info.constant_force_newtons, 1.5);
+    EXPECT_EQ(std::string(info.label) + info.licence + info.provenance + info.material_name, "feltCC0our hall");
+}
+
+TEST(RecordingApiTest, TheWaveIsOneAxisWithoutGravityAndSilentBeyondTheEnd) {
     constexpr double inputHz = 4000.0;
     constexpr double waveHz = 2000.0;
     constexpr std::size_t samples = 4000;
@@ -183,67 +199,49 @@ TEST(RecordingWaveTest, AToneOnOneOfThreeAxesKeepsItsWaveWithoutGravity) {
         recorded[3 * i + 1] = static_cast<float>(tone(static_cast<double>(i) / inputHz));
         recorded[3 * i + 2] = 9.81F;
     }
+    haptoflow_recording_info given{};
+    given.struct_size = sizeof(given);
+    given.axis_count = 3;
+    given.sample_rate_hz = inputHz;
+    given.sample_count = samples;
+    given.acceleration_mps2 = recorded.data();
+    const MadeHandle open(given);
     std::vector<float> wave(2100, 1.0F);
-    ASSERT_EQ(haptoflow_recording_wave(recorded.data(), samples, 3, inputHz, wave.data(), wave.size()), HAPTOFLOW_OK)
-        << message();
+    ASSERT_EQ(haptoflow_recording_wave(open.recording, wave.data(), wave.size()), HAPTOFLOW_OK) << message();
     for (std::size_t i = 500; i < 1500; i += 7) {
         EXPECT_NEAR(wave[i], tone(static_cast<double>(i) / waveHz), 0.05) << i;
     }
     EXPECT_EQ(wave.back(), 0.0F) << "beyond the recording's end";
 }
 
-struct RecordedNoise {
-    static constexpr std::size_t samples = 8000;
-    std::vector<float> wave = std::vector<float>(samples);
-    std::vector<float> velocity = std::vector<float>(2 * samples);
-    std::vector<float> force = std::vector<float>(samples, 1.0F);
-    haptoflow_noise_source source = HAPTOFLOW_NOISE_QUIET_PART;
-    double noiseMps2 = 0.0;
-
-    /// At rest in the first half, sliding in the second.
-    explicit RecordedNoise(float slidingGain) {
+TEST(RecordingApiTest, TheNoiseAtRestIsRemovedAndToldAndNothingButNoiseRefused) {
+    constexpr std::size_t samples = 8000;
+    for (const float slidingGain : {10.0F, 1.0F}) {
+        std::vector<float> wave(samples);
+        std::vector<float> velocity(2 * samples);
+        const std::vector<float> force(samples, 1.0F);
         inference::fillStandardNormal({.seed = 5, .voice = 0, .segment = 0}, wave);
         for (std::size_t i = 0; i < samples; ++i) {
             const bool slides = i >= samples / 2;
             wave[i] *= slides ? 0.04F * slidingGain : 0.04F;
             velocity[2 * i] = slides ? 0.1F : 0.0F;
         }
+        wave[1000] = std::numeric_limits<float>::quiet_NaN();
+        haptoflow_noise_source source = HAPTOFLOW_NOISE_QUIET_PART;
+        double noiseMps2 = 0.0;
+        const haptoflow_status status = haptoflow_recording_remove_noise(wave.data(), velocity.data(), force.data(),
+                                                                         wave.size(), &source, &noiseMps2);
+        if (slidingGain == 1.0F) {
+            EXPECT_EQ(status, HAPTOFLOW_RECORDING_UNUSABLE);
+            EXPECT_THAT(message(), HasSubstr("no stronger where the tip slides"));
+            continue;
+        }
+        ASSERT_EQ(status, HAPTOFLOW_OK) << message();
+        EXPECT_EQ(source, HAPTOFLOW_NOISE_REST);
+        EXPECT_NEAR(noiseMps2, 0.04, 0.003);
+        EXPECT_TRUE(std::isnan(wave[1000])) << "the mark between two recordings stays";
+        EXPECT_LT(std::abs(wave[2500]), 0.04F);
     }
-
-    haptoflow_status remove() {
-        return haptoflow_recording_remove_noise(wave.data(), velocity.data(), force.data(), wave.size(), &source,
-                                                &noiseMps2);
-    }
-};
-
-TEST(RecordingNoiseTest, TheNoiseAtRestIsRemovedAndTold) {
-    RecordedNoise recorded(10.0F);
-    recorded.wave[1000] = std::numeric_limits<float>::quiet_NaN();
-    ASSERT_EQ(recorded.remove(), HAPTOFLOW_OK) << message();
-    EXPECT_EQ(recorded.source, HAPTOFLOW_NOISE_REST);
-    EXPECT_NEAR(recorded.noiseMps2, 0.04, 0.003);
-    EXPECT_TRUE(std::isnan(recorded.wave[1000])) << "the mark between two recordings stays";
-    double squares = 0.0;
-    for (std::size_t i = 2000; i < 3500; ++i) {
-        squares += static_cast<double>(recorded.wave[i]) * recorded.wave[i] / 1500.0;
-    }
-    EXPECT_LT(std::sqrt(squares), 0.012);
-}
-
-TEST(RecordingNoiseTest, ARecordingOfNothingElseIsRefused) {
-    RecordedNoise recorded(1.0F);
-    EXPECT_EQ(recorded.remove(), HAPTOFLOW_RECORDING_UNUSABLE);
-    EXPECT_THAT(message(), ::testing::HasSubstr("no stronger where the tip slides"));
-}
-
-TEST(RecordingWaveTest, AnotherNumberOfAxesAndUnknownRatesAreRefusedByName) {
-    std::array<float, 8> numbers{};
-    EXPECT_EQ(haptoflow_recording_wave(numbers.data(), 2, 2, 2000.0, numbers.data(), 8), HAPTOFLOW_INVALID_ARGUMENT);
-    EXPECT_THAT(message(), ::testing::HasSubstr("2 axes"));
-    EXPECT_EQ(haptoflow_recording_wave(numbers.data(), 2, 1, 999.0, numbers.data(), 8), HAPTOFLOW_INVALID_ARGUMENT);
-    EXPECT_THAT(message(), ::testing::HasSubstr("rate is 999 Hz"));
-    EXPECT_EQ(haptoflow_resample(numbers.data(), 2, 2000.0, numbers.data(), 8, 1e9), HAPTOFLOW_INVALID_ARGUMENT);
-    EXPECT_THAT(message(), ::testing::HasSubstr("expected 1000 to 192000 Hz"));
 }
 
 }  // namespace

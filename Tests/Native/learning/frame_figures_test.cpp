@@ -1,6 +1,6 @@
 #include "learning/frame_figures.hpp"
 
-#include "learning/force_comparison.hpp"
+#include "learning/comparison.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,17 +1,131 @@
+#include "learning/learner.hpp"
 #include "learning/made_recording.hpp"
+#include "learning/sliding.hpp"
 #include "recordings/dft321.hpp"
 #include "recordings/prepared_recording.hpp"
-#include "recordings/resampling.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
+#include <vector>
 
 namespace haptoflow::learning {
 namespace {
+
+using ::testing::HasSubstr;
+using testing::MadeRecording;
+using ::testing::ThrowsMessage;
+
+model::ModelHeader header() {
+    model::ModelHeader result;
+    result.speedMps.maximum = 1.5;
+    result.forceNewtons.maximum = 5.0;
+    return result;
+}
+
+void prepareAndFind(const recordings::Recording& recording) {
+    recordings::checkRecording(recording);
+    (void)findSliding(recordings::prepareRecording(recording), header());
+}
+
+struct Unusable {
+    const char* what;
+    std::function<void(MadeRecording&)> spoil;
+    const char* said;
+};
+
+TEST(RecordingCheckTest, AUsableRecordingIsAcceptedAndEachDefectIsNamedWithItsRemedy) {
+    const auto constant = [](double speed) {
+        return [speed](MadeRecording& made) {
+            made.velocity.clear();
+            made.constantVelocity = {speed, 0.0};
+        };
+    };
+    const auto constantForce = [](double force) {
+        return [force](MadeRecording& made) {
+            made.force.clear();
+            made.constantForce = force;
+        };
+    };
+    const std::vector<Unusable> cases{
+        {"a second and a half", [](MadeRecording& made) { made = MadeRecording({}, {.seconds = 1.5}); },
+         "lasts 1.5 s; record 10 s or more of sliding"},
+        {"a sensor that never changes", [](MadeRecording& made) { std::ranges::fill(made.acceleration, 9.8F); },
+         "never changes"},
+        {"clipped",
+         [](MadeRecording& made) {
+             std::ranges::transform(made.acceleration, made.acceleration.begin(),
+                                    [](float value) { return std::clamp(value, -2.0F, 2.0F); });
+         },
+         "is clipped"},
+        {"mostly not finite",
+         [](MadeRecording& made) {
+             std::fill_n(made.acceleration.begin(), made.acceleration.size() * 3 / 5,
+                         std::numeric_limits<float>::quiet_NaN());
+         },
+         "is not finite in 60 %"},
+        {"at rest", constant(0.001), "the tip never moves"},
+        {"mm/s",
+         [](MadeRecording& made) {
+             std::ranges::transform(made.velocity, made.velocity.begin(), [](float value) { return 1000.0F * value; });
+         },
+         "is it in mm/s?"},
+        {"a speed beyond the model", constant(2.0), "the model was trained up to 1.5 m/s"},
+        {"no force", constantForce(0.0), "give the force"},
+        {"millinewtons", constantForce(900.0), "millinewtons?"},
+    };
+    const MadeRecording usable({}, {});
+    EXPECT_NO_THROW(prepareAndFind(usable.view()));
+    for (const Unusable& each : cases) {
+        MadeRecording made = usable;
+        each.spoil(made);
+        EXPECT_THAT([&] { prepareAndFind(made.view()); },
+                    ThrowsMessage<recordings::RecordingUnusable>(HasSubstr(each.said)))
+            << each.what;
+    }
+}
+
+TEST(RecordingCheckTest, APauseOfAMinuteBetweenTwoPartsIsNoDamage) {
+    const MadeRecording made({}, {});
+    const auto pause = static_cast<std::ptrdiff_t>(60.0 * made.view().rateHz);
+    const auto middle = static_cast<std::ptrdiff_t>(made.acceleration.size() / 2);
+    MadeRecording paused = made;
+    constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
+    paused.acceleration.insert(paused.acceleration.begin() + middle, pause, unknown);
+    paused.velocity.insert(paused.velocity.begin() + 2 * middle, 2 * pause, unknown);
+    paused.force.insert(paused.force.begin() + middle, pause, unknown);
+    EXPECT_NO_THROW(prepareAndFind(paused.view()));
+    const Sliding whole = findSliding(recordings::prepareRecording(made.view()), header());
+    const Sliding parts = findSliding(recordings::prepareRecording(paused.view()), header());
+    EXPECT_NEAR(parts.seconds, whole.seconds, 0.3);
+    // Between the parts of damage there is no pause.
+    for (std::size_t i = 0; i < paused.acceleration.size(); ++i) {
+        paused.acceleration[i] = i % 5 < 3 ? unknown : paused.acceleration[i];
+    }
+    EXPECT_THAT([&] { prepareAndFind(paused.view()); },
+                ThrowsMessage<recordings::RecordingUnusable>(HasSubstr("is not finite in 60")));
+}
+
+TEST(RecordingCheckTest, SizesAndRatesThatDoNotFitAreInvalidArguments) {
+    const MadeRecording made({}, {});
+    recordings::Recording recording = made.view();
+    recording.axisCount = 2;
+    EXPECT_THROW(recordings::checkRecording(recording), std::invalid_argument);
+    recording = made.view();
+    recording.rateHz = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_THROW(recordings::checkRecording(recording), std::invalid_argument);
+    recording = made.view();
+    recording.velocityMps = recording.velocityMps.first(10);
+    EXPECT_THROW(recordings::checkRecording(recording), std::invalid_argument);
+    recording = made.view();
+    recording.forceNewtons = recording.forceNewtons.first(10);
+    EXPECT_THROW(recordings::checkRecording(recording), std::invalid_argument);
+}
 
 using testing::MadeRecording;
 

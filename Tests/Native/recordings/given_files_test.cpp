@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <map>
 #include <span>
@@ -66,9 +67,16 @@ TEST(RecordingWords, FillWhatTheFilesDoNotGive) {
     const MaterialRecording recording = readMaterialRecording(files, "mat.csv", {.speedMps = 0.5, .forceNewtons = 1.5});
     EXPECT_FLOAT_EQ(recording.velocityMps[10], 0.2F) << "the file's own motion counts";
     EXPECT_EQ(recording.constantForceNewtons, 1.5);
-    EXPECT_NO_THROW(requireMotionAndForce(recording, "mat.csv"));
+    const std::map<std::string, std::string> constants{
+        {"mat.csv", tableOf(500)},
+        {"recordings.json", R"({"velocity_mps": [0.0, 0.1], "force_newtons": 0.5})"},
+        {"mat.json", R"({"speed_mps": 0.2})"}};
+    GivenFiles sidecars = given(constants);
+    const MaterialRecording constant = readMaterialRecording(sidecars, "mat.csv", {.forceNewtons = 1.5});
+    EXPECT_EQ(constant.constantVelocityMps, (std::array{0.2, 0.0})) << "the sidecar replaces the folder's defaults";
+    EXPECT_EQ(constant.constantForceNewtons, 1.5) << "and the words replace both";
     const MaterialRecording alone = readMaterialRecording(files, "mat.csv", {});
-    EXPECT_THAT([&] { requireMotionAndForce(alone, "mat.csv"); },
+    EXPECT_THAT([&] { requireMotionAndForce(alone.description, "mat.csv", alone.hasMotion(), alone.hasForce()); },
                 ::testing::ThrowsMessage<RecordingUnusable>(HasSubstr("no force in it or beside it")));
 }
 

@@ -10,24 +10,25 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from haptoflow_training.native_library import NativeModel, native_library, native_runtime, options_of
 from haptoflow_training.recordings.material_recording import MaterialRecording
-from haptoflow_training.recordings.native_recording import EvenRecording
+from haptoflow_training.recordings.native_recording import EvenRecording, as_native
 from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
 DEFAULT_SECONDS_LIMIT = 20.0
 # Samples left out between two recordings, so that the step from one to the next is not learnt.
 _GAP_SAMPLES = 20
 _Progress = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_double, ctypes.c_char_p)
-_FLOATS = ctypes.POINTER(ctypes.c_float)
 
 
 class _Options(ctypes.Structure):
     _fields_ = [
         ("struct_size", ctypes.c_uint32),
-        ("axis_count", ctypes.c_uint32),
+        ("reserved", ctypes.c_uint32),
+        ("recording", ctypes.c_void_p),
+        ("speed_mps", ctypes.c_double),
+        ("force_newtons", ctypes.c_double),
         ("runtime", ctypes.c_void_p),
         ("model", ctypes.c_void_p),
         ("tier", ctypes.c_char_p),
@@ -35,20 +36,12 @@ class _Options(ctypes.Structure):
         ("category", ctypes.c_char_p),
         ("description", ctypes.c_char_p),
         ("licence", ctypes.c_char_p),
-        ("acceleration_mps2", _FLOATS),
-        ("sample_count", ctypes.c_uint64),
-        ("sample_rate_hz", ctypes.c_double),
-        ("velocity_mps", _FLOATS),
-        ("constant_velocity_mps", ctypes.c_double * 2),
-        ("force_newtons", _FLOATS),
-        ("constant_force_newtons", ctypes.c_double),
         ("seed", ctypes.c_uint64),
         ("seconds_limit", ctypes.c_double),
         ("progress", _Progress),
         ("progress_context", ctypes.c_void_p),
         ("cancellation", ctypes.c_void_p),
-        ("wave_vectors", _FLOATS),
-        ("recordings", ctypes.c_char_p),
+        ("wave_vectors", ctypes.POINTER(ctypes.c_float)),
         ("label", ctypes.c_char_p),
     ]
 
@@ -66,7 +59,7 @@ class MaterialWords:
 
 @dataclass(frozen=True)
 class LearntMaterial:
-    """text: of the material file. report: as haptoflow_learning_report has it."""
+    """text: of the material file. report: as haptoflow_learning_results has it."""
 
     text: str
     report: dict[str, Any]
@@ -106,50 +99,30 @@ def learn_material(
     material keeps, in the recording's own frame; only level and tone are fitted. progress: receives the completed share and the step.
     """
     library = native_library()
-    kept: list[NDArray[np.float32]] = []
-
-    def pointer(values: NDArray[np.floating] | None) -> Any:
-        if values is None:
-            return None
-        kept.append(np.ascontiguousarray(values, dtype=np.float32))
-        return kept[-1].ctypes.data_as(_FLOATS)
-
     numbers = None
     if wave_vectors_per_mm is not None:
-        numbers = np.zeros(4)
-        numbers[: 2 * len(wave_vectors_per_mm)] = np.array(wave_vectors_per_mm).reshape(-1)
-    with NativeModel(library, model) as opened:
+        numbers = (ctypes.c_float * 4)(*(number for vector in wave_vectors_per_mm for number in vector))
+    with NativeModel(library, model) as opened, as_native(recording, words.recordings) as samples:
         options = options_of(
             _Options,
-            axis_count=recording.acceleration_mps2.shape[1],
+            recording=samples,
             runtime=native_runtime(),
             model=opened.handle,
             name=words.name.encode(),
             category=words.category.encode(),
             description=words.description.encode(),
             licence=words.licence.encode(),
-            acceleration_mps2=pointer(recording.acceleration_mps2),
-            sample_count=len(recording.acceleration_mps2),
-            sample_rate_hz=recording.rate_hz,
-            velocity_mps=pointer(recording.velocity_mps),
-            constant_velocity_mps=(ctypes.c_double * 2)(*recording.constant_velocity_mps),
-            force_newtons=pointer(recording.force_newtons),
-            constant_force_newtons=recording.constant_force_newtons,
             seed=seed,
             seconds_limit=seconds_limit,
             progress=_Progress(lambda _, share, doing: progress(share, doing.decode())),
-            wave_vectors=pointer(numbers),
-            recordings=words.recordings.encode(),
+            wave_vectors=numbers,
             label=None if label is None else label.encode(),
         )
         learning = ctypes.c_void_p()
         library.call("haptoflow_learn_material", ctypes.byref(options), ctypes.byref(learning))
         try:
-            texts = []
-            for function in ("haptoflow_learning_material", "haptoflow_learning_report"):
-                text = ctypes.c_char_p()
-                library.call(function, learning, ctypes.byref(text))
-                texts.append((text.value or b"").decode())
-            return LearntMaterial(texts[0], json.loads(texts[1]))
+            text, report = ctypes.c_char_p(), ctypes.c_char_p()
+            library.call("haptoflow_learning_results", learning, ctypes.byref(text), ctypes.byref(report))
+            return LearntMaterial((text.value or b"").decode(), json.loads(report.value or b""))
         finally:
             library.call("haptoflow_learning_close", ctypes.byref(learning))

@@ -4,6 +4,9 @@ Every frame keeps the energy of all axes, |Y|^2 = |X1|^2 + |X2|^2 + |X3|^2, and 
 overlap by half and are weighted by a root-Hann window before and after the transform, so that the weights add up to one
 and a single moving axis comes back unchanged. Where axes cancel, the phases of neighbouring frames disagree and
 overlap-add loses up to 1 dB; `restore_band_energies` restores it for each third octave, over the whole recording.
+
+The library's own (recordings/dft321.cpp) combines axes that are at 2 kHz already; training has irregular times, and
+combines at the rate of its spline before it decimates. test_dft321.py holds the two together.
 """
 
 from __future__ import annotations

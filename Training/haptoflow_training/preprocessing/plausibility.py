@@ -1,4 +1,8 @@
-"""Finds implausible recordings: wrong units, glitches, a dead sensor."""
+"""Finds implausible recordings: wrong units, glitches, a dead sensor.
+
+The library checks a user's own file, in the units that its columns name; here are recordings of a data set, in g and mm,
+against the speed and the force that their names state.
+"""
 
 from __future__ import annotations
 

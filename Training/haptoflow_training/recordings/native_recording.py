@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import ctypes
 import os
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -141,6 +142,34 @@ def read_native(
         info = options_of(_Info)
         library.call("haptoflow_recording_get_info", handle, ctypes.byref(info))
         return _copied(info)
+    finally:
+        library.call("haptoflow_recording_close", ctypes.byref(handle))
+
+
+@contextmanager
+def as_native(recording: EvenRecording, provenance: str = "") -> Iterator[ctypes.c_void_p]:
+    """A handle of the library for samples, which it copies. provenance: of a material that is learnt from them."""
+    floats = ctypes.POINTER(ctypes.c_float)
+    given = [recording.acceleration_mps2, recording.velocity_mps, recording.force_newtons]
+    arrays = [None if each is None else np.ascontiguousarray(each, np.float32) for each in given]
+    acceleration, velocity, force = (None if each is None else each.ctypes.data_as(floats) for each in arrays)
+    info = options_of(
+        _Info,
+        axis_count=recording.acceleration_mps2.shape[1],
+        sample_rate_hz=recording.rate_hz,
+        sample_count=len(recording.acceleration_mps2),
+        acceleration_mps2=acceleration,
+        velocity_mps=velocity,
+        force_newtons=force,
+        constant_velocity_mps=(ctypes.c_double * 2)(*recording.constant_velocity_mps),
+        constant_force_newtons=recording.constant_force_newtons,
+        provenance=provenance.encode(),
+    )
+    library = native_library()
+    handle = ctypes.c_void_p()
+    library.call("haptoflow_recording_create", ctypes.byref(info), ctypes.byref(handle))
+    try:
+        yield handle
     finally:
         library.call("haptoflow_recording_close", ctypes.byref(handle))
 

@@ -423,7 +423,7 @@ export interface LearntMaterial {
   readonly name: string;
   /** Text of a .haptomaterial file, for `addMaterial` and for download. */
   readonly material: string;
-  /** Results (haptoflow_learning_report): start_label, fitted_distance_db, warnings, record_next and more. */
+  /** Results (haptoflow_learning_results): start_label, fitted_distance_db, warnings, record_next and more. */
   readonly report: Readonly<Record<string, unknown>>;
   /** What was ignored or corrected in the recording. */
   readonly notes: readonly string[];

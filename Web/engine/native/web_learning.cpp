@@ -2,9 +2,6 @@
 #include "web_imports.hpp"
 #include "web_text.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
 #include <memory>
 #include <string>
 #include <vector>
@@ -30,35 +27,8 @@ const char* textOrNull(const json& options, const char* key) {
     return found->get_ref<const std::string&>().c_str();
 }
 
-haptoflow_learning_options learningOptions(const json& options) {
-    haptoflow_learning_options given{};
-    given.struct_size = sizeof(given);
-    given.runtime = theRuntime();
-    given.model = theModel();
-    given.tier = textOrNull(options, "quality");
-    given.name = textOrNull(options, "name");
-    given.category = textOrNull(options, "category");
-    given.description = textOrNull(options, "description");
-    given.licence = textOrNull(options, "licence");
-    given.seed = options.at("seed").get<uint64_t>();
-    given.seconds_limit = options.at("secondsLimit").get<double>();
-    given.progress = [](void* /*context*/, double share, const char* doing) { hapto_progress(share, doing); };
-    return given;
-}
-
-std::string learn(const haptoflow_learning_options& options, const std::string& notes) {
-    haptoflow_learning* opened = nullptr;
-    require(haptoflow_learn_material(&options, &opened));
-    const std::unique_ptr<haptoflow_learning, CloseLearning> learning(opened);
-    const char* material = nullptr;
-    const char* report = nullptr;
-    require(haptoflow_learning_material(learning.get(), &material));
-    require(haptoflow_learning_report(learning.get(), &report));
-    return dumped({{"name", options.name}, {"material", material}, {"report", json::parse(report)}, {"notes", notes}});
-}
-
 /// `files`: their names, and for each the address and number of its bytes.
-std::string learnFromFiles(const json& options) {
+haptoflow_recording* readFiles(const json& options) {
     std::vector<haptoflow_recording_file> files;
     for (const json& file : options.at("files")) {
         files.push_back({file.at("name").get_ref<const std::string&>().c_str(),
@@ -75,60 +45,68 @@ std::string learnFromFiles(const json& options) {
     reading.file_count = static_cast<uint32_t>(files.size());
     reading.path = files.front().name;
     reading.full_scale_mps2 = options.at("wavFullScaleMps2").get<double>();
-    reading.needs_motion_and_force = 1;
     haptoflow_recording* opened = nullptr;
     require(haptoflow_recording_read(&reading, &opened));
-    const std::unique_ptr<haptoflow_recording, CloseRecording> recording(opened);
-    haptoflow_recording_info info{};
-    info.struct_size = sizeof(info);
-    require(haptoflow_recording_get_info(recording.get(), &info));
-
-    haptoflow_learning_options given = learningOptions(options);
-    given.axis_count = info.axis_count;
-    given.acceleration_mps2 = info.acceleration_mps2;
-    given.sample_count = info.sample_count;
-    given.sample_rate_hz = info.sample_rate_hz;
-    given.velocity_mps = info.velocity_mps;
-    given.force_newtons = info.force_newtons;
-    // Constants of what is not constant are no numbers.
-    if (info.velocity_mps == nullptr) {
-        std::copy_n(info.constant_velocity_mps, 2, given.constant_velocity_mps);
-    }
-    if (info.force_newtons == nullptr) {
-        given.constant_force_newtons = info.constant_force_newtons;
-    }
-    given.recordings = info.provenance;
-    given.name = given.name != nullptr ? given.name : info.material_name;
-    given.licence = given.licence != nullptr ? given.licence : info.licence;
-    return learn(given, info.notes);
+    return opened;
 }
 
 /// `samples`: addresses of floats, 0 for none.
-std::string learnFromSamples(const json& options) {
-    const json& samples = options.at("samples");
+haptoflow_recording* takeSamples(const json& samples) {
     const auto floats = [&samples](const char* key) {
         // NOLINTNEXTLINE(performance-no-int-to-ptr)
         return reinterpret_cast<const float*>(samples.at(key).get<std::uintptr_t>());
     };
-    haptoflow_learning_options given = learningOptions(options);
-    given.axis_count = samples.at("axisCount").get<uint32_t>();
-    given.acceleration_mps2 = floats("acceleration");
-    given.sample_count = samples.at("count").get<uint64_t>();
-    given.sample_rate_hz = samples.at("sampleRateHz").get<double>();
-    given.velocity_mps = floats("velocity");
-    given.constant_velocity_mps[0] = samples.at("constantVelocityMps").at(0).get<double>();
-    given.constant_velocity_mps[1] = samples.at("constantVelocityMps").at(1).get<double>();
-    given.force_newtons = floats("force");
-    given.constant_force_newtons = samples.at("constantForceNewtons").get<double>();
-    return learn(given, "");
+    haptoflow_recording_info info{};
+    info.struct_size = sizeof(info);
+    info.axis_count = samples.at("axisCount").get<uint32_t>();
+    info.sample_rate_hz = samples.at("sampleRateHz").get<double>();
+    info.sample_count = samples.at("count").get<uint64_t>();
+    info.acceleration_mps2 = floats("acceleration");
+    info.velocity_mps = floats("velocity");
+    info.force_newtons = floats("force");
+    info.constant_velocity_mps[0] = samples.at("constantVelocityMps").at(0).get<double>();
+    info.constant_velocity_mps[1] = samples.at("constantVelocityMps").at(1).get<double>();
+    info.constant_force_newtons = samples.at("constantForceNewtons").get<double>();
+    haptoflow_recording* opened = nullptr;
+    require(haptoflow_recording_create(&info, &opened));
+    return opened;
+}
+
+std::string learn(const json& options) {
+    const std::unique_ptr<haptoflow_recording, CloseRecording> recording(
+        options.contains("files") ? readFiles(options) : takeSamples(options.at("samples")));
+    haptoflow_recording_info info{};
+    info.struct_size = sizeof(info);
+    require(haptoflow_recording_get_info(recording.get(), &info));
+
+    haptoflow_learning_options given{};
+    given.struct_size = sizeof(given);
+    given.recording = recording.get();
+    given.runtime = theRuntime();
+    given.model = theModel();
+    given.tier = textOrNull(options, "quality");
+    given.name = textOrNull(options, "name");
+    given.category = textOrNull(options, "category");
+    given.description = textOrNull(options, "description");
+    given.licence = textOrNull(options, "licence");
+    given.seed = options.at("seed").get<uint64_t>();
+    given.seconds_limit = options.at("secondsLimit").get<double>();
+    given.progress = [](void* /*context*/, double share, const char* doing) { hapto_progress(share, doing); };
+    haptoflow_learning* opened = nullptr;
+    require(haptoflow_learn_material(&given, &opened));
+    const std::unique_ptr<haptoflow_learning, CloseLearning> learning(opened);
+    const char* material = nullptr;
+    const char* report = nullptr;
+    require(haptoflow_learning_results(learning.get(), &material, &report));
+    return dumped({{"name", given.name != nullptr ? given.name : info.material_name},
+                   {"material", material},
+                   {"report", json::parse(report)},
+                   {"notes", info.notes}});
 }
 
 }  // namespace
 
 /// Learns by options as JSON (offline.mjs). Returns JSON: name, material, report, notes.
 HAPTO_EXPORT HAPTO_NAMED("hapto_learn") const char* hapto_learn(const char* text) {
-    return guardedText([&] {
-        const json options = json::parse(text);
-        return options.contains("files") ? learnFromFiles(options) : learnFromSamples(options);
-    });
+    return guardedText([&] { return learn(json::parse(text)); });
 }

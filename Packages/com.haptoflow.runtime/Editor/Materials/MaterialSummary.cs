@@ -52,13 +52,6 @@ namespace HaptoFlow.Editor
             }
         }
 
-        /// <summary>The label of the model that is nearest to the material; null without a usable model.</summary>
-        public static string? NearestLabel(HapticModelAsset? model, MaterialFile material)
-        {
-            using HapticModel? opened = Opened(model);
-            return opened?.NearestLabel(material.Embedding);
-        }
-
         private static HapticModel? Opened(HapticModelAsset? model)
         {
             try

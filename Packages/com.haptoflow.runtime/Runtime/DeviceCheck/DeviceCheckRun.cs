@@ -6,6 +6,7 @@ using System.Diagnostics;
 using System.Globalization;
 using System.IO;
 using System.Linq;
+using System.Text;
 using HaptoFlow.DeviceCheck;
 using HaptoFlow.Native;
 using HaptoFlow.Numerics;
@@ -502,12 +503,16 @@ namespace HaptoFlow
         {
             const int RateHz = 2000;
             var random = new Random(1);
-            var samples = new float[12 * RateHz];
-            for (int index = 0; index < samples.Length; ++index)
+            var table = new StringBuilder("time_s,acceleration_mps2\n");
+            for (int index = 0; index < 12 * RateHz; ++index)
             {
-                samples[index] = (float)(2.0 * random.NextDouble() - 1.0);
+                table.Append(FormattableString.Invariant(
+                    $"{(double)index / RateHz:0.0000},{2.0 * random.NextDouble() - 1.0:0.0000}\n"));
             }
-            return new Recordings.Recording("device check", RateHz, 1, samples).With(0.1, 0.5);
+            return Recordings.RecordingReader.Read("noise.csv", new Dictionary<string, byte[]>
+            {
+                ["noise.csv"] = Encoding.UTF8.GetBytes(table.ToString()),
+            }).With(0.1, 0.5);
         }
 
         private static IReadOnlyList<(string Name, string Value)> Surroundings() => new[]

@@ -166,7 +166,7 @@ namespace HaptoFlow.PreviewTests
             byte[] model = ProjectSettingsAsset.DefaultModel()!.File;
             Assert.That((material.Name, material.Space, material.Licence),
                 Is.EqualTo(("denim", ModelHeader.Read(model).Space, "unknown")));
-            Assert.That(LearningReportText.Of(State.Report), Does.StartWith("Learnt. Nearest label: "));
+            Assert.That(Window.Session.Report!.Sentences, Does.StartWith("Learnt. Nearest label: "));
             Assert.That(Window.Session.Shown!.Sounds, Has.Count.EqualTo(2));
             double decibels = 20.0 * Math.Log10(
                 Window.Session.Shown.Sounds[1].Sound.RmsMps2 / Window.Session.Shown.Sounds[0].Sound.RmsMps2);
@@ -180,18 +180,17 @@ namespace HaptoFlow.PreviewTests
         public void TheReportStatesTheAngleOfRibs()
         {
             const string Ruled = "{\"nearest_label\": \"corduroy\", \"turn_degrees\": 29.4}";
-            Assert.That(LearningReportText.Of(Ruled),
+            Assert.That(LearningReport.Read(Ruled)!.Sentences,
                 Does.Contain("the first axis is perpendicular to the ribs, 29 degrees from the recording's"));
-            Assert.That(LearningReportText.TurnDegrees(Ruled), Is.EqualTo(29.4));
+            Assert.That(LearningReport.Read(Ruled)!.TurnDegrees, Is.EqualTo(29.4));
             const string Plain = "{\"nearest_label\": \"wood\", \"turn_degrees\": 0}";
-            Assert.That(LearningReportText.Of(Plain), Does.Not.Contain("ribs"));
-            Assert.That(LearningReportText.TurnDegrees(""), Is.Zero);
+            Assert.That(LearningReport.Read(Plain)!.Sentences, Does.Not.Contain("ribs"));
         }
 
         [TestCase("{\"mps2\": 0.0382, \"from\": \"rest\"}", "; 0.038 m/s^2 of the sensor's noise removed")]
         [TestCase("{\"mps2\": 0, \"from\": \"none\"}", "")]
         public void TheReportStatesTheNoiseThatWasRemoved(string noise, string text) => Assert.That(
-            LearningReportText.Of("{\"nearest_label\": \"wood\", \"sensor_noise\": " + noise + "}"),
+            LearningReport.Read("{\"nearest_label\": \"wood\", \"sensor_noise\": " + noise + "}")!.Sentences,
             Is.EqualTo("Learnt. Nearest label: wood" + text + "."));
 
         [Test]

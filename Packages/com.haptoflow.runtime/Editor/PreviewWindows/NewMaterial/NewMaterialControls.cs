@@ -3,6 +3,7 @@ using System;
 using System.Globalization;
 using System.IO;
 using System.Linq;
+using HaptoFlow.Preview;
 using HaptoFlow.Recordings;
 using UnityEditor;
 using UnityEngine;
@@ -69,7 +70,6 @@ namespace HaptoFlow.Editor
         private string problem = "";
         private string found = "";
         private string report = "";
-        private string reportOf = "";
 
         public NewMaterialControls(NewMaterialState state) => this.state = state;
 
@@ -126,13 +126,13 @@ namespace HaptoFlow.Editor
         /// <summary>Describes a recording in one or two sentences.</summary>
         internal static string Describe(Recording recording)
         {
-            string motion = recording.VelocityMps != null ? "speed from the file"
+            string motion = !recording.KnowsSpeed ? "speed unknown"
                 : recording.ConstantVelocityMps is { } velocity
                     ? Text("speed {0:0.###} m/s", Math.Sqrt(velocity.X * velocity.X + velocity.Y * velocity.Y))
-                    : "speed unknown";
-            string force = recording.ForceNewtons != null ? "force from the file"
+                    : "speed from the file";
+            string force = !recording.KnowsForce ? "force unknown"
                 : recording.ConstantForceNewtons is { } newtons ? Text("force {0:0.###} N", newtons)
-                : "force unknown";
+                : "force from the file";
             string description = Text("{0}: {1:0.0} s, {2} at {3:0} Hz, {4}, {5}.", recording.Name, recording.Seconds,
                 recording.AxisCount == 1 ? "one axis" : "three axes", recording.SampleRateHz, motion, force);
             return string.Join(" ", new[] { description }.Concat(recording.Remarks));
@@ -142,26 +142,20 @@ namespace HaptoFlow.Editor
         {
             learns = session.Learning != null;
             hasResult = state.Material.Length > 0;
-            hasCurves = session.Curves != null;
+            hasCurves = session.Report?.Curves != null;
+            report = session.Report?.Sentences ?? "";
             obstacle = session.Obstacle(model) ?? "";
             problem = session.Problem ?? "";
             found = session.Recording != null
                 ? Describe(session.Recording)
                 : state.Path.Length > 0 ? Path.GetFileName(state.Path) : "";
-            if (reportOf != state.Report)
-            {
-                reportOf = state.Report;
-                report = LearningReportText.Of(state.Report);
-            }
         }
 
         private void DrawMotion(Recording? recording)
         {
-            bool knowsSpeed = recording?.VelocityMps != null || recording?.ConstantVelocityMps != null;
-            bool knowsForce = recording?.ForceNewtons != null || recording?.ConstantForceNewtons != null;
-            DrawNumber(Speed, state.SpeedMps, NewMaterialState.MaximumSpeedMps, knowsSpeed,
+            DrawNumber(Speed, state.SpeedMps, NewMaterialState.MaximumSpeedMps, recording?.KnowsSpeed == true,
                 (changed, number) => changed.SpeedMps = number);
-            DrawNumber(Force, state.ForceNewtons, NewMaterialState.MaximumForceNewtons, knowsForce,
+            DrawNumber(Force, state.ForceNewtons, NewMaterialState.MaximumForceNewtons, recording?.KnowsForce == true,
                 (changed, number) => changed.ForceNewtons = number);
             bool isWave = state.Path.EndsWith(".wav", StringComparison.OrdinalIgnoreCase) ||
                 state.Path.EndsWith(".w64", StringComparison.OrdinalIgnoreCase);
@@ -260,5 +254,30 @@ namespace HaptoFlow.Editor
 
         private static string Text(string format, params object[] values) =>
             string.Format(CultureInfo.InvariantCulture, format, values);
+    }
+
+    /// <summary>The tooltips of <see cref="LearningPanel"/>. Main thread, within OnGUI.</summary>
+    internal static class CurveTips
+    {
+        private static readonly GUIContent Spectra = new GUIContent("",
+            "The power at each frequency, with one chart for each range of speed that was recorded. The learnt line " +
+            "should lie on the recorded one.");
+        private static readonly GUIContent Levels = new GUIContent("",
+            "The strength over speed, with one chart for each range of force. Points were recorded, the shaded range " +
+            "holds their speeds, and the learnt line is dashed where it is extrapolated.");
+        private static readonly GUIContent Kurtosis = new GUIContent("",
+            "How rare and strong single events are at each speed. Even noise has 3, knocks and crackles have more.");
+        private static readonly GUIContent Ribs = new GUIContent("",
+            "The share of the ribs in the vibration at each speed. At 0 dB there is nothing but ribs, at -40 dB there " +
+            "are none.");
+
+        /// <param name="charts">The box of the panel.</param>
+        public static void Draw(Box charts)
+        {
+            GUI.Label(LearningPanel.Spectra(charts).ToRect(), Spectra, GUIStyle.none);
+            GUI.Label(LearningPanel.Levels(charts).ToRect(), Levels, GUIStyle.none);
+            GUI.Label(LearningPanel.Kurtosis(charts).ToRect(), Kurtosis, GUIStyle.none);
+            GUI.Label(LearningPanel.Ribs(charts).ToRect(), Ribs, GUIStyle.none);
+        }
     }
 }

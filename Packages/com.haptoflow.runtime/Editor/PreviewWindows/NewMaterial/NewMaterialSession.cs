@@ -1,6 +1,7 @@
 #nullable enable
 using System;
 using System.Linq;
+using System.Threading;
 using HaptoFlow.Preview;
 using HaptoFlow.Recordings;
 using UnityEngine;
@@ -20,8 +21,8 @@ namespace HaptoFlow.Editor
         private (Recording, string Material, bool Matches, int Active, byte[])? compared;
         private (Recording? File, float Speed, float Force) completedOf;
         private string? failure;
-        private string curvesOf = "";
-        private LearningCurves? curves;
+        private string reportOf = "";
+        private LearningReport? report;
 
         public NewMaterialSession(NewMaterialState state)
         {
@@ -39,17 +40,17 @@ namespace HaptoFlow.Editor
         /// <summary>The latest comparison; null until the first is finished.</summary>
         public ComparisonResult? Shown { get; private set; }
 
-        /// <summary>The curves of the last learning; null before one, and where its report has none.</summary>
-        public LearningCurves? Curves
+        /// <summary>The report on the last learning; null before one.</summary>
+        public LearningReport? Report
         {
             get
             {
-                if (curvesOf != state.Report)
+                if (reportOf != state.Report)
                 {
-                    curvesOf = state.Report;
-                    curves = LearningCurves.Read(state.Report);
+                    reportOf = state.Report;
+                    report = LearningReport.Read(state.Report);
                 }
-                return curves;
+                return report;
             }
         }
 
@@ -95,7 +96,7 @@ namespace HaptoFlow.Editor
                 comparing.Submit(new ComparisonRequest(model.File, Recording)
                 {
                     Material = state.Material,
-                    TurnDegrees = LearningReportText.TurnDegrees(state.Report),
+                    TurnDegrees = Report?.TurnDegrees ?? 0.0,
                     MatchesLevels = state.MatchesLevels,
                     Active = state.Active,
                 });
@@ -241,5 +242,32 @@ namespace HaptoFlow.Editor
             failure = ended.Problem;
             return true;
         }
+    }
+
+    /// <summary>The result of reading a recording's file in the background.</summary>
+    /// <param name="Recording">Null if the file cannot be read.</param>
+    /// <param name="Problem">What is wrong with the file and what was expected; null on success.</param>
+    internal sealed record RecordingFile(Recording? Recording, string? Problem)
+    {
+        /// <summary>Reads a file; the work of a <see cref="LatestTask{TRequest,TResult}"/>.</summary>
+        public static RecordingFile Read(Request request, CancellationToken token)
+        {
+            try
+            {
+                return new RecordingFile(RecordingReader.Read(request.Path, request.FullScaleMps2), null);
+            }
+            catch (HaptoFlowException error)
+            {
+                // The folder is in the window already.
+                string folder = System.IO.Path.GetDirectoryName(request.Path) ?? "";
+                string message = folder.Length > 0 && error.Message.StartsWith(folder, StringComparison.Ordinal)
+                    ? error.Message.Substring(folder.Length + 1)
+                    : error.Message;
+                return new RecordingFile(null, message + ".");
+            }
+        }
+
+        /// <summary>A file to read, and its full scale if it was entered.</summary>
+        internal sealed record Request(string Path, double? FullScaleMps2);
     }
 }

@@ -57,7 +57,7 @@ namespace HaptoFlow.Editor
         {
             if (Event.current.type == EventType.Layout)
             {
-                curves = State.ShowsCurves ? Session!.Curves : null;
+                curves = State.ShowsCurves ? Session!.Report?.Curves : null;
             }
             if (curves != null)
             {
@@ -132,7 +132,8 @@ namespace HaptoFlow.Editor
             {
                 return;
             }
-            HapticMaterial? saved = MaterialAssets.SaveAs(State.Material, NearestLabel());
+            // The label to use where the learnt material is not available.
+            HapticMaterial? saved = MaterialAssets.SaveAs(State.Material, Session.Report?.NearestLabel ?? "wood");
             if (saved != null)
             {
                 Selection.activeObject = saved;
@@ -152,13 +153,6 @@ namespace HaptoFlow.Editor
             {
                 ShowNotification(new GUIContent(MaterialAssets.Export(path, State.Material) ?? "Exported"));
             }
-        }
-
-        /// <summary>The label to use where the learnt material is not available.</summary>
-        private string NearestLabel()
-        {
-            const string unknown = "wood";
-            return MaterialSummary.NearestLabel(ModelInUse(), MaterialFile.Read(State.Material)) ?? unknown;
         }
 
         private void DrawCharts(ICanvas canvas)

@@ -67,7 +67,7 @@ namespace HaptoFlow.Editor
 
         private float Next(PreviewSound playing)
         {
-            wave ??= RecordingWave.Resampled(playing.Samples, PreviewSound.RateHz, WaveHistory.RateHz);
+            wave ??= Waves.Resampled(playing.Samples, PreviewSound.RateHz, WaveHistory.RateHz);
             float sample = wave[Math.Min(PositionSamples / Step, wave.Length - 1)];
             PositionSamples += Step;
             if (PositionSamples >= playing.Samples.Length)

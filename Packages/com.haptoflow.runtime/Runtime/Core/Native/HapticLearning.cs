@@ -12,7 +12,8 @@ namespace HaptoFlow
     /// <summary>Name and settings of a material to learn.</summary>
     public sealed class LearningOptions
     {
-        /// <summary>Name of the material, like a label's: lower case, 1 to 128 bytes.</summary>
+        /// <summary>Name of the material, like a label's: lower case, 1 to 128 bytes; empty for the
+        /// recording's.</summary>
         public string Name { get; set; } = "";
 
         /// <summary>For example "cloth"; may be empty.</summary>
@@ -21,18 +22,11 @@ namespace HaptoFlow
         /// <summary>One or two sentences; may be empty.</summary>
         public string Description { get; set; } = "";
 
-        /// <summary>Licence of the recording; empty where unknown.</summary>
+        /// <summary>Licence of the recording; empty for what its files say.</summary>
         public string Licence { get; set; } = "";
-
-        /// <summary>Name of the tier that the material is fitted to; null for the model's default tier.</summary>
-        public string? Tier { get; set; }
 
         /// <summary>Seed of all noise.</summary>
         public ulong Seed { get; set; } = 1;
-
-        /// <summary>Wave vectors of a ruled surface: k1x, k1y, k2x, k2y in cycles per millimetre; zeros for a surface
-        /// without ribs; null to estimate them from the recording.</summary>
-        public float[]? WaveVectorsPerMillimetre { get; set; }
 
         /// <summary>Time limit of the fit on one core, in seconds; 0 for 20.</summary>
         public double SecondsLimit { get; set; }
@@ -46,7 +40,7 @@ namespace HaptoFlow
 
         private readonly LearningProgress progress = new LearningProgress();
         private readonly HapticCancellation cancellation;
-        private readonly Task<(string Material, string Report, string NearestLabel)> work;
+        private readonly Task<(string Material, string Report)> work;
         private Task ended = Task.CompletedTask;
         private bool isDisposed;
 
@@ -70,7 +64,7 @@ namespace HaptoFlow
 
         /// <summary>The label of the model nearest to the material, to use where the material cannot be; empty without
         /// a material.</summary>
-        public string NearestLabel => work.Status == TaskStatus.RanToCompletion ? work.Result.NearestLabel : "";
+        public string NearestLabel => Report is { } report ? JsonValue.Parse(report.Trim())["nearest_label"].AsText() : "";
 
         /// <summary>Results of the fit as a JSON object; null without a material.</summary>
         public string? Report => work.Status == TaskStatus.RanToCompletion ? work.Result.Report : null;
@@ -85,26 +79,11 @@ namespace HaptoFlow
         /// <summary>Starts learning and returns at once.</summary>
         /// <param name="modelFile">The .haptoflow file that the material is for. Do not modify the array during
         /// learning.</param>
-        /// <param name="recording">A recording of known speed and force with at least 10 s of sliding.</param>
+        /// <param name="recording">A recording of known speed and force with at least 10 s of sliding. Otherwise <see
+        /// cref="Problem"/> tells what is missing.</param>
         /// <exception cref="HaptoFlowException">The native library is missing.</exception>
-        /// <exception cref="ArgumentException">The material has no name, or the recording's speed or force is
-        /// unknown.</exception>
         public static HapticLearning Start(byte[] modelFile, Recording recording, LearningOptions options)
         {
-            if (options.Name.Trim().Length == 0)
-            {
-                throw new ArgumentException("the material has no name; expected one", nameof(options));
-            }
-            if (options.WaveVectorsPerMillimetre is { } vectors && vectors.Length != 4)
-            {
-                throw new ArgumentException(
-                    $"{vectors.Length} numbers of wave vectors; expected 4, or none at all", nameof(options));
-            }
-            if (!recording.KnowsMotion)
-            {
-                throw new ArgumentException("the recording's speed or force is not known; expected both, in its " +
-                    "columns, in its sidecar or through Recording.With", nameof(recording));
-            }
             lock (Running)
             {
                 var learning = new HapticLearning(modelFile, recording, options);
@@ -162,18 +141,14 @@ namespace HaptoFlow
             }
         }
 
-        private (string Material, string Report, string NearestLabel) Learn(
-            byte[] modelFile, Recording recording, LearningOptions options)
+        private (string Material, string Report) Learn(byte[] modelFile, Recording recording, LearningOptions options)
         {
             using OnnxRuntime runtime = OnnxRuntime.Open();
             using HapticModel model = HapticModel.Open(modelFile);
             GCHandle context = GCHandle.Alloc(progress);
             try
             {
-                (string material, string report) = NativeLearning.Run(
-                    runtime, model, recording, options, cancellation, GCHandle.ToIntPtr(context));
-                string nearest = model.NearestLabel(MaterialFile.Read(material).Embedding);
-                return (material, report, nearest);
+                return Learn(runtime, model, recording, options, GCHandle.ToIntPtr(context));
             }
             catch (Exception error) when (NativeCall.IsMissing(error))
             {
@@ -182,6 +157,85 @@ namespace HaptoFlow
             finally
             {
                 context.Free();
+            }
+        }
+
+        private unsafe (string Material, string Report) Learn(
+            OnnxRuntime runtime, HapticModel model, Recording recording, LearningOptions options, IntPtr context)
+        {
+            IntPtr opened;
+            fixed (byte* name = NativeCall.Utf8(options.Name), category = NativeCall.Utf8(options.Category))
+            fixed (byte* description = NativeCall.Utf8(options.Description))
+            fixed (byte* licence = NativeCall.Utf8(options.Licence))
+            {
+                var native = new NativeLearningOptions
+                {
+                    StructSize = (uint)sizeof(NativeLearningOptions),
+                    Runtime = runtime.Handle.Value,
+                    Model = model.Handle.Value,
+                    Name = (IntPtr)name,
+                    Category = (IntPtr)category,
+                    Description = (IntPtr)description,
+                    Licence = (IntPtr)licence,
+                    Seed = options.Seed,
+                    SecondsLimit = options.SecondsLimit,
+                    Progress = LearningProgress.Function,
+                    ProgressContext = context,
+                    Cancellation = cancellation.Handle.Value,
+                };
+                recording.Give(ref native);
+                NativeCall.Check(NativeMethods.LearnMaterial(&native, &opened));
+            }
+            GC.KeepAlive(runtime);
+            GC.KeepAlive(model);
+            GC.KeepAlive(recording);
+            GC.KeepAlive(cancellation);
+            using var learning = new NativeHandle(opened, NativeMethods.LearningClose);
+            IntPtr material;
+            IntPtr report;
+            learning.Check(NativeMethods.LearningResults(learning.Value, &material, &report));
+            return (NativeCall.Text(material), NativeCall.Text(report));
+        }
+    }
+
+    /// <summary>Progress of learning, reported by the library from the learning thread.</summary>
+    internal sealed class LearningProgress
+    {
+        /// <summary>The haptoflow_progress_callback. This field keeps the delegate alive: the garbage collector does
+        /// not see references from native code.</summary>
+        private static readonly Callback Kept = Take;
+
+        private volatile string doing = "";
+        private volatile float share;
+
+        [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+        private delegate void Callback(IntPtr context, double share, IntPtr doing);
+
+        /// <summary>Function pointer for the options; its context is a <see cref="GCHandle"/> to a
+        /// LearningProgress.</summary>
+        public static IntPtr Function => Marshal.GetFunctionPointerForDelegate(Kept);
+
+        /// <summary>Progress, 0 to 1. Any thread.</summary>
+        public float Share => share;
+
+        /// <summary>The present step, for people. Any thread.</summary>
+        public string Doing => doing;
+
+        [MonoPInvokeCallback(typeof(Callback))]
+        private static void Take(IntPtr context, double share, IntPtr doing)
+        {
+            try
+            {
+                if (GCHandle.FromIntPtr(context).Target is LearningProgress progress)
+                {
+                    progress.share = (float)Math.Max(0.0, Math.Min(1.0, share));
+                    string words = NativeCall.Text(doing);
+                    progress.doing = words == progress.doing ? progress.doing : words;
+                }
+            }
+            catch (Exception)
+            {
+                // An exception must not cross into native code, and a lost progress report does no harm.
             }
         }
     }

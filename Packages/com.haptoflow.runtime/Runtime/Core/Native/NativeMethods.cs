@@ -235,12 +235,14 @@ namespace HaptoFlow.Native
         [DllImport(Library, EntryPoint = "haptoflow_recording_read")]
         public static extern int RecordingRead(NativeRecordingOptions* options, IntPtr* recording);
 
+        [DllImport(Library, EntryPoint = "haptoflow_recording_create")]
+        public static extern int RecordingCreate(NativeRecordingInfo* info, IntPtr* recording);
+
         [DllImport(Library, EntryPoint = "haptoflow_recording_get_info")]
         public static extern int RecordingGetInfo(IntPtr recording, NativeRecordingInfo* info);
 
         [DllImport(Library, EntryPoint = "haptoflow_recording_wave")]
-        public static extern int RecordingWave(float* accelerationMps2, ulong sampleCount, uint axisCount,
-            double sampleRateHz, float* waveMps2, ulong waveCount);
+        public static extern int RecordingWave(IntPtr recording, float* waveMps2, ulong waveCount);
 
         [DllImport(Library, EntryPoint = "haptoflow_recording_remove_noise")]
         public static extern int RecordingRemoveNoise(float* vibrationMps2, float* velocityMps, float* forceNewtons,
@@ -260,11 +262,8 @@ namespace HaptoFlow.Native
         public static extern int FindWaveVectors(float* vibrationMps2, float* velocityMps, ulong sampleCount,
             double* waveVectors);
 
-        [DllImport(Library, EntryPoint = "haptoflow_learning_material")]
-        public static extern int LearningMaterial(IntPtr learning, IntPtr* json);
-
-        [DllImport(Library, EntryPoint = "haptoflow_learning_report")]
-        public static extern int LearningReport(IntPtr learning, IntPtr* json);
+        [DllImport(Library, EntryPoint = "haptoflow_learning_results")]
+        public static extern int LearningResults(IntPtr learning, IntPtr* material, IntPtr* report);
 
         [DllImport(Library, EntryPoint = "haptoflow_learning_close")]
         public static extern int LearningClose(IntPtr* learning);

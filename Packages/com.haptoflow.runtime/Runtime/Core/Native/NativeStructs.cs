@@ -219,7 +219,10 @@ namespace HaptoFlow.Native
     internal unsafe struct NativeLearningOptions
     {
         public uint StructSize;
-        public uint AxisCount;
+        public uint Reserved;
+        public IntPtr Recording;
+        public double SpeedMps;
+        public double ForceNewtons;
         public IntPtr Runtime;
         public IntPtr Model;
         public IntPtr Tier;
@@ -227,20 +230,12 @@ namespace HaptoFlow.Native
         public IntPtr Category;
         public IntPtr Description;
         public IntPtr Licence;
-        public float* AccelerationMps2;
-        public ulong SampleCount;
-        public double SampleRateHz;
-        public float* VelocityMps;
-        public fixed double ConstantVelocityMps[2];
-        public float* ForceNewtons;
-        public double ConstantForceNewtons;
         public ulong Seed;
         public double SecondsLimit;
         public IntPtr Progress;
         public IntPtr ProgressContext;
         public IntPtr Cancellation;
         public float* WaveVectors;
-        public IntPtr Recordings;
         public IntPtr Label;
     }
 }

@@ -83,20 +83,8 @@ namespace HaptoFlow.SampleScenes
 
         /// <summary>Reads the recording and learns in another thread, so that the scene continues.</summary>
         private static Task<HapticLearning> Begin(
-            byte[] modelFile, string name, Dictionary<string, byte[]> files) => Task.Run(() =>
-        {
-            Recording read = RecordingReader.Read(name, files);
-            if (!read.KnowsMotion)
-            {
-                throw new HaptoFlowException(HaptoFlowStatus.RecordingUnusable,
-                    $"{name}: speed or force is missing; expected both in its columns or in its sidecar");
-            }
-            return HapticLearning.Start(modelFile, read, new LearningOptions
-            {
-                Name = read.MaterialName,
-                Licence = read.Licence,
-            });
-        });
+            byte[] modelFile, string name, Dictionary<string, byte[]> files) => Task.Run(
+            () => HapticLearning.Start(modelFile, RecordingReader.Read(name, files), new LearningOptions()));
 
         private Dictionary<string, byte[]> ReadFiles(string name)
         {

@@ -1,11 +1,96 @@
 #nullable enable
 using System;
 using System.Collections.Generic;
+using System.Globalization;
 using System.Linq;
 using HaptoFlow.Model;
 
 namespace HaptoFlow.Preview
 {
+    /// <summary>The library's report on learning. Immutable.</summary>
+    internal sealed class LearningReport
+    {
+        private LearningReport(JsonValue json)
+        {
+            NearestLabel = json.Find("nearest_label")?.Text ?? "";
+            TurnDegrees = json.Find("turn_degrees")?.Number ?? 0.0;
+            Sentences = SentencesOf(json);
+            Curves = LearningCurves.Of(json);
+        }
+
+        /// <summary>The label of the model nearest to the material; empty where the report has none.</summary>
+        public string NearestLabel { get; }
+
+        /// <summary>Angle from the recording's first axis to the material's; 0 if the report has none.</summary>
+        public double TurnDegrees { get; }
+
+        /// <summary>The result in one or two sentences; missing values are left out.</summary>
+        public string Sentences { get; }
+
+        /// <summary>Null where the report has no curves.</summary>
+        public LearningCurves? Curves { get; }
+
+        /// <returns>Null for a text that is no report.</returns>
+        public static LearningReport? Read(string json)
+        {
+            try
+            {
+                return new LearningReport(JsonValue.Parse(json.Trim()));
+            }
+            catch (FormatException)
+            {
+                return null;
+            }
+        }
+
+        private static string SentencesOf(JsonValue report)
+        {
+            var parts = new List<string>();
+            if (report.Find("nearest_label")?.Text is { } nearest)
+            {
+                parts.Add("nearest label: " + nearest);
+            }
+            Add(parts, report, "spectral_distance_db", "spectra within {0:0.0} dB");
+            Add(parts, report, "level_error_db", "levels within {0:0.0} dB");
+            Add(parts, report, "sliding_seconds", "{0:0.0} s of sliding");
+            if (report.Find("sensor_noise")?.Find("mps2")?.Number is { } noise && noise > 0.0)
+            {
+                parts.Add(string.Format(CultureInfo.InvariantCulture,
+                    "{0:0.000} m/s^2 of the sensor's noise removed", noise));
+            }
+            if (report.Find("turn_degrees")?.Number is { } turn && Math.Abs(turn) >= 0.5)
+            {
+                parts.Add(string.Format(CultureInfo.InvariantCulture,
+                    "the first axis is perpendicular to the ribs, {0:0} degrees from the recording's", turn));
+            }
+            Add(parts, report, "seconds", "learnt in {0:0.0} s");
+            string text = parts.Count > 0 ? "Learnt. " + Capital(string.Join("; ", parts)) + "." : "Learnt.";
+            if (report.Find("record_next")?.Text is { Length: > 0 } next)
+            {
+                text += " To gain most, " + next.TrimEnd('.') + ".";
+            }
+            if (report.Find("warnings")?.Elements is { } warnings)
+            {
+                foreach (JsonValue warning in warnings)
+                {
+                    text += warning.Text is { } words ? " " + Capital(words.TrimEnd('.')) + "." : "";
+                }
+            }
+            return text;
+        }
+
+        private static void Add(List<string> parts, JsonValue report, string key, string format)
+        {
+            if (report.Find(key)?.Number is { } number)
+            {
+                parts.Add(string.Format(CultureInfo.InvariantCulture, format, number));
+            }
+        }
+
+        private static string Capital(string words) =>
+            words.Length > 0 ? char.ToUpperInvariant(words[0]) + words.Substring(1) : words;
+    }
+
     /// <summary>What the library's report on learning says of recording, learnt material and nearest label, to be drawn.
     /// Immutable.</summary>
     internal sealed class LearningCurves
@@ -43,13 +128,12 @@ namespace HaptoFlow.Preview
         /// empty if no further recording would help much.</summary>
         public string RecordNext { get; }
 
-        /// <param name="report">The library's report as JSON.</param>
         /// <returns>Null where the report has no curves.</returns>
-        public static LearningCurves? Read(string report)
+        public static LearningCurves? Of(JsonValue report)
         {
             try
             {
-                var curves = new LearningCurves(JsonValue.Parse(report.Trim()));
+                var curves = new LearningCurves(report);
                 return curves.Speeds.Count > 0 && curves.Forces.Count > 0 ? curves : null;
             }
             catch (FormatException)
