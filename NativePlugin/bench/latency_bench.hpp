@@ -33,7 +33,7 @@ inline constexpr float loudMps2 = 10.0F;
 class MarkingGenerator final : public inference::SegmentGenerator {
 public:
     MarkingGenerator(std::unique_ptr<inference::SegmentGenerator> behind, const skeleton::NativeParts& marking)
-        : behind_(std::move(behind)), marking_(marking, {}, 1) {}
+        : behind_(std::move(behind)), marking_(marking, 1) {}
 
     void generate(std::span<const inference::SegmentRequest> requests, std::span<float> segments) override {
         behind_->generate(requests, segments);

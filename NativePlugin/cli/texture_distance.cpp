@@ -57,7 +57,7 @@ std::vector<TextureExcerpt> LabelTextures::of(std::size_t label) const {
         }
     }
     if (header.skeleton) {
-        inference::SkeletonGenerator sketch(native_, {}, 1);
+        inference::SkeletonGenerator sketch(native_, 1);
         for (const double speed : header.speedMps.percentiles) {
             for (const double force : header.forceNewtons.percentiles) {
                 excerpts.push_back(sketched(sketch, model_.embedding(label),
