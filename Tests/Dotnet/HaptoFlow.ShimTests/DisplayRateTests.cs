@@ -1,3 +1,4 @@
+using System;
 using HaptoFlow.Tests;
 using NUnit.Framework;
 using UnityEngine;
@@ -13,47 +14,18 @@ namespace HaptoFlow.ShimTests
         [TearDown]
         public void RemoveTheHeadset() => Displays.Reset();
 
-        [Test]
-        public void TheRateOfAHeadsetTakesPrecedenceOverThatOfTheScreen()
+        [TestCase(60u, 1u, new[] { 120f }, true, 120.0, TestName = "a headset before the screen")]
+        [TestCase(59940u, 1000u, new[] { float.NaN }, true, 59.94, TestName = "the screen beside a headset without a rate")]
+        [TestCase(0u, 1u, new float[0], true, 80.0, TestName = "the settings without a display's rate")]
+        [TestCase(0u, 1u, new[] { 120f }, false, 80.0, TestName = "the settings where the display is not followed")]
+        [TestCase(0u, 1u, new[] { 0f, -1f, float.PositiveInfinity, 1e6f }, true, 80.0, TestName = "no implausible rate")]
+        public void TheEngineRunsAtTheRateOf(uint screen, uint share, float[] headsets, bool follows, double expectedHz)
         {
-            Displays.Screen = new RefreshRate { numerator = 60, denominator = 1 };
-            Displays.Wear(120f);
-            Assert.That(EngineRateHz(), Is.EqualTo(120.0).Within(1e-3));
-        }
-
-        [Test]
-        public void TheRateOfTheScreenIsUsedWithoutAHeadsetRate()
-        {
-            Displays.Screen = new RefreshRate { numerator = 59940, denominator = 1000 };
-            Displays.Wear(null);
+            Displays.Screen = new RefreshRate { numerator = screen, denominator = share };
+            Array.ForEach(headsets, hertz => Displays.Wear(float.IsNaN(hertz) ? (float?)null : hertz));
             Displays.Wear(90f).Stop();
-            Assert.That(EngineRateHz(), Is.EqualTo(59.94).Within(1e-3));
-        }
-
-        [Test]
-        public void TheRateOfTheSettingsIsUsedWithoutADisplayRate()
-        {
-            HaptoFlowSettings.Active.UpdateRateHz = 80f;
-            Assert.That(EngineRateHz(), Is.EqualTo(80.0).Within(1e-3));
-        }
-
-        [Test]
-        public void TheRateOfTheSettingsIsUsedWhenTheDisplayIsNotFollowed()
-        {
-            Displays.Wear(120f);
-            HaptoFlowSettings.Active.FollowDisplay = false;
-            Assert.That(EngineRateHz(), Is.EqualTo(72.0).Within(1e-3));
-        }
-
-        [TestCase(0f)]
-        [TestCase(-1f)]
-        [TestCase(float.NaN)]
-        [TestCase(float.PositiveInfinity)]
-        [TestCase(1e6f)]
-        public void AnImplausibleDisplayRateIsIgnored(float hertz)
-        {
-            Displays.Wear(hertz);
-            Assert.That(EngineRateHz(), Is.EqualTo(72.0).Within(1e-3));
+            (HaptoFlowSettings.Active.UpdateRateHz, HaptoFlowSettings.Active.FollowDisplay) = (80f, follows);
+            Assert.That(EngineRateHz(), Is.EqualTo(expectedHz).Within(1e-3));
         }
 
         private static double EngineRateHz()

@@ -31,25 +31,6 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void AMaterialAssignedByARuleRendersAsOnASurface()
-        {
-            Func<double, double> surface = Stroke(material =>
-            {
-                material.Label = "corduroy";
-                material.FeatureScale = 2f;
-            });
-            EndScene();
-            BeginScene();
-            Func<double, double> rule = Stroke(material =>
-            {
-                material.Label = "corduroy";
-                material.FeatureScale = 2f;
-            }, true);
-            double halfRibHz = 0.5 * SpeedMps / RibMetres;
-            Assert.That(rule(halfRibHz), Is.EqualTo(surface(halfRibHz)).Within(1e-9));
-        }
-
-        [Test]
         public void ABrightToneRaisesHighFrequenciesAndNoToneRunsNothing()
         {
             Func<double, double> plain = Stroke(material => material.Label = "sandpaper");
@@ -64,34 +45,6 @@ namespace HaptoFlow.ShimTests
             Assert.That(ToneRuns, Is.GreaterThan(0UL));
             Assert.That(Band(bright, 500.0) / Band(bright, 60.0),
                 Is.GreaterThan(8.0 * Band(plain, 500.0) / Band(plain, 60.0)));
-        }
-
-        [Test]
-        public void ABlendOfWoodAndCorduroyKeepsTheFrequencyOfRibs()
-        {
-            FinishLoading();
-            var data = new TerrainData { heightmapResolution = 33, size = new Vector3(2f, 0.1f, 2f) };
-            data.terrainLayers = new[] { new TerrainLayer(), new TerrainLayer() };
-            var weights = new float[data.alphamapResolution, data.alphamapResolution, 2];
-            for (int place = 0; place < weights.Length; ++place)
-            {
-                weights[place / 2 / data.alphamapResolution, place / 2 % data.alphamapResolution, place % 2] = 0.5f;
-            }
-            data.SetAlphamaps(0, 0, weights);
-            GameObject ground = Make("Ground");
-            ground.transform.position = new Vector3(-1f, 0f, -1f);
-            ground.AddComponent<TerrainCollider>().terrainData = data;
-            HapticMaterialMap map = ScriptableObject.CreateInstance<HapticMaterialMap>();
-            for (int layer = 0; layer < 2; ++layer)
-            {
-                HapticMaterial material = ScriptableObject.CreateInstance<HapticMaterial>();
-                material.Description.Label = layer == 0 ? "wood" : "corduroy";
-                map.Add(HapticMaterialRule.ForTerrainLayer(data.terrainLayers[layer], material));
-            }
-            HaptoFlowSettings.Active.MaterialMap = map;
-            Func<double, double> powerAt = PowerSpectrum();
-            double ribHz = SpeedMps / RibMetres;
-            Assert.That(Band(powerAt, ribHz), Is.GreaterThan(2.0 * Band(powerAt, 0.5 * ribHz)));
         }
 
         private ulong ToneRuns { get; set; }

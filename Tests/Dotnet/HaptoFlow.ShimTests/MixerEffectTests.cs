@@ -42,7 +42,7 @@ namespace HaptoFlow.ShimTests
             output.SetMixer(new AudioMixer(), "Pen");
             StylusAlong(_ => Vector3.up);
             World.Frames(3);
-            int messageCount = Log.Lines.Count(line => line.Type == LogType.Warning && line.Text.Contains("\"Pen\""));
+            int messageCount = Log.Count("\"Pen\"", LogType.Warning);
             Assert.That(messageCount, Is.EqualTo(1));
         }
     }

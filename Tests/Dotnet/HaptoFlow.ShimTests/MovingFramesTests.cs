@@ -164,7 +164,7 @@ namespace HaptoFlow.ShimTests
             Clock.FixedStepSeconds = 1.0 / stepsPerSecond;
             foreach (Carrier carrier in Enum.GetValues(typeof(Carrier)))
             {
-                foreach (double speed in new[] { 0.05, 0.5, 3.0, 20.0, 30.0, 250.0 })
+                foreach (double speed in new[] { 0.05, 3.0, 250.0 })
                 {
                     double began = Clock.UnscaledSeconds;
                     Vector3 Drive(double now) => new Vector3((float)(speed * (now - began)), 0f, 0f);
@@ -200,7 +200,7 @@ namespace HaptoFlow.ShimTests
             Clock.FixedStepSeconds = 1.0 / stepsPerSecond;
             foreach (Carrier carrier in Enum.GetValues(typeof(Carrier)))
             {
-                foreach (double speed in new[] { 0.05, 0.5, 3.0, 30.0, 250.0 })
+                foreach (double speed in new[] { 0.05, 3.0, 250.0 })
                 {
                     HapticSurface ground = Ground(2000f);
                     double began = Clock.Seconds;
@@ -250,7 +250,7 @@ namespace HaptoFlow.ShimTests
         /// <summary>Ticks of a network, of an animation and of a slow tracker.</summary>
         [Test]
         public void ASurfaceThatMovesInTicksHasItsSpeedUnderATipAtRest(
-            [Values(72.0, 90.0, 120.0)] double framesPerSecond, [Values(20.0, 24.0, 30.0, 45.0, 60.0)] double ticksPerSecond)
+            [Values(72.0, 120.0)] double framesPerSecond, [Values(20.0, 45.0)] double ticksPerSecond)
         {
             SetFrameRate(framesPerSecond);
             foreach (float speed in new[] { 0.02f, 0.2f, 1f })
@@ -306,7 +306,7 @@ namespace HaptoFlow.ShimTests
         /// <summary>Rig and pen turn, jump or are recentred in one frame, while the pen draws on the desk.</summary>
         [Test]
         public void SnapTurnsAndTeleportsMakeNoSound(
-            [Values(72.0, 90.0, 120.0)] double framesPerSecond, [Values(15f, 45f, 90f, 180f, 0f)] float degrees)
+            [Values(72.0, 120.0)] double framesPerSecond, [Values(45f, 180f, 0f)] float degrees)
         {
             FinishLoading();
             SetFrameRate(framesPerSecond);
@@ -476,7 +476,7 @@ namespace HaptoFlow.ShimTests
         /// <summary>A random carrier, its turn and its steps, and a stroke that both worlds share: what is heard is what
         /// is heard in a world at rest.</summary>
         [Test]
-        public void RandomCarriersSoundLikeAWorldAtRest([NUnit.Framework.Range(0, 19)] int seed)
+        public void RandomCarriersSoundLikeAWorldAtRest([NUnit.Framework.Range(0, 5)] int seed)
         {
             FinishLoading();
             double[] rest = Play(seed, false);
@@ -555,7 +555,7 @@ namespace HaptoFlow.ShimTests
         /// <summary>A tip that physics moves after a tracked hand: the steps of a hitch wait for the next frame.</summary>
         [Test]
         public void AHitchIsNoStrokeInFixedUpdates(
-            [Values(0.05, 0.12, 0.2, 0.3, 0.6)] double hitch, [Values(0.01, 0.02, 0.025)] double step)
+            [Values(0.05, 0.2, 0.6)] double hitch, [Values(0.01, 0.025)] double step)
         {
             Clock.FixedStepSeconds = step;
             Ground(4f);

@@ -96,18 +96,6 @@ namespace HaptoFlow.ShimTests
             Assert.That(tap.Peak(), Is.LessThanOrEqualTo(0.01f).And.GreaterThan(0.005f));
         }
 
-        [Test]
-        public void OneOfSixtyFiveStylusesHasNoVoiceAndOneMessageIsLogged()
-        {
-            FinishLoading();
-            Board();
-            HapticStylus[] all = Enumerable.Range(0, 65).Select(_ => StylusAlong(_ => new Vector3(0f, 0.001f, 0f))).ToArray();
-            World.Frames(5);
-            Assert.That(all.Count(stylus => stylus.TryGetStatistics(out VoiceStatistics _)), Is.EqualTo(64));
-            int messageCount = Log.Lines.Count(line => line.Type == LogType.Error && line.Text.Contains("gets no voice"));
-            Assert.That(messageCount, Is.EqualTo(1));
-        }
-
         private HapticStylus Touch()
         {
             Board();

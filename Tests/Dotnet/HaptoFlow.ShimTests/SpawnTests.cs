@@ -128,21 +128,6 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void TilesThatAreSpawnedAndDestroyedWithinASceneAreForgottenByTheNext()
-        {
-            HaptoFlowSettings.Active.MaterialMap = map;
-            Circling();
-            for (int spawn = 0; spawn < 40; ++spawn)
-            {
-                TerrainCollider tile = Tile(64, Vector3.zero);
-                World.Frames(3);
-                Assert.That(TerrainWeights.Count, Is.EqualTo(1));
-                Object.DestroyImmediate(tile.gameObject);
-                World.Frames(2);
-            }
-        }
-
-        [Test]
         public void ATileThatIsLoadedLaterIsReadBeforeItIsTouchedOneStripAFrame()
         {
             HaptoFlowSettings.Active.MaterialMap = map;

@@ -22,23 +22,6 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator AHealthyEngineReportsNoFailure()
-        {
-            FinishLoading();
-            Board();
-            Output(out _);
-            HapticStylus stylus = StylusAlong(seconds => new Vector3(0.05f * (float)seconds, 0.001f, 0f));
-            for (int frame = 0; frame < 200; ++frame)
-            {
-                yield return null;
-            }
-            Assert.That(Haptics.Problem, Is.Null);
-            Assert.That(Haptics.LastFailure, Is.Empty);
-            stylus.TryGetStatistics(out VoiceStatistics statistics);
-            Assert.That(statistics.Silence, Is.EqualTo(HapticSilence.None));
-        }
-
-        [UnityTest]
         public IEnumerator TheTierOfANewQualityIsLoadedOnAnotherThread()
         {
             FinishLoading();

@@ -60,10 +60,7 @@ namespace HaptoFlow.Tests
             Assert.That((Haptics.LearntMaterials, Haptics.RefusedMaterials), Is.EqualTo((1, 0)));
             AudioTap tap = Output(out _);
             HapticStylus stylus = Circling();
-            for (int frame = 0; frame < 40; ++frame)
-            {
-                yield return null;
-            }
+            yield return Frames(40);
             Assert.That(stylus.IsTouching, Is.True);
             Assert.That(tap.Peak(), Is.GreaterThan(0.001f));
         }
@@ -90,21 +87,6 @@ namespace HaptoFlow.Tests
             after.SharedMaterial = Learnt("stone", "fur");
             Session.FinishRegistrations();
             Assert.That(Haptics.LearntMaterials, Is.EqualTo(2), "nothing was touched");
-            yield return null;
-        }
-
-        [UnityTest]
-        public IEnumerator ManySurfacesShareOneRegistration()
-        {
-            FinishLoading();
-            HapticMaterial shared = Learnt("glass", "fur");
-            foreach (int _ in Enumerable.Range(0, 5))
-            {
-                HapticSurface board = Board();
-                board.SharedMaterial = shared;
-                Assert.That(BlendOf(board).Label(0), Is.EqualTo(LabelCount));
-            }
-            Assert.That(Haptics.LearntMaterials, Is.EqualTo(1));
             yield return null;
         }
 
@@ -151,21 +133,6 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator AModelOfTheMaterialsSpaceRegistersItAndAnotherRefusesIt()
-        {
-            HapticSurface board = Board();
-            board.SharedMaterial = Learnt("glass", "fur");
-            FinishLoading();
-            Assert.That(BlendOf(board).Label(0), Is.EqualTo(LabelCount));
-            Haptics.Restart();
-            Assert.That((Haptics.LearntMaterials, Haptics.IsReady), Is.EqualTo((0, false)));
-            FinishLoading();
-            Assert.That(BlendOf(board).Label(0), Is.EqualTo(LabelCount));
-            Assert.That(Haptics.LearntMaterials, Is.EqualTo(1));
-            yield return null;
-        }
-
-        [UnityTest]
         public IEnumerator ANewTextReplacesTheMaterialDuringATouch()
         {
             FinishLoading();
@@ -173,10 +140,7 @@ namespace HaptoFlow.Tests
             HapticSurface board = Board();
             board.SharedMaterial = material;
             HapticStylus stylus = Circling();
-            for (int frame = 0; frame < 10; ++frame)
-            {
-                yield return null;
-            }
+            yield return Frames(10);
             Assert.That(BlendOf(board).Label(0), Is.EqualTo(LabelCount));
             material.Carry(Text("sandpaper", ("stiffness_newtons_per_metre", 600.0)));
             Session.FinishRegistrations();
@@ -199,16 +163,10 @@ namespace HaptoFlow.Tests
             HapticSurface copied = Board("stone");
             copied.Material.Learnt = material;
             Circling();
-            for (int frame = 0; frame < 10; ++frame)
-            {
-                yield return null;
-            }
+            yield return Frames(10);
             Assert.That(BlendOf(copied).Label(0), Is.EqualTo(LabelCount));
             Object.DestroyImmediate(material);
-            for (int frame = 0; frame < 10; ++frame)
-            {
-                yield return null;
-            }
+            yield return Frames(10);
             Assert.That((BlendOf(board).Count, BlendOf(copied).Count), Is.EqualTo((0, 0)));
             Assert.That(Haptics.LearntMaterials, Is.Zero);
             board.SharedMaterial = null;
@@ -295,10 +253,7 @@ namespace HaptoFlow.Tests
             Session.FinishRegistrations();
             Assert.That(Haptics.LearntMaterials, Is.EqualTo(1), "nothing was touched");
             HapticStylus stylus = Circling();
-            for (int frame = 0; frame < 20; ++frame)
-            {
-                yield return null;
-            }
+            yield return Frames(20);
             Assert.That(stylus.IsTouching, Is.True);
             Assert.That(stylus.Contact.Labels.Label(0), Is.EqualTo(LabelCount));
         }

@@ -184,13 +184,5 @@ namespace HaptoFlow.Tests
                 yield return null;
             }
         }
-
-        private static IEnumerator Frames(int count)
-        {
-            for (int frame = 0; frame < count; ++frame)
-            {
-                yield return null;
-            }
-        }
     }
 }

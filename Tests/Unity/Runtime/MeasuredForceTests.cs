@@ -32,17 +32,6 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator APenBelowTheVirtualSurfaceTouchesToo()
-        {
-            Board();
-            HapticStylus stylus = Pen(_ => new Vector3(0f, -0.008f, 0f));
-            force.ForceNewtons = 0.5f;
-            yield return Frames(3);
-            Assert.That(stylus.IsTouching, Is.True);
-            Assert.That(stylus.Contact.ForceNewtons, Is.EqualTo(0.5f).Within(1e-6f));
-        }
-
-        [UnityTest]
         public IEnumerator APenInTheAirTouchesNothingAlsoInsideAVirtualObject()
         {
             Board();
@@ -89,43 +78,6 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator TrackingErrorsOfMillimetresDoNotInterruptATouch()
-        {
-            Board();
-            var random = new System.Random(11);
-            HapticStylus stylus = Pen(seconds => new Vector3(
-                0.05f * (float)seconds, 0.006f * (float)(2.0 * random.NextDouble() - 1.0), 0f));
-            var log = new TouchLog(stylus);
-            force.ForceNewtons = 0.8f;
-            yield return Frames(90);
-            Assert.That(log.Began, Is.EqualTo(1));
-            Assert.That(log.Ended, Is.Zero);
-        }
-
-        [UnityTest]
-        public IEnumerator SlidingBetweenSurfacesIsOneTouchAndRaisesSurfaceChanged()
-        {
-            HapticSurface left = Board("wood");
-            HapticSurface right = Board("fur");
-            left.transform.position = new Vector3(-0.2f, 0f, 0f);
-            right.transform.position = new Vector3(0.2f, 0f, 0f);
-            HapticStylus stylus = Pen(seconds => new Vector3(0.2f * (float)seconds - 0.1f, 0.005f, 0f));
-            var log = new TouchLog(stylus);
-            int changes = 0;
-            HapticSurface? to = null;
-            stylus.SurfaceChanged += (HapticStylus _, in HapticContact contact) =>
-            {
-                ++changes;
-                to = contact.Surface;
-            };
-            force.ForceNewtons = 0.8f;
-            yield return Frames(90);
-            Assert.That(log.Began, Is.EqualTo(1));
-            Assert.That(changes, Is.EqualTo(1));
-            Assert.That(to, Is.SameAs(right));
-        }
-
-        [UnityTest]
         public IEnumerator AShortDropoutIsBridgedAndAfterALongOneGeometryDecides()
         {
             Board();
@@ -141,24 +93,6 @@ namespace HaptoFlow.Tests
             force.HasNews = true;
             yield return Frames(1);
             Assert.That(stylus.IsTouching, Is.True);
-        }
-
-        [UnityTest]
-        public IEnumerator AnInvalidForceIsNeverPublished()
-        {
-            Board();
-            HapticStylus stylus = Pen(_ => new Vector3(0f, 0.006f, 0f));
-            force.ForceNewtons = float.NaN;
-            yield return Frames(5);
-            Assert.That(stylus.IsTouching, Is.False);
-            force.ForceNewtons = 1f;
-            yield return Frames(2);
-            force.ForceNewtons = float.NaN;
-            yield return Frames(2);
-            Assert.That(stylus.Contact.ForceNewtons, Is.EqualTo(1f).Within(1e-6f));
-            force.ForceNewtons = float.PositiveInfinity;
-            yield return Frames(20);
-            Assert.That(stylus.IsTouching, Is.False);
         }
 
         [UnityTest]
@@ -193,27 +127,6 @@ namespace HaptoFlow.Tests
             force.ForceNewtons = 0.44f;
             yield return Frames(2);
             Assert.That(stylus.IsTouching, Is.False);
-        }
-
-        [UnityTest]
-        public IEnumerator MeshesAreTouchedByForceToo()
-        {
-            HapticSurface box = Tagged<MeshCollider>("wood", mesh => mesh.sharedMesh = TestMeshes.Box(0.2f));
-            box.transform.position = new Vector3(0f, -0.1f, 0f);
-            Physics.SyncTransforms();
-            HapticStylus stylus = Pen(_ => new Vector3(0f, 0.01f, 0f));
-            force.ForceNewtons = 0.5f;
-            yield return Frames(3);
-            Assert.That(stylus.IsTouching, Is.True);
-            Assert.That(Vector3.Dot(stylus.Contact.Normal, Vector3.up), Is.EqualTo(1f).Within(1e-4f));
-        }
-
-        private static IEnumerator Frames(int count)
-        {
-            for (int frame = 0; frame < count; ++frame)
-            {
-                yield return null;
-            }
         }
 
         private HapticStylus Pen(Func<double, Vector3> path)

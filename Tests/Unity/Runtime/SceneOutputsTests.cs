@@ -64,19 +64,6 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ADisabledOnlyOutputOfASceneIsSilentAndNoneIsCreated()
-        {
-            FinishLoading();
-            Board();
-            Output(out HapticOutput output);
-            Circling();
-            yield return Frames(5);
-            output.enabled = false;
-            yield return Frames(5);
-            Assert.That(Outputs(), Is.EqualTo(new[] { output }));
-        }
-
-        [UnityTest]
         public IEnumerator AnOutputOnAnInactiveObjectIsSilentUntilItIsActive()
         {
             FinishLoading();
@@ -129,13 +116,5 @@ namespace HaptoFlow.Tests
 
         private static HapticOutput[] Outputs() => Object.FindObjectsByType<HapticOutput>(
             FindObjectsInactive.Include, FindObjectsSortMode.None).ToArray();
-
-        private static IEnumerator Frames(int count)
-        {
-            for (int frame = 0; frame < count; ++frame)
-            {
-                yield return null;
-            }
-        }
     }
 }

@@ -26,10 +26,7 @@ namespace HaptoFlow.Tests
             stylus.Events.TouchEnded.AddListener(surface => received.Add("ended " + surface.name));
             stylus.Events.TouchMoved.AddListener(_ => ++moved);
             var log = new TouchLog(stylus);
-            for (int frame = 0; frame < 60; ++frame)
-            {
-                yield return null;
-            }
+            yield return Frames(60);
             Assert.That(received, Is.EqualTo(new[] { "began wood", "changed fur", "ended fur" }));
             Assert.That(moved, Is.EqualTo(log.Moved).And.GreaterThan(20));
         }
@@ -47,10 +44,7 @@ namespace HaptoFlow.Tests
             });
             stylus.Events.TouchMoved.AddListener(_ => received.Add("moved"));
             stylus.Events.TouchEnded.AddListener(_ => received.Add("ended"));
-            for (int frame = 0; frame < 5; ++frame)
-            {
-                yield return null;
-            }
+            yield return Frames(5);
             Assert.That(received, Is.EqualTo(new[] { "began", "ended" }));
         }
     }

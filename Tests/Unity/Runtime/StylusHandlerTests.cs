@@ -17,8 +17,7 @@ namespace HaptoFlow.Tests
             Output(out _);
             HapticStylus stylus = Pressing();
             stylus.TouchBegan += (HapticStylus sender, in HapticContact _) => sender.enabled = false;
-            yield return null;
-            yield return null;
+            yield return Frames(2);
             Assert.That(stylus.enabled, Is.False);
             Assert.That(Voices(), Is.Zero);
             Assert.That(stylus.IsTouching, Is.False);
@@ -33,8 +32,7 @@ namespace HaptoFlow.Tests
             HapticStylus stylus = Pressing();
             yield return null;
             stylus.TouchMoved += (HapticStylus sender, in HapticContact _) => Object.DestroyImmediate(sender);
-            yield return null;
-            yield return null;
+            yield return Frames(2);
             Assert.That(Voices(), Is.Zero);
         }
 
@@ -56,9 +54,7 @@ namespace HaptoFlow.Tests
                     sender.enabled = true;
                 }
             };
-            yield return null;
-            yield return null;
-            yield return null;
+            yield return Frames(3);
             Assert.That(log.Began, Is.EqualTo(2));
             Assert.That(log.Ended, Is.EqualTo(1));
             Assert.That(Voices(), Is.EqualTo(1u));
@@ -73,8 +69,7 @@ namespace HaptoFlow.Tests
             HapticStylus stylus = Pressing();
             stylus.TouchBegan += (HapticStylus _, in HapticContact contact) =>
                 Object.DestroyImmediate(contact.Surface!.gameObject);
-            yield return null;
-            yield return null;
+            yield return Frames(2);
             Assert.That(stylus.IsTouching, Is.False);
             stylus.TryGetStatistics(out VoiceStatistics statistics);
             Assert.That(statistics.Updates, Is.GreaterThan(0UL));

@@ -53,8 +53,7 @@ namespace HaptoFlow.Tests
             HapticSurface board = Board();
             board.SharedMaterial = shared;
             HapticStylus stylus = StylusAlong(_ => new Vector3(0f, 0.001f, 0f));
-            yield return null;
-            yield return null;
+            yield return Frames(2);
             Assert.That(stylus.IsTouching, Is.True);
             Assert.That(board.SharedDescription, Is.SameAs(shared.Description));
             Assert.That(board.SharedMaterial, Is.SameAs(shared));

@@ -14,6 +14,17 @@ namespace UnityShim
 
         public static IReadOnlyList<(LogType Type, string Text)> Lines => Written;
 
+        /// <summary>The number of messages that contain a text, of one type or of all.</summary>
+        public static int Count(string part, LogType? type = null)
+        {
+            int count = 0;
+            foreach ((LogType of, string text) in Written)
+            {
+                count += (type ?? of) == of && text.Contains(part) ? 1 : 0;
+            }
+            return count;
+        }
+
         public static void Clear()
         {
             lock (Written)

@@ -23,8 +23,7 @@ namespace HaptoFlow.Tests
             HapticStylus third = Resting(-0.025f);
             HapticStylus between = Resting(0f);
             HapticStylus bright = Resting(0.075f);
-            yield return null;
-            yield return null;
+            yield return Frames(2);
             Assert.That(FeltAlone(dark), Is.EqualTo("wood"));
             Assert.That(FeltAlone(bright), Is.EqualTo("glass"));
             Assert.That(WeightOf(third, "glass"), Is.EqualTo(1f / 3f).Within(0.01f));
@@ -43,8 +42,7 @@ namespace HaptoFlow.Tests
             surface.Mask = mask;
             HapticStylus left = Resting(-0.05f);
             HapticStylus right = Resting(0.05f);
-            yield return null;
-            yield return null;
+            yield return Frames(2);
             Assert.That(FeltAlone(left), Is.EqualTo("wood"));
             Assert.That(FeltAlone(right), Is.EqualTo("glass"));
         }
@@ -73,8 +71,7 @@ namespace HaptoFlow.Tests
             mask.Green.SetMaterial(Feeling("fur"));
             Rule("wood", mask);
             HapticStylus stylus = Resting();
-            yield return null;
-            yield return null;
+            yield return Frames(2);
             Assert.That(Felt(stylus).Select(each => each.Label), Is.EquivalentTo(new[] { "glass", "fur" }));
             Assert.That(Felt(stylus).Sum(each => each.Weight), Is.EqualTo(1f).Within(1e-4f));
         }
@@ -90,8 +87,7 @@ namespace HaptoFlow.Tests
             Map.Rules[0].Mask = mask;
             HapticStylus left = Resting(-0.05f);
             HapticStylus right = Resting(0.05f);
-            yield return null;
-            yield return null;
+            yield return Frames(2);
             Assert.That(FeltAlone(left), Is.Empty);
             Assert.That(FeltAlone(right), Is.EqualTo("glass"));
         }
@@ -107,8 +103,7 @@ namespace HaptoFlow.Tests
             HapticStylus first = Resting(-0.025f);
             HapticStylus second = Resting(0.025f);
             HapticStylus last = Resting(0.075f);
-            yield return null;
-            yield return null;
+            yield return Frames(2);
             Assert.That(FeltAlone(first), Is.EqualTo("glass"));
             Assert.That(FeltAlone(second), Is.EqualTo("wood"), "the mask repeats");
             Assert.That(FeltAlone(last), Is.EqualTo("glass"));
@@ -127,8 +122,7 @@ namespace HaptoFlow.Tests
             Map.Add(HapticMaterialRule.ForName("Plank", Feeling("wood")));
             Map.Rules[0].Mask = mask;
             HapticStylus stylus = Resting();
-            yield return null;
-            yield return null;
+            yield return Frames(2);
             Assert.That(FeltAlone(stylus), Is.EqualTo("wood"));
         }
 

@@ -22,8 +22,7 @@ namespace HaptoFlow.Tests
             Map.Add(HapticMaterialRule.ForTag("Finish", Feeling("stone")));
             HapticStylus stylus = Resting();
             var log = new TouchLog(stylus);
-            yield return null;
-            yield return null;
+            yield return Frames(2);
             Assert.That(FeltAlone(stylus), Is.EqualTo("stone"));
             Assert.That(log.Began, Is.EqualTo(1));
             Assert.That(stylus.Contact.Surface, Is.Null);
@@ -39,8 +38,7 @@ namespace HaptoFlow.Tests
             Bare();
             Map.Add(HapticMaterialRule.ForTag("Finish", Feeling("stone")));
             HapticStylus stylus = Resting();
-            yield return null;
-            yield return null;
+            yield return Frames(2);
             Assert.That(stylus.IsTouching, Is.False);
             HaptoFlowSettings.Active.MaterialMap = null;
             yield return null;
@@ -86,8 +84,7 @@ namespace HaptoFlow.Tests
             BoxCollider box = Bare();
             box.gameObject.AddComponent<TrailRenderer>().sharedMaterial = oak;
             HapticStylus stylus = Resting();
-            yield return null;
-            yield return null;
+            yield return Frames(2);
             Assert.That(stylus.IsTouching, Is.False, "the renderer of a trail is ignored");
             GameObject below = Make("Look");
             below.transform.SetParent(box.transform, false);
@@ -112,8 +109,7 @@ namespace HaptoFlow.Tests
             map.DefaultMaterial = Feeling("wood");
             HaptoFlowSettings.Active.MaterialMap = map;
             HapticStylus stylus = Resting();
-            yield return null;
-            yield return null;
+            yield return Frames(2);
             HapticContact contact = stylus.Contact;
             Object.DestroyImmediate(map);
             Assert.That(contact.Explain(), Is.EqualTo("a deleted map"));
@@ -127,8 +123,7 @@ namespace HaptoFlow.Tests
             Map.Add(HapticMaterialRule.ForName("Plank", Feeling("wood")));
             Map.Add(HapticMaterialRule.ForName("*", Feeling("stone")));
             HapticStylus stylus = Resting();
-            yield return null;
-            yield return null;
+            yield return Frames(2);
             Assert.That(FeltAlone(stylus), Is.EqualTo("wood"));
             Map.Insert(0, HapticMaterialRule.ForLayer(0, null));
             yield return null;
@@ -146,8 +141,7 @@ namespace HaptoFlow.Tests
             Map.Add(HapticMaterialRule.ForTag("Finish", Feeling("stone")));
             Map.DefaultMaterial = Feeling("rubber");
             HapticStylus stylus = Resting();
-            yield return null;
-            yield return null;
+            yield return Frames(2);
             Assert.That(FeltAlone(stylus), Is.EqualTo("rubber"));
             Assert.That(stylus.Contact.Explain(), Is.EqualTo("default of \"Project\""));
         }
@@ -159,8 +153,7 @@ namespace HaptoFlow.Tests
             HapticSurface board = Board("glass");
             Map.DefaultMaterial = Feeling("rubber");
             HapticStylus stylus = Resting();
-            yield return null;
-            yield return null;
+            yield return Frames(2);
             Assert.That(FeltAlone(stylus), Is.EqualTo("glass"));
             Assert.That(stylus.Contact.Explain(), Is.EqualTo("Haptic Surface on \"glass\""));
             board.enabled = false;
@@ -180,8 +173,7 @@ namespace HaptoFlow.Tests
             HapticStylus stylus = Resting();
             HapticMaterialMapScope late = Scope("Late", 2, HapticMaterialRule.ForName("Plank", Feeling("stone")));
             HapticMaterialMapScope early = Scope("Early", 1, HapticMaterialRule.ForName("P*", Feeling("wood")));
-            yield return null;
-            yield return null;
+            yield return Frames(2);
             Assert.That(FeltAlone(stylus), Is.EqualTo("wood"));
             Assert.That(stylus.Contact.Explain(), Is.EqualTo("rule 1 of \"Early\": name \"P*\""));
             early.enabled = false;
@@ -204,18 +196,14 @@ namespace HaptoFlow.Tests
             BoxCollider box = Bare();
             Map.DefaultMaterial = Feeling("wood", material => material.StiffnessNewtonsPerMetre = 200f);
             HapticStylus stylus = Resting();
-            yield return null;
-            yield return null;
+            yield return Frames(2);
             Assert.That(stylus.Contact.ForceNewtons, Is.EqualTo(0.2f).Within(0.01f), "200 N/m, 1 mm deep");
             Map.DefaultMaterial.Description.StiffnessNewtonsPerMetre = 400f;
             yield return null;
             Assert.That(stylus.Contact.ForceNewtons, Is.EqualTo(0.4f).Within(0.02f));
             var mover = box.gameObject.AddComponent<PathMover>();
             mover.Path = seconds => new Vector3(0.1f * (float)seconds, 0f, 0f);
-            for (int frame = 0; frame < 30; ++frame)
-            {
-                yield return null;
-            }
+            yield return Frames(30);
             Assert.That(Mathf.Abs(stylus.Contact.FirstVelocityMps), Is.EqualTo(0.1f).Within(0.03f),
                 "the plank moves under the tip");
         }
@@ -230,8 +218,7 @@ namespace HaptoFlow.Tests
             HapticStylus stylus = Resting();
             stylus.transform.SetParent(rig.transform, true);
             stylus.gameObject.AddComponent<SphereCollider>();
-            yield return null;
-            yield return null;
+            yield return Frames(2);
             Assert.That(stylus.IsTouching, Is.False);
         }
 

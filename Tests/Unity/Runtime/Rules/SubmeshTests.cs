@@ -18,8 +18,7 @@ namespace HaptoFlow.Tests
             Map.Add(HapticMaterialRule.ForSubmesh(null, 1, Feeling("glass")));
             HapticStylus left = Resting(-0.05f);
             HapticStylus right = Resting(0.05f);
-            yield return null;
-            yield return null;
+            yield return Frames(2);
             Assert.That(FeltAlone(left), Is.EqualTo("wood"));
             Assert.That(FeltAlone(right), Is.EqualTo("glass"));
             Assert.That(right.Contact.Explain(), Is.EqualTo("rule 2 of \"Project\": submesh 1"));
@@ -37,8 +36,7 @@ namespace HaptoFlow.Tests
             Map.Add(HapticMaterialRule.ForRendererMaterial(oak, Feeling("wood")));
             HapticStylus left = Resting(-0.05f);
             HapticStylus right = Resting(0.05f);
-            yield return null;
-            yield return null;
+            yield return Frames(2);
             Assert.That(FeltAlone(left), Is.EqualTo("wood"));
             Assert.That(FeltAlone(right), Is.EqualTo("glass"));
         }
@@ -76,17 +74,11 @@ namespace HaptoFlow.Tests
             float side = -1f;
             HapticStylus stylus = StylusAlong(seconds => new Vector3(
                 side * (0.05f + 0.03f * (float)System.Math.Sin(8.0 * seconds)), 0.001f, 0f));
-            for (int frame = 0; frame < 30; ++frame)
-            {
-                yield return null;
-            }
+            yield return Frames(30);
             Assert.That(stylus.TryGetStatistics(out VoiceStatistics silent), Is.True);
             Assert.That(silent.Inferences, Is.Zero, "the left submesh has no material");
             side = 1f;
-            for (int frame = 0; frame < 30; ++frame)
-            {
-                yield return null;
-            }
+            yield return Frames(30);
             Assert.That(stylus.TryGetStatistics(out VoiceStatistics sounding), Is.True);
             Assert.That(sounding.Inferences, Is.GreaterThan(2UL));
         }
@@ -100,8 +92,7 @@ namespace HaptoFlow.Tests
             Map.Add(HapticMaterialRule.ForSubmesh(mesh.sharedMesh, 0, Feeling("wood")));
             Map.Add(HapticMaterialRule.ForSubmesh(mesh.sharedMesh, 1, Feeling("glass")));
             HapticStylus right = Resting(0.05f);
-            yield return null;
-            yield return null;
+            yield return Frames(2);
             Assert.That(FeltAlone(right), Is.EqualTo("wood"));
         }
 

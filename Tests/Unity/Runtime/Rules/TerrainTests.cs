@@ -27,8 +27,7 @@ namespace HaptoFlow.Tests
             HapticStylus middle = Resting();
             HapticStylus left = Resting(-0.45f);
             HapticStylus quarter = Resting(-0.25f, 0.1f);
-            yield return null;
-            yield return null;
+            yield return Frames(2);
             Assert.That(Felt(middle).Select(each => each.Label), Is.EquivalentTo(new[] { "wood", "corduroy" }));
             Assert.That(Felt(middle).Select(each => each.Weight), Is.All.EqualTo(0.5f).Within(0.01f));
             Assert.That(WeightOf(left, "wood"), Is.EqualTo(0.95f).Within(0.01f));
@@ -46,8 +45,7 @@ namespace HaptoFlow.Tests
             AddRule(1, "stone");
             Paint((x, z) => new[] { 1f - x, x });
             HapticStylus stylus = StylusAlong(seconds => new Vector3(-0.4f + 0.5f * (float)seconds, 0.001f, 0.1f));
-            yield return null;
-            yield return null;
+            yield return Frames(2);
             float before = WeightOf(stylus, "stone");
             for (int frame = 0; frame < 60; ++frame)
             {
@@ -71,8 +69,7 @@ namespace HaptoFlow.Tests
             }
             Paint((x, z) => new[] { 0.05f, 0.3f, 0.1f, 0.25f, 0.02f, 0.28f });
             HapticStylus stylus = Resting();
-            yield return null;
-            yield return null;
+            yield return Frames(2);
             List<(string Label, float Weight)> felt = Felt(stylus);
             Assert.That(felt.Select(each => each.Label), Is.EqualTo(new[] { "stone", "jute", "fur", "glass" }));
             Assert.That(felt.Sum(each => each.Weight), Is.EqualTo(1f).Within(1e-4f));
@@ -88,8 +85,7 @@ namespace HaptoFlow.Tests
             Map.Add(HapticMaterialRule.ForTerrainLayer(layers[1], soft));
             Paint((x, z) => new[] { 0.25f, 0.25f, 0.5f });
             HapticStylus stylus = Resting();
-            yield return null;
-            yield return null;
+            yield return Frames(2);
             Assert.That(Felt(stylus), Has.Count.EqualTo(1));
             Assert.That(WeightOf(stylus, "fur"), Is.EqualTo(1f));
             ResolvedMaterial felt = MappedColliders.Resolve(terrain)!.At(PlaceOf(stylus), HapticSession.Current);
@@ -115,8 +111,7 @@ namespace HaptoFlow.Tests
             })));
             Paint((x, z) => new[] { 0.5f, 0.5f });
             HapticStylus stylus = Resting();
-            yield return null;
-            yield return null;
+            yield return Frames(2);
             ResolvedMaterial felt = MappedColliders.Resolve(terrain)!.At(PlaceOf(stylus), HapticSession.Current);
             Assert.That(felt.FeatureScale, Is.EqualTo(1f).Within(0.02f), "by ratio");
             Assert.That(felt.ToneDbPerOctave, Is.EqualTo(-1f).Within(0.05f));
@@ -132,8 +127,7 @@ namespace HaptoFlow.Tests
             AddRule(0, "wood");
             AddRule(1, "stone");
             HapticStylus stylus = Resting();
-            yield return null;
-            yield return null;
+            yield return Frames(2);
             Assert.That(FeltAlone(stylus), Is.EqualTo("wood"));
             Paint((x, z) => new[] { 0f, 1f });
             yield return null;
@@ -160,8 +154,7 @@ namespace HaptoFlow.Tests
             terrain.terrainData.SetAlphamaps(0, 0, map);
             HapticStylus left = Resting(-0.3f);
             HapticStylus right = Resting(0.3f);
-            yield return null;
-            yield return null;
+            yield return Frames(2);
             Assert.That(FeltAlone(left), Is.EqualTo("wood"));
             Assert.That(WeightOf(right, "stone"), Is.EqualTo(0.5f).Within(0.01f));
         }
@@ -174,12 +167,10 @@ namespace HaptoFlow.Tests
             AddRule(0, "wood");
             AddRule(1, "stone");
             HapticStylus stylus = Resting();
-            yield return null;
-            yield return null;
+            yield return Frames(2);
             Assert.That(stylus.IsTouching, Is.True);
             UnityEngine.Object.DestroyImmediate(terrain.terrainData!);
-            yield return null;
-            yield return null;
+            yield return Frames(2);
             Assert.That(stylus.IsTouching, Is.False);
         }
 
@@ -190,8 +181,7 @@ namespace HaptoFlow.Tests
             Terrain();
             Map.Add(HapticMaterialRule.ForName("Ground", Feeling("stone")));
             HapticStylus stylus = Resting();
-            yield return null;
-            yield return null;
+            yield return Frames(2);
             Assert.That(FeltAlone(stylus), Is.EqualTo("stone"));
         }
 

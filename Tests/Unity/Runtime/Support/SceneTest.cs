@@ -1,5 +1,6 @@
 #nullable enable
 using System;
+using System.Collections;
 using System.Collections.Generic;
 using NUnit.Framework;
 using UnityEngine;
@@ -103,6 +104,23 @@ namespace HaptoFlow.Tests
 #if HAPTOFLOW_OUTSIDE_UNITY
             UnityShim.World.FrameRateHz = hertz;
 #endif
+        }
+
+        internal static IEnumerator Frames(int count)
+        {
+            for (int frame = 0; frame < count; ++frame)
+            {
+                yield return null;
+            }
+        }
+
+        /// <summary>Frames until a path has lasted so long.</summary>
+        internal static IEnumerator Until(PathMover mover, double seconds)
+        {
+            while (mover.Seconds < seconds)
+            {
+                yield return null;
+            }
         }
 
         internal static void FinishLoading() => HapticSession.Current.FinishLoading();
