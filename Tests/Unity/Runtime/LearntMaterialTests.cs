@@ -43,9 +43,9 @@ namespace HaptoFlow.Tests
 
         private static LabelBlend BlendOf(HapticSurface surface)
         {
-            surface.BlendFor(Session);
+            _ = surface.LookUp(Session);
             Session.FinishRegistrations();
-            return surface.BlendFor(Session);
+            return surface.LookUp(Session).Labels;
         }
 
         [UnityTest]
@@ -56,7 +56,7 @@ namespace HaptoFlow.Tests
             board.SharedMaterial = Learnt("glass", "fur", ("stiffness_newtons_per_metre", 432.0));
             LabelBlend blend = BlendOf(board);
             Assert.That((blend.Count, blend.Label(0), blend.Weight(0)), Is.EqualTo((1, LabelCount, 1f)));
-            Assert.That(board.StiffnessFor(Session), Is.EqualTo(432.0));
+            Assert.That(board.LookUp(Session).StiffnessNewtonsPerMetre, Is.EqualTo(432.0));
             Assert.That((Haptics.LearntMaterials, Haptics.RefusedMaterials), Is.EqualTo((1, 0)));
             AudioTap tap = Output(out _);
             HapticStylus stylus = Circling();
@@ -71,9 +71,9 @@ namespace HaptoFlow.Tests
             HapticSurface board = Board("wood");
             board.SharedMaterial = Learnt("glass", "fur");
             FinishLoading();
-            Assert.That(board.BlendFor(Session).Label(0), Is.EqualTo(Session.Labels.All.ToList().IndexOf("fur")));
+            Assert.That(board.LookUp(Session).Labels.Label(0), Is.EqualTo(Session.Labels.All.ToList().IndexOf("fur")));
             Session.FinishRegistrations();
-            Assert.That(board.BlendFor(Session).Label(0), Is.EqualTo(LabelCount));
+            Assert.That(board.LookUp(Session).Labels.Label(0), Is.EqualTo(LabelCount));
             yield return null;
         }
 
@@ -105,7 +105,7 @@ namespace HaptoFlow.Tests
             LabelBlend blend = BlendOf(board);
             Assert.That((blend.Count, blend.Label(0), blend.Label(1)), Is.EqualTo((2, LabelCount, 0)));
             board.Material.Learnt = null;
-            Assert.That(board.BlendFor(Session).Label(0), Is.LessThan(LabelCount));
+            Assert.That(board.LookUp(Session).Labels.Label(0), Is.LessThan(LabelCount));
             yield return null;
         }
 
@@ -145,9 +145,9 @@ namespace HaptoFlow.Tests
             material.Carry(Text("sandpaper", ("stiffness_newtons_per_metre", 600.0)));
             Session.FinishRegistrations();
             Assert.That((BlendOf(board).Label(0), Haptics.LearntMaterials), Is.EqualTo((LabelCount, 1)));
-            Assert.That(board.StiffnessFor(Session), Is.EqualTo(600.0));
+            Assert.That(board.LookUp(Session).StiffnessNewtonsPerMetre, Is.EqualTo(600.0));
             material.Carry("");
-            Assert.That(board.BlendFor(Session).Label(0), Is.EqualTo(Session.Labels.All.ToList().IndexOf("fur")));
+            Assert.That(board.LookUp(Session).Labels.Label(0), Is.EqualTo(Session.Labels.All.ToList().IndexOf("fur")));
             Assert.That(Haptics.LearntMaterials, Is.Zero);
             yield return null;
             Assert.That(stylus.IsTouching, Is.True);
@@ -194,7 +194,7 @@ namespace HaptoFlow.Tests
             Application.logMessageReceived -= Note;
             Assert.That((Haptics.LearntMaterials, Haptics.RefusedMaterials), Is.EqualTo((64, 6)));
             Assert.That(refusals, Has.Count.EqualTo(6).And.All.Contains("64 learnt materials are in use"));
-            Assert.That(boards.Select(board => board.BlendFor(Session).Label(0)).Distinct().Count(), Is.EqualTo(65));
+            Assert.That(boards.Select(board => board.LookUp(Session).Labels.Label(0)).Distinct().Count(), Is.EqualTo(65));
             Object.DestroyImmediate(boards[3].SharedMaterial!);
             Session.FinishRegistrations();
             Assert.That(BlendOf(boards[64]).Label(0), Is.EqualTo(LabelCount + 3));

@@ -32,12 +32,12 @@ namespace HaptoFlow.Tests
             HapticSurface board = Board("wood");
             board.Material.SecondLabel = "fur";
             board.Material.Blend = 0.25f;
-            LabelBlend blend = board.BlendFor(HapticSession.Current);
+            LabelBlend blend = board.LookUp(HapticSession.Current).Labels;
             Assert.That(blend.Count, Is.EqualTo(2));
             Assert.That(blend.Weight(0), Is.EqualTo(0.75f));
             Assert.That(blend.Weight(1), Is.EqualTo(0.25f));
             board.Material.Blend = 0f;
-            Assert.That(board.BlendFor(HapticSession.Current).Count, Is.EqualTo(1));
+            Assert.That(board.LookUp(HapticSession.Current).Labels.Count, Is.EqualTo(1));
             yield return null;
         }
 

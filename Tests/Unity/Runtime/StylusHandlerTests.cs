@@ -76,6 +76,20 @@ namespace HaptoFlow.Tests
             Assert.That(statistics.Onsets, Is.Zero);
         }
 
+        [UnityTest]
+        public IEnumerator ATouchBeginsWithTheMaterialThatItsHandlersGaveTheSurface()
+        {
+            FinishLoading();
+            HapticSurface board = Board();
+            Output(out _);
+            HapticStylus stylus = StylusAlong(seconds => new Vector3(0.1f * (float)seconds, 0.001f, 0f));
+            stylus.TouchBegan += (HapticStylus _, in HapticContact _) => board.Material.Label = "nothing known";
+            yield return Frames(20);
+            Assert.That(stylus.IsTouching, Is.True);
+            Assert.That(stylus.TryGetStatistics(out VoiceStatistics statistics), Is.True);
+            Assert.That((statistics.Onsets, statistics.Inferences), Is.EqualTo((0UL, 0UL)));
+        }
+
         private static uint Voices() =>
             Haptics.TryGetStatistics(out EngineStatistics engine) ? engine.Voices : uint.MaxValue;
 

@@ -18,11 +18,11 @@ namespace HaptoFlow.Tests
             HapticSurface second = Board();
             first.SharedMaterial = shared;
             second.SharedMaterial = shared;
-            LabelBlend glass = second.BlendFor(HapticSession.Current);
+            LabelBlend glass = second.LookUp(HapticSession.Current).Labels;
             first.Material.Label = "rubber";
             Assert.That(shared.Description.Label, Is.EqualTo("glass"));
-            Assert.That(second.BlendFor(HapticSession.Current), Is.EqualTo(glass));
-            Assert.That(first.BlendFor(HapticSession.Current), Is.Not.EqualTo(glass));
+            Assert.That(second.LookUp(HapticSession.Current).Labels, Is.EqualTo(glass));
+            Assert.That(first.LookUp(HapticSession.Current).Labels, Is.Not.EqualTo(glass));
             Assert.That(first.SharedMaterial, Is.Null);
             yield return null;
         }

@@ -19,6 +19,9 @@ namespace HaptoFlow
         /// <summary>The point closest to the tip in the last update in which the collider was within reach.</summary>
         public TouchedPlace Place { get; set; }
 
+        /// <summary>The material at <see cref="Place"/>, as of the last <see cref="Feel"/>.</summary>
+        public ResolvedMaterial Felt { get; private set; }
+
         public ContactBody Tracked { get; } = new ContactBody(Double3.Right, 0.0);
 
         /// <summary>Number of the last update in which the collider was near.</summary>
@@ -48,7 +51,7 @@ namespace HaptoFlow
             Collider = collider;
             Surface = surface;
             ByRules = byRules;
-            Place = default;
+            (Place, Felt) = (default, default);
             Vector3 grain = surface is object
                 ? surface.transform.TransformDirection(surface.Grain)
                 : collider.transform.TransformDirection(Vector3.right);
@@ -65,18 +68,13 @@ namespace HaptoFlow
             Collider = null;
             Surface = null;
             ByRules = null;
-            Place = default;
+            (Place, Felt) = (default, default);
         }
 
-        /// <summary>The material at <see cref="Place"/>. No garbage while nothing changes.</summary>
-        public ResolvedMaterial Feel(HapticSession session)
-        {
-            if (Surface is object)
-            {
-                return Surface.At(Place, session);
-            }
-            return ByRules is object ? ByRules.At(Place, session) : default;
-        }
+        /// <summary>Finds the material at <see cref="Place"/>. No garbage while nothing changes.</summary>
+        public void Feel(HapticSession session) => Felt = Surface is object
+            ? Surface.At(Place, session)
+            : ByRules is object ? ByRules.At(Place, session) : default;
 
         /// <summary>Records the pose at which the collider is drawn in a frame.</summary>
         /// <param name="nowSeconds">The tip's clock.</param>

@@ -18,9 +18,6 @@ namespace HaptoFlow.Outputs
         /// <summary>Number of samples since the beginning.</summary>
         public long End { get; private set; }
 
-        /// <summary>Length of the buffer in s.</summary>
-        public static double CapacitySeconds => Size / RateHz;
-
         /// <summary>The sample at a position; 0 where it was never written or has been overwritten.</summary>
         public float this[long position] =>
             position >= 0 && position < End && position >= End - Size ? samples[position & Mask] : 0f;
