@@ -1,9 +1,10 @@
 #nullable enable
 using System;
 using System.Collections.Generic;
+using HaptoFlow.Outputs;
 using UnityEngine;
 
-namespace HaptoFlow.Outputs
+namespace HaptoFlow
 {
     /// <summary>The device that a wave plays on: of the sinks to try, the first whose device is there, and its queue.
     /// Main thread.</summary>
