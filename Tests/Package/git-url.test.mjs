@@ -31,7 +31,7 @@ test('every asset that the code loads from the package by its path is in the fol
   const literals = files.endingIn('.cs').flatMap((name) => [...files.text(name).matchAll(/"Packages\/com\.haptoflow\.runtime\/([^"]+)"/g)].map(([, place]) => ({ name, place })));
   assert.ok(literals.length >= 2);
   for (const { name, place } of literals) assert.ok(files.names.some((file) => file.startsWith(place)), `${name}: ${place}`);
-  for (const ending of ['wav.bytes', 'json', 'motion.csv']) assert.ok(files.has(`Runtime/SampleScenes/Workshop/Recordings/doormat.${ending}`), ending);
+  for (const ending of ['wav.bytes', 'json', 'motion.csv']) assert.ok(files.has(`Runtime/SampleScenes/Recordings/doormat.${ending}`), ending);
 });
 
 test('the menu makes a scene for each sample whose scripts are in the folder', () => {

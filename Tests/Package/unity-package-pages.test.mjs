@@ -77,7 +77,7 @@ test('every type and member of HaptoFlow that a page names exists and is public'
 });
 
 test('the profiler\'s markers are those of the performance page', () => {
-  const markers = [...read('Packages', 'com.haptoflow.runtime', 'Runtime', 'Components', 'Markers.cs').matchAll(/ProfilerMarker\("([^"]+)"\)/g)].map(([, marker]) => marker);
+  const markers = [...read('Packages', 'com.haptoflow.runtime', 'Runtime', 'Components', 'Haptics.cs').matchAll(/ProfilerMarker\("([^"]+)"\)/g)].map(([, marker]) => marker);
   const named = [...read('Documentation~', 'performance.md').matchAll(/^\| (?:main|audio) \|.*\| `(HaptoFlow\.\w+)` \|$/gm)].map(([, marker]) => marker);
   assert.deepEqual(named.sort(), markers.sort());
 });
