@@ -1,6 +1,7 @@
 #nullable enable
 using System;
 using System.Collections;
+using HaptoFlow.Contact;
 using NUnit.Framework;
 using UnityEngine;
 using UnityEngine.TestTools;
@@ -136,6 +137,143 @@ namespace HaptoFlow.Tests
             stylus.Force = force;
             stylus.TouchBy = TouchDecision.MeasuredForce;
             return stylus;
+        }
+    }
+
+    /// <summary>The force detector alone, without scene and geometry.</summary>
+    public sealed class ForceTouchTests
+    {
+        private const double FrameSeconds = 1.0 / 90.0;
+
+        private ForceTouch touch = null!;
+        private double now;
+
+        [SetUp]
+        public void TakeAPen()
+        {
+            touch = new ForceTouch(new ForceTouchSettings());
+            now = 100.0;
+        }
+
+        [Test]
+        public void ATouchBeginsAtThePressForceAndEndsAtTheReleaseForce()
+        {
+            Assert.That(After(0.0), Is.EqualTo(ForceVerdict.Lifted));
+            Assert.That(After(0.049), Is.EqualTo(ForceVerdict.Lifted));
+            Assert.That(After(0.05), Is.EqualTo(ForceVerdict.Pressed));
+            Assert.That(After(0.021), Is.EqualTo(ForceVerdict.Pressed));
+            Assert.That(After(0.02), Is.EqualTo(ForceVerdict.Lifted));
+            Assert.That(After(0.049), Is.EqualTo(ForceVerdict.Lifted));
+        }
+
+        [Test]
+        public void SensorNoiseBelowTheHysteresisCausesOneTouchHoweverSlowThePenIs()
+        {
+            var random = new System.Random(7);
+            int touches = 0;
+            ForceVerdict before = ForceVerdict.Lifted;
+            for (int frame = 0; frame < 900; ++frame)
+            {
+                double ramp = 0.4 * Math.Min(frame, 900 - frame) / 450.0;
+                double noise = 0.014 * (2.0 * random.NextDouble() - 1.0);
+                ForceVerdict verdict = After(Math.Max(0.0, ramp + noise));
+                touches += verdict == ForceVerdict.Pressed && before != ForceVerdict.Pressed ? 1 : 0;
+                before = verdict;
+            }
+            Assert.That(touches, Is.EqualTo(1));
+            Assert.That(before, Is.EqualTo(ForceVerdict.Lifted));
+        }
+
+        [Test]
+        public void AShortDropoutKeepsTheTouchAndItsForceAndALongOneEndsIt()
+        {
+            After(1.5);
+            Assert.That(After(null), Is.EqualTo(ForceVerdict.Pressed));
+            Assert.That(touch.ForceNewtons, Is.EqualTo(1.5));
+            Assert.That(After(null), Is.EqualTo(ForceVerdict.Pressed));
+            now += 0.1;
+            Assert.That(After(null), Is.EqualTo(ForceVerdict.Unknown));
+            Assert.That(touch.ForceNewtons, Is.Zero);
+            Assert.That(After(0.03), Is.EqualTo(ForceVerdict.Lifted), "the previous touch has ended");
+        }
+
+        [Test]
+        public void ADropoutWhileLiftedStaysLiftedUntilTheForceIsUnknown()
+        {
+            After(0.0);
+            Assert.That(After(null), Is.EqualTo(ForceVerdict.Lifted));
+            now += 0.1;
+            Assert.That(After(null), Is.EqualTo(ForceVerdict.Unknown));
+        }
+
+        [TestCase(double.NaN)]
+        [TestCase(double.PositiveInfinity)]
+        [TestCase(double.NegativeInfinity)]
+        [TestCase(-0.5)]
+        public void AnInvalidForceCountsAsADropout(double broken)
+        {
+            Assert.That(After(broken), Is.EqualTo(ForceVerdict.Unknown));
+            After(1.0);
+            Assert.That(After(broken), Is.EqualTo(ForceVerdict.Pressed));
+            Assert.That(touch.ForceNewtons, Is.EqualTo(1.0));
+            for (int frame = 0; frame < 10; ++frame)
+            {
+                After(broken);
+            }
+            Assert.That(touch.Verdict, Is.EqualTo(ForceVerdict.Unknown));
+        }
+
+        [Test]
+        public void APenWithoutAMeasurementIsUnknown()
+        {
+            Assert.That(After(null), Is.EqualTo(ForceVerdict.Unknown));
+            Assert.That(touch.Update(double.NaN, null), Is.EqualTo(ForceVerdict.Unknown));
+        }
+
+        [Test]
+        public void AForceIsNotHeldForeverWhenTheClockRunsBackwardsOrBreaks()
+        {
+            After(1.0);
+            now = 5.0;
+            Assert.That(After(null), Is.EqualTo(ForceVerdict.Pressed));
+            now += 0.1;
+            Assert.That(After(null), Is.EqualTo(ForceVerdict.Unknown));
+            After(1.0);
+            Assert.That(touch.Update(double.NaN, null), Is.EqualTo(ForceVerdict.Unknown));
+        }
+
+        [Test]
+        public void TheNearDistanceAppliesOnBothSidesAndIsLongerForATouchedSurface()
+        {
+            Assert.That(touch.IsNear(0.02, false), Is.True);
+            Assert.That(touch.IsNear(-0.02, false), Is.True);
+            Assert.That(touch.IsNear(0.021, false), Is.False);
+            Assert.That(touch.IsNear(-0.021, false), Is.False);
+            Assert.That(touch.IsNear(0.024, true), Is.True);
+            Assert.That(touch.IsNear(0.026, true), Is.False);
+            Assert.That(touch.IsNear(double.NaN, true), Is.False);
+        }
+
+        [Test]
+        public void SettingsOutOfRangeAreNamed()
+        {
+            Refused(new ForceTouchSettings { PressNewtons = 0.0 }, "PressNewtons");
+            Refused(new ForceTouchSettings { PressNewtons = double.NaN }, "PressNewtons");
+            Refused(new ForceTouchSettings { ReleaseNewtons = 0.05 }, "ReleaseNewtons");
+            Refused(new ForceTouchSettings { ReleaseNewtons = -1.0 }, "ReleaseNewtons");
+            Refused(new ForceTouchSettings { NearMetres = 0.0 }, "NearMetres");
+            Refused(new ForceTouchSettings { NearMarginMetres = -1.0 }, "NearMarginMetres");
+            Refused(new ForceTouchSettings { HoldSeconds = double.PositiveInfinity }, "HoldSeconds");
+        }
+
+        private static void Refused(ForceTouchSettings settings, string name) => Assert.That(
+            () => new ForceTouch(settings),
+            Throws.TypeOf<ArgumentOutOfRangeException>().With.Message.Contains($"{name} must be"));
+
+        private ForceVerdict After(double? forceNewtons)
+        {
+            now += FrameSeconds;
+            return touch.Update(now, forceNewtons);
         }
     }
 }

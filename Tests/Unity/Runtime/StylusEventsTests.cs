@@ -48,4 +48,94 @@ namespace HaptoFlow.Tests
             Assert.That(received, Is.EqualTo(new[] { "began", "ended" }));
         }
     }
+
+    /// <summary>Event handlers that disable or destroy objects during a touch.</summary>
+    public sealed class StylusHandlerTests : SceneTest
+    {
+        [UnityTest]
+        public IEnumerator AStylusDisabledByItsFirstTouchLeavesNoVoiceOpen()
+        {
+            FinishLoading();
+            Board();
+            Output(out _);
+            HapticStylus stylus = Pressing();
+            stylus.TouchBegan += (HapticStylus sender, in HapticContact _) => sender.enabled = false;
+            yield return Frames(2);
+            Assert.That(stylus.enabled, Is.False);
+            Assert.That(Voices(), Is.Zero);
+            Assert.That(stylus.IsTouching, Is.False);
+        }
+
+        [UnityTest]
+        public IEnumerator AStylusDestroyedByItsFirstTouchLeavesNoVoiceOpen()
+        {
+            FinishLoading();
+            Board();
+            Output(out _);
+            HapticStylus stylus = Pressing();
+            yield return null;
+            stylus.TouchMoved += (HapticStylus sender, in HapticContact _) => Object.DestroyImmediate(sender);
+            yield return Frames(2);
+            Assert.That(Voices(), Is.Zero);
+        }
+
+        [UnityTest]
+        public IEnumerator AStylusDisabledAndEnabledByAHandlerStartsANewTouch()
+        {
+            FinishLoading();
+            Board();
+            Output(out _);
+            HapticStylus stylus = Pressing();
+            var log = new TouchLog(stylus);
+            bool done = false;
+            stylus.TouchBegan += (HapticStylus sender, in HapticContact _) =>
+            {
+                if (!done)
+                {
+                    done = true;
+                    sender.enabled = false;
+                    sender.enabled = true;
+                }
+            };
+            yield return Frames(3);
+            Assert.That(log.Began, Is.EqualTo(2));
+            Assert.That(log.Ended, Is.EqualTo(1));
+            Assert.That(Voices(), Is.EqualTo(1u));
+        }
+
+        [UnityTest]
+        public IEnumerator ASurfaceDestroyedByItsFirstTouchIsNotPublished()
+        {
+            FinishLoading();
+            Board();
+            Output(out _);
+            HapticStylus stylus = Pressing();
+            stylus.TouchBegan += (HapticStylus _, in HapticContact contact) =>
+                Object.DestroyImmediate(contact.Surface!.gameObject);
+            yield return Frames(2);
+            Assert.That(stylus.IsTouching, Is.False);
+            stylus.TryGetStatistics(out VoiceStatistics statistics);
+            Assert.That(statistics.Updates, Is.GreaterThan(0UL));
+            Assert.That(statistics.Onsets, Is.Zero);
+        }
+
+        [UnityTest]
+        public IEnumerator ATouchBeginsWithTheMaterialThatItsHandlersGaveTheSurface()
+        {
+            FinishLoading();
+            HapticSurface board = Board();
+            Output(out _);
+            HapticStylus stylus = StylusAlong(seconds => new Vector3(0.1f * (float)seconds, 0.001f, 0f));
+            stylus.TouchBegan += (HapticStylus _, in HapticContact _) => board.Material.Label = "nothing known";
+            yield return Frames(20);
+            Assert.That(stylus.IsTouching, Is.True);
+            Assert.That(stylus.TryGetStatistics(out VoiceStatistics statistics), Is.True);
+            Assert.That((statistics.Onsets, statistics.Inferences), Is.EqualTo((0UL, 0UL)));
+        }
+
+        private static uint Voices() =>
+            Haptics.TryGetStatistics(out EngineStatistics engine) ? engine.Voices : uint.MaxValue;
+
+        private HapticStylus Pressing() => StylusAlong(_ => new Vector3(0f, 0.001f, 0f));
+    }
 }

@@ -1,8 +1,11 @@
 #nullable enable
 using System;
+using System.Collections;
 using HaptoFlow.Contact;
 using HaptoFlow.Numerics;
 using NUnit.Framework;
+using UnityEngine;
+using UnityEngine.TestTools;
 
 namespace HaptoFlow.Tests
 {
@@ -30,7 +33,7 @@ namespace HaptoFlow.Tests
         [TestCase(0.05)]
         public void TrackerNoiseAndTremorNeitherStartNorInterruptAMotion(double noiseMillimetres)
         {
-            var random = new Random(1);
+            var random = new System.Random(1);
             var gate = new MotionGate();
             int changes = 0;
             bool before = false;
@@ -47,7 +50,7 @@ namespace HaptoFlow.Tests
             }
             Assert.That(changes, Is.EqualTo(2 * 20).Within(1), "one start and one stop in two seconds");
 
-            double Noise(Random source) => 0.001 * noiseMillimetres *
+            double Noise(System.Random source) => 0.001 * noiseMillimetres *
                 Math.Sqrt(-2.0 * Math.Log(1.0 - source.NextDouble())) * Math.Cos(2.0 * Math.PI * source.NextDouble());
         }
 
@@ -89,6 +92,53 @@ namespace HaptoFlow.Tests
             Assert.That(gate.Update(5.01, true, new Double3(0.3, 0.0, 0.0)), Is.True);
             Assert.That(gate.Update(1.0, true, new Double3(0.3, 0.0, 0.0)), Is.True);
             Assert.That(gate.SpeedMps, Is.EqualTo(1.0).Within(1e-9));
+        }
+    }
+
+    public sealed class MovingSurfaceTests : SceneTest
+    {
+        [UnityTest]
+        public IEnumerator ATurningBoardGivesItsSpeedAtTheTip()
+        {
+            HapticSurface board = Board();
+            var turner = board.gameObject.AddComponent<Turner>();
+            turner.DegreesPerSecond = 90f;
+            HapticStylus stylus = StylusAlong(_ => new Vector3(0.1f, 0.001f, 0f));
+            yield return Frames(45);
+            // 90 degrees per second at a distance of 10 cm.
+            Assert.That(stylus.Contact.TangentialVelocity.magnitude, Is.EqualTo(0.1f * 0.5f * Mathf.PI).Within(0.004f));
+        }
+
+        [UnityTest]
+        public IEnumerator TheAxesTurnWithTheObject()
+        {
+            HapticSurface board = Board();
+            board.transform.rotation = Quaternion.AngleAxis(90f, Vector3.up);
+            HapticStylus stylus = StylusAlong(seconds => new Vector3(0f, 0.001f, -0.05f * (float)seconds));
+            yield return Frames(30);
+            Assert.That(stylus.Contact.FirstVelocityMps, Is.EqualTo(0.05f).Within(1e-3f));
+            Assert.That(stylus.Contact.SecondVelocityMps, Is.EqualTo(0f).Within(1e-3f));
+        }
+
+        [UnityTest]
+        public IEnumerator ASurfaceWithoutOwnMotionCountsAsAtRest()
+        {
+            HapticSurface board = Board();
+            board.FeelOwnMotion = false;
+            PlatformMover.On(board.gameObject, RigidbodyInterpolation.Interpolate, seconds =>
+                new Vector3(-0.1f + 0.2f * (float)seconds, 0f, 0f));
+            HapticStylus stylus = StylusAlong(seconds => new Vector3(0f, 0.001f, 0.05f * (float)seconds));
+            yield return Frames(30);
+            Assert.That(stylus.Contact.FirstVelocityMps, Is.EqualTo(0f).Within(1e-3f));
+            Assert.That(stylus.Contact.TangentialVelocity.magnitude, Is.EqualTo(0.05f).Within(1e-3f));
+        }
+
+        private sealed class Turner : MonoBehaviour
+        {
+            public float DegreesPerSecond { get; set; }
+
+            private void Update() => transform.rotation =
+                Quaternion.AngleAxis(DegreesPerSecond * (float)Time.unscaledTimeAsDouble, Vector3.up);
         }
     }
 }
