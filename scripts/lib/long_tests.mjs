@@ -78,10 +78,6 @@ export const longTests = {
       because: 'a material is learnt to its end, several times; one learning to its end stays, and cancelling, saving and options have tests of their own',
       tests: ['TwoLearningsRunAtOnceAndTheSameSeedGivesTheSameBytes', 'TouchingTheButtonLearnsTheRecordingForTheSpecimen'],
     },
-    {
-      because: 'worlds move at every pair of frame and physics rates; the tests that it calls run for four pairs',
-      tests: ['EveryPairOfRatesOfFramesAndPhysics'],
-    },
   ],
 };
 

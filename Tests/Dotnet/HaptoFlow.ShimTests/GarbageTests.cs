@@ -76,7 +76,8 @@ namespace HaptoFlow.ShimTests
         [Test]
         public void APenWithMeasuredForceAllocatesNothing() => Check(Circle(0.006f), () => Board(), stylus =>
         {
-            stylus.Force = stylus.gameObject.AddComponent<SteadyForce>();
+            var force = stylus.gameObject.AddComponent<FixedForce>();
+            (force.ForceNewtons, stylus.Force) = (0.5f, force);
             stylus.TouchBy = TouchDecision.MeasuredForce;
         });
 
@@ -167,13 +168,6 @@ namespace HaptoFlow.ShimTests
             return map;
         }
 
-        private static HapticMaterial Feeling(string label)
-        {
-            HapticMaterial material = ScriptableObject.CreateInstance<HapticMaterial>();
-            material.Description.Label = label;
-            return material;
-        }
-
         private static float[,,] Halves(int resolution)
         {
             var map = new float[resolution, resolution, 2];
@@ -212,15 +206,6 @@ namespace HaptoFlow.ShimTests
             long before = GC.GetAllocatedBytesForCurrentThread();
             World.Frames(frames);
             return GC.GetAllocatedBytesForCurrentThread() - before;
-        }
-
-        private sealed class SteadyForce : TipForceSource
-        {
-            public override bool TryRead(out float forceNewtons)
-            {
-                forceNewtons = 0.5f;
-                return true;
-            }
         }
     }
 }

@@ -272,13 +272,5 @@ namespace HaptoFlow.ShimTests
             Assert.That(blend.Count, Is.EqualTo(1));
             return HapticSession.Current.Labels.All[blend.Label(0)];
         }
-
-        private static HapticMaterial Feeling(string label)
-        {
-            var material = ScriptableObject.CreateInstance<HapticMaterial>();
-            material.name = label;
-            material.Description.Label = label;
-            return material;
-        }
     }
 }

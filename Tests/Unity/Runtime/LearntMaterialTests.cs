@@ -17,16 +17,7 @@ namespace HaptoFlow.Tests
     {
         private const int LabelCount = 20;
 
-        private readonly List<Object> materials = new List<Object>();
-
         private static HapticSession Session => HapticSession.Current;
-
-        [TearDown]
-        public void DestroyMaterials()
-        {
-            materials.ForEach(Object.DestroyImmediate);
-            materials.Clear();
-        }
 
         private static string Text(string label, params (string Key, object? Value)[] changes)
         {
@@ -36,9 +27,7 @@ namespace HaptoFlow.Tests
 
         private HapticMaterial Learnt(string of, string label, params (string Key, object? Value)[] changes)
         {
-            HapticMaterial material = HapticMaterial.Create(Text(of, changes), label);
-            materials.Add(material);
-            return material;
+            return Keep(HapticMaterial.Create(Text(of, changes), label));
         }
 
         private static LabelBlend BlendOf(HapticSurface surface)
@@ -245,8 +234,7 @@ namespace HaptoFlow.Tests
             var box = plate.AddComponent<BoxCollider>();
             box.size = new Vector3(0.4f, 0.02f, 0.4f);
             box.center = new Vector3(0f, -0.01f, 0f);
-            var map = ScriptableObject.CreateInstance<HapticMaterialMap>();
-            materials.Add(map);
+            HapticMaterialMap map = Keep(ScriptableObject.CreateInstance<HapticMaterialMap>());
             map.Add(HapticMaterialRule.ForName("Plate", material));
             Make("Scope").AddComponent<HapticMaterialMapScope>().Map = map;
             FinishLoading();

@@ -170,17 +170,4 @@ namespace HaptoFlow.Tests
             throw new ArgumentException(label);
         }
     }
-
-    internal sealed class FixedForce : TipForceSource
-    {
-        public float ForceNewtons { get; set; }
-
-        public bool HasNews { get; set; } = true;
-
-        public override bool TryRead(out float forceNewtons)
-        {
-            forceNewtons = ForceNewtons;
-            return HasNews;
-        }
-    }
 }

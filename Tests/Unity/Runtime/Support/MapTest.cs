@@ -11,8 +11,6 @@ namespace HaptoFlow.Tests
     /// it.</summary>
     public abstract class MapTest : SceneTest
     {
-        private readonly List<Object> assets = new List<Object>();
-
         internal HapticMaterialMap Map { get; private set; } = null!;
 
         [SetUp]
@@ -22,37 +20,11 @@ namespace HaptoFlow.Tests
             HaptoFlowSettings.Active.MaterialMap = Map;
         }
 
-        [TearDown]
-        public void DestroyAssets()
-        {
-            foreach (Object each in assets)
-            {
-                Object.DestroyImmediate(each);
-            }
-            assets.Clear();
-        }
-
-        internal T Keep<T>(T asset)
-            where T : Object
-        {
-            assets.Add(asset);
-            return asset;
-        }
-
         internal HapticMaterialMap MapNamed(string name)
         {
             HapticMaterialMap map = Keep(ScriptableObject.CreateInstance<HapticMaterialMap>());
             map.name = name;
             return map;
-        }
-
-        internal HapticMaterial Feeling(string label, Action<MaterialDescription>? change = null)
-        {
-            HapticMaterial material = Keep(ScriptableObject.CreateInstance<HapticMaterial>());
-            material.name = label;
-            material.Description.Label = label;
-            change?.Invoke(material.Description);
-            return material;
         }
 
         /// <summary>A renderer's material.</summary>

@@ -75,4 +75,18 @@ namespace HaptoFlow.Tests
 
         public HapticContact Last { get; private set; }
     }
+
+    /// <summary>A force that a test sets.</summary>
+    internal sealed class FixedForce : TipForceSource
+    {
+        public float ForceNewtons { get; set; }
+
+        public bool HasNews { get; set; } = true;
+
+        public override bool TryRead(out float forceNewtons)
+        {
+            forceNewtons = ForceNewtons;
+            return HasNews;
+        }
+    }
 }

@@ -58,6 +58,23 @@ namespace HaptoFlow.Tests
             return gameObject;
         }
 
+        /// <summary>An asset that is destroyed after the test.</summary>
+        internal T Keep<T>(T asset)
+            where T : Object
+        {
+            made.Add(asset);
+            return asset;
+        }
+
+        internal HapticMaterial Feeling(string label, Action<MaterialDescription>? change = null)
+        {
+            HapticMaterial material = Keep(ScriptableObject.CreateInstance<HapticMaterial>());
+            material.name = label;
+            material.Description.Label = label;
+            change?.Invoke(material.Description);
+            return material;
+        }
+
         /// <summary>A tagged object with a collider.</summary>
         internal HapticSurface Tagged<TCollider>(string label, Action<TCollider>? shape = null)
             where TCollider : Collider
