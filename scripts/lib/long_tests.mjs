@@ -45,7 +45,7 @@ export const longTests = {
       tests: ['test_the_shipped_model_s_renders_of_unseen_strokes_are_classified_correctly_and_ordered_by_level'],
     },
     {
-      because: 'recorded strokes are rendered from the shipped model; RealStrokesTest (C++) runs their contact and ARealStrokeTouchesOnce (C#) their sound',
+      because: 'recorded strokes are rendered from the shipped model; RealStrokesTest (C++) runs their contact',
       tests: ['test_every_stroke_touches_and_vibrates', 'test_no_sample_is_non_finite_or_clipped', 'test_hop_boundaries_do_not_stand_out_from_the_waveform'],
     },
     {

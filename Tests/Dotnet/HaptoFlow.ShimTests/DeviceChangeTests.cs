@@ -124,20 +124,6 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void ASourceThatSomeScriptStoppedPlaysAgain()
-        {
-            Output(out HapticOutput output);
-            Circling();
-            World.Frames(40);
-            output.GetComponentInChildren<AudioSource>(true).Stop();
-            LogAssert.Expect(LogType.Warning, new Regex("for a second"));
-            World.Frames(120);
-            AudioDevice.Forget();
-            World.Frames(20);
-            Assert.That(AudioDevice.Peak(0), Is.GreaterThan(Audible));
-        }
-
-        [Test]
         public void ASilenceThatStaysIsSaidOnceAndTriedOnce()
         {
             HapticOutput output = Make("Output").AddComponent<HapticOutput>();

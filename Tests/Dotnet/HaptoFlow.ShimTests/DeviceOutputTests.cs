@@ -335,26 +335,6 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void AMotorOf160HertzHasTheIntensityOfAnAudioOutput()
-        {
-            XrHand.Right.Take("A controller", true);
-            Output(out _);
-            float fullScaleMps2 = HaptoFlowSettings.Active.FullScaleMps2;
-            AddAtTrueLevel<MotorOutput>(fullScaleMps2);
-            World.Frames(72);
-            AudioDevice.Forget();
-            XrHand.Right.Impulses.Clear();
-            World.Frames(6 * 72);
-            float[] audio = AudioDevice.Samples();
-            using var features = new WaveFeatures(0.008, audio.Length, 48000) { FullScaleMps2 = fullScaleMps2 };
-            features.SetRange(160.0, 160.0);
-            var frames = new WaveFrame[features.MaximumFrames];
-            double expected = frames.Take(features.Process(audio, frames)).Average(frame => frame.Amplitude);
-            Assert.That(expected, Is.GreaterThan(1e-3));
-            Assert.That(XrHand.Right.Impulses.Average(each => each.Amplitude), Is.EqualTo(expected).Within(0.1 * expected));
-        }
-
-        [Test]
         public void DeviceOutputsAllocateNothing([Values] bool waveform)
         {
             OVRInput.Records = false;

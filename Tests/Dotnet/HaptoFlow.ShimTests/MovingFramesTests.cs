@@ -431,25 +431,6 @@ namespace HaptoFlow.ShimTests
             Assert.That(pen.Contact.TangentialVelocity.magnitude, Is.EqualTo(0.2f).Within(0.004f));
         }
 
-        /// <summary>Board and pen ride on a rig whose scale changes steadily.</summary>
-        [Test]
-        public void AWorldThatGrowsWithThePenIsNotFelt()
-        {
-            GameObject world = Make("World");
-            HapticSurface board = Board();
-            board.transform.SetParent(world.transform, false);
-            HapticStylus pen = Pen(_ => new Vector3(0.1f, 0.001f, 0.05f), world);
-            pen.Rig = Make("Rig").transform;
-            World.Frames(20);
-            for (int frame = 0; frame < 90; ++frame)
-            {
-                float size = 1f + 0.005f * frame;
-                world.transform.localScale = new Vector3(size, size, size);
-                World.Frame();
-                Assert.That(pen.Contact.TangentialVelocity.magnitude, Is.LessThan(StillMps), $"frame {frame}");
-            }
-        }
-
         private sealed class Follower : MonoBehaviour
         {
             public Rigidbody Body = null!;

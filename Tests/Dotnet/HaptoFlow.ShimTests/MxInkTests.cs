@@ -101,22 +101,6 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void ASessionThatPausesLosesAndFindsThePen()
-        {
-            Pen.enabled = false;
-            XrPen pen = HeldPen(PenHand.Right);
-            OVRPlugin.Tip = 0.4f;
-            World.Frames(36);
-            OVRPlugin.hasInputFocus = false;
-            World.Frames(36);
-            Assert.That(pen.Stylus!.isActiveAndEnabled, Is.False);
-            Assert.That(OVRPlugin.FailedPoses, Is.Zero, "nothing is called without a session");
-            OVRPlugin.hasInputFocus = true;
-            World.Frames(36);
-            Assert.That(pen.Stylus.IsTouching, Is.True);
-        }
-
-        [Test]
         public void TheForceOfMetasActionSaysInWhichHandThePenIs()
         {
             OVRPlugin.Take(OVRPlugin.Hand.HandLeft, OVRPlugin.MxInkProfile);

@@ -108,17 +108,6 @@ namespace HaptoFlow.ShimTests
             Assert.That(RayCount.Rays, Is.Zero);
         }
 
-        [Test]
-        public void AFlatMeshIsFeltUpToFifteenMillimetresBehindItsFace()
-        {
-            Sheet();
-            HapticStylus stylus = StylusAlong(seconds =>
-                new Vector3(0f, Math.Max(-0.015f, 0.01f - 0.05f * (float)seconds), 0f));
-            World.Frames(90);
-            Assert.That(stylus.IsTouching, Is.True);
-            Assert.That(stylus.Contact.PenetrationMetres, Is.EqualTo(0.017f).Within(1e-4f));
-        }
-
         [TestCase(false)]
         [TestCase(true)]
         public void TheBackFaceSettingOfPhysicsChangesNothing(bool hitsBacks)

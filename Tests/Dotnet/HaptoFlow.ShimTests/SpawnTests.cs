@@ -44,34 +44,6 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void ASurfaceListsNoDestroyedColliderAndNoneOfAnother()
-        {
-            HapticSurface left = Board();
-            HapticSurface right = Tagged<BoxCollider>("stone");
-            right.transform.position = new Vector3(0f, -1f, 0f);
-            Transform leftPool = Make("Left").transform;
-            Transform rightPool = Make("Right").transform;
-            leftPool.SetParent(left.transform, false);
-            rightPool.SetParent(right.transform, true);
-            rightPool.position = Vector3.zero;
-            Circling();
-            GameObject moving = SpawnBelow(leftPool);
-            World.Frames(40);
-            Assert.That(left.Colliders, Has.Count.EqualTo(2));
-            for (int round = 0; round < 3; ++round)
-            {
-                moving.transform.SetParent(rightPool, true);
-                World.Frames(40);
-                Assert.That((left.Colliders.Count, right.Colliders.Count), Is.EqualTo((1, 2)));
-                moving.transform.SetParent(leftPool, true);
-                World.Frames(40);
-                Assert.That((left.Colliders.Count, right.Colliders.Count), Is.EqualTo((2, 1)));
-            }
-            Object.DestroyImmediate(moving.GetComponent<BoxCollider>());
-            Assert.That(left.Colliders, Has.Count.EqualTo(1));
-        }
-
-        [Test]
         public void TenThousandSpawnsThatRulesMatchLeaveABoundedCacheAndCostTheSameInEveryFrame()
         {
             HaptoFlowSettings.Active.MaterialMap = map;

@@ -107,20 +107,5 @@ namespace HaptoFlow.ShimTests
             World.Frames(60);
             Assert.That(OVRInput.Waves.Max(wave => wave.Samples.Max(Math.Abs)), Is.GreaterThan(0.01f));
         }
-
-        [Test]
-        public void ADeviceThatConnectsDuringAPauseStaysSilentUntilItsEnd()
-        {
-            Add<ControllerWaveformOutput>();
-            World.Frames(20);
-            AudioListener.pause = true;
-            World.Frames(20);
-            OVRPlugin.Connected = OVRPlugin.Controller.RTouch;
-            World.Frames(100);
-            Assert.That(OVRInput.Waves.SelectMany(wave => wave.Samples).Select(Math.Abs).DefaultIfEmpty().Max(), Is.Zero);
-            AudioListener.pause = false;
-            World.Frames(60);
-            Assert.That(OVRInput.Waves.Max(wave => wave.Samples.Max(Math.Abs)), Is.GreaterThan(0.01f));
-        }
     }
 }

@@ -251,22 +251,5 @@ namespace HaptoFlow.Tests
             Assert.That(ofSecond.RenderedFrames, Is.EqualTo(ofFirst.RenderedFrames));
             Assert.That(output.Level, Is.GreaterThan(0f));
         }
-
-        [UnityTest]
-        public IEnumerator ASceneWithoutOutputGetsOneAndLogsIt()
-        {
-            FinishLoading();
-            LogAssert.Expect(LogType.Log, new Regex("the scene has no Haptic Output"));
-            Board();
-            HapticStylus first = Circling();
-            HapticStylus second = Circling();
-            yield return Frames(60);
-            Assert.That(first.TryGetStatistics(out VoiceStatistics statistics), Is.True);
-            Assert.That(statistics.RenderedFrames, Is.GreaterThan(0UL));
-            Assert.That(second.TryGetStatistics(out _), Is.True);
-            HapticOutput made = SceneOutputs.For(first)!;
-            Assert.That(made.GetComponentInChildren<AudioSource>(true).isPlaying, Is.True);
-            Object.DestroyImmediate(made.gameObject);
-        }
     }
 }

@@ -103,20 +103,6 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator AColliderThatLeavesTheSurfaceIsNotFeltAnyMore()
-        {
-            GameObject child = Make("child");
-            child.transform.SetParent(parent.transform, false);
-            GameObject cube = Cube();
-            cube.transform.SetParent(child.transform, false);
-            yield return Frames(2);
-            Assert.That(Touched(), Is.SameAs(parent));
-            cube.transform.SetParent(null, true);
-            yield return null;
-            Assert.That(stylus.IsTouching, Is.False);
-        }
-
-        [UnityTest]
         public IEnumerator AColliderMovedBelowAnotherSurfaceBelongsToIt()
         {
             HapticSurface other = Tagged<SphereCollider>("fur", sphere => sphere.center = new Vector3(0f, 9f, 0f));

@@ -143,28 +143,6 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator AfterItsMaterialIsDestroyedDuringATouchASurfaceIsSilentUntilItGetsAnother()
-        {
-            FinishLoading();
-            HapticMaterial material = Learnt("glass", "fur");
-            HapticSurface board = Board("stone");
-            board.SharedMaterial = material;
-            HapticSurface copied = Board("stone");
-            copied.Material.Learnt = material;
-            Circling();
-            yield return Frames(10);
-            Assert.That(BlendOf(copied).Label(0), Is.EqualTo(LabelCount));
-            Object.DestroyImmediate(material);
-            yield return Frames(10);
-            Assert.That((BlendOf(board).Count, BlendOf(copied).Count), Is.EqualTo((0, 0)));
-            Assert.That(Haptics.LearntMaterials, Is.Zero);
-            board.SharedMaterial = null;
-            copied.Material.Learnt = null;
-            int stone = Session.Labels.All.ToList().IndexOf("stone");
-            Assert.That((BlendOf(board).Label(0), BlendOf(copied).Label(0)), Is.EqualTo((stone, stone)));
-        }
-
-        [UnityTest]
         public IEnumerator SixOfSeventyMaterialsExceedTheLimitAndAFreedIndexGoesToTheFirstThatWaits()
         {
             FinishLoading();

@@ -107,19 +107,6 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ASlowMotionOfZeroAloneIsNoPauseAsForSounds()
-        {
-            FinishLoading();
-            Board();
-            Output(out HapticOutput output);
-            Circling();
-            Time.timeScale = 0f;
-            yield return Frames(60);
-            Assert.That(output.Level, Is.GreaterThan(Audible));
-            Time.timeScale = 1f;
-        }
-
-        [UnityTest]
         public IEnumerator TheAuthorsSourceOnTheOutputsObjectIsLeftAlone()
         {
             FinishLoading();
@@ -169,35 +156,6 @@ namespace HaptoFlow.Tests
             UnityEngine.Object.DestroyImmediate(output);
             yield return Frames(50);
             Assert.That(owner.childCount, Is.Zero, "it takes its source along after the fade");
-        }
-
-        [UnityTest]
-        public IEnumerator ASourceBesideTheListenerPlaysOnceAndLeavesOtherSoundsAlone()
-        {
-            FinishLoading();
-            Board();
-            GameObject music = Make("Music");
-            music.AddComponent<AudioSource>();
-            music.AddComponent<SteadySource>();
-            GameObject listener = UnityEngine.Object.FindObjectsByType<AudioListener>(
-                FindObjectsInactive.Exclude, FindObjectsSortMode.None)[0].gameObject;
-            var output = listener.AddComponent<HapticOutput>();
-            var tap = listener.AddComponent<AudioTap>();
-            HapticStylus stylus = Circling();
-            yield return Frames(5);
-            tap.Restart();
-            stylus.TryGetStatistics(out VoiceStatistics before);
-            yield return Frames(40);
-            Assert.That(tap.Peak(0), Is.EqualTo(0.25f).Within(1e-6f), "the game's sound");
-            Assert.That(output.Level, Is.GreaterThan(Audible), "the haptics");
-            Assert.That(stylus.TryGetStatistics(out VoiceStatistics after), Is.True);
-            AudioSettings.GetDSPBufferSize(out int blockFrames, out _);
-            Assert.That(after.RenderedFrames - before.RenderedFrames,
-                Is.EqualTo((ulong)(tap.Blocks * blockFrames)).Within(4 * blockFrames), "each block is rendered once");
-            output.enabled = false;
-            output.enabled = true;
-            yield return Frames(5);
-            Assert.That(output.transform.childCount, Is.EqualTo(1), "no second source");
         }
 
         private AudioTap Ears(out HapticOutput output)

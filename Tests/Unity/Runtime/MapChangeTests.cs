@@ -81,22 +81,6 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator AColliderDestroyedUnderTheTipEndsTheTouch()
-        {
-            FinishLoading();
-            BoxCollider box = Bare();
-            Map.DefaultMaterial = Feeling("wood");
-            HapticStylus stylus = Resting();
-            var log = new TouchLog(stylus);
-            yield return Frames(2);
-            Assert.That(stylus.IsTouching, Is.True);
-            Object.DestroyImmediate(box.gameObject);
-            yield return null;
-            Assert.That(stylus.IsTouching, Is.False);
-            Assert.That(log.Ended, Is.EqualTo(1));
-        }
-
-        [UnityTest]
         public IEnumerator AMaterialDestroyedDuringATouchCausesNoError()
         {
             FinishLoading();
@@ -142,25 +126,6 @@ namespace HaptoFlow.Tests
             Object.DestroyImmediate(surface);
             yield return null;
             Assert.That(FeltAlone(stylus), Is.EqualTo("wood"));
-        }
-
-        [UnityTest]
-        public IEnumerator TheTouchedOneOfFiveHundredCollidersWithRulesIsFelt()
-        {
-            FinishLoading();
-            for (int index = 0; index < 500; ++index)
-            {
-                var box = Make("Stud " + index).AddComponent<BoxCollider>();
-                box.size = new Vector3(0.003f, 0.02f, 0.003f);
-                box.center = new Vector3(0.004f * (index % 25 - 12), -0.01f, 0.004f * (index / 25 - 10));
-            }
-            Map.Add(HapticMaterialRule.ForName("Stud 262", Feeling("glass")));
-            Map.DefaultMaterial = Feeling("wood");
-            HapticStylus stylus = Resting(0f, 0f);
-            yield return Frames(2);
-            Assert.That(stylus.IsTouching, Is.True);
-            Assert.That(stylus.Contact.Collider.name, Is.EqualTo("Stud 262"), "row 10, column 12 lies under the tip");
-            Assert.That(FeltAlone(stylus), Is.EqualTo("glass"));
         }
     }
 }

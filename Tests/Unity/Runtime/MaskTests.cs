@@ -235,48 +235,6 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator CrossingTheBorderOfTwoSubmeshesChangesTheMaterialWithinOneTouch()
-        {
-            FinishLoading();
-            MeshCollider mesh = TwoHalves();
-            Map.Add(HapticMaterialRule.ForSubmesh(mesh.sharedMesh, 0, Feeling("wood")));
-            Map.Add(HapticMaterialRule.ForSubmesh(mesh.sharedMesh, 1, Feeling("glass")));
-            HapticStylus stylus = StylusAlong(seconds => new Vector3(-0.05f + 0.2f * (float)seconds, 0.001f, 0f));
-            var log = new TouchLog(stylus);
-            for (int frame = 0; frame < 50; ++frame)
-            {
-                yield return null;
-                if (frame > 0)
-                {
-                    string expected = stylus.transform.position.x < 0f ? "wood" : "glass";
-                    Assert.That(FeltAlone(stylus), Is.EqualTo(expected), $"frame {frame}");
-                }
-            }
-            Assert.That(stylus.transform.position.x, Is.GreaterThan(0.02f));
-            Assert.That(log.Began, Is.EqualTo(1));
-        }
-
-        [UnityTest]
-        public IEnumerator ASubmeshWithoutMaterialIsSilentAndItsNeighbourIsNot()
-        {
-            FinishLoading();
-            MeshCollider mesh = TwoHalves();
-            Map.Add(HapticMaterialRule.ForSubmesh(mesh.sharedMesh, 0, null));
-            Map.Add(HapticMaterialRule.ForSubmesh(mesh.sharedMesh, 1, Feeling("sandpaper")));
-            Output(out _);
-            float side = -1f;
-            HapticStylus stylus = StylusAlong(seconds => new Vector3(
-                side * (0.05f + 0.03f * (float)System.Math.Sin(8.0 * seconds)), 0.001f, 0f));
-            yield return Frames(30);
-            Assert.That(stylus.TryGetStatistics(out VoiceStatistics silent), Is.True);
-            Assert.That(silent.Inferences, Is.Zero, "the left submesh has no material");
-            side = 1f;
-            yield return Frames(30);
-            Assert.That(stylus.TryGetStatistics(out VoiceStatistics sounding), Is.True);
-            Assert.That(sounding.Inferences, Is.GreaterThan(2UL));
-        }
-
-        [UnityTest]
         public IEnumerator AnUnreadableMeshHasTheMaterialOfItsFirstSubmesh()
         {
             FinishLoading();

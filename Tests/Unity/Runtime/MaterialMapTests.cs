@@ -32,20 +32,6 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator WithoutAMapOrAMatchNothingIsFelt()
-        {
-            FinishLoading();
-            Bare();
-            Map.Add(HapticMaterialRule.ForTag("Finish", Feeling("stone")));
-            HapticStylus stylus = Resting();
-            yield return Frames(2);
-            Assert.That(stylus.IsTouching, Is.False);
-            HaptoFlowSettings.Active.MaterialMap = null;
-            yield return null;
-            Assert.That(stylus.IsTouching, Is.False);
-        }
-
-        [UnityTest]
         public IEnumerator EveryKindOfRuleFindsItsObject()
         {
             FinishLoading();

@@ -79,24 +79,6 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator AShortDropoutIsBridgedAndAfterALongOneGeometryDecides()
-        {
-            Board();
-            HapticStylus stylus = Pen(_ => new Vector3(0f, 0.006f, 0f));
-            force.ForceNewtons = 1f;
-            yield return Frames(5);
-            force.HasNews = false;
-            yield return Frames(2);
-            Assert.That(stylus.IsTouching, Is.True);
-            Assert.That(stylus.Contact.ForceNewtons, Is.EqualTo(1f).Within(1e-6f));
-            yield return Frames(20);
-            Assert.That(stylus.IsTouching, Is.False, "by geometry the tip is 4 mm above the surface");
-            force.HasNews = true;
-            yield return Frames(1);
-            Assert.That(stylus.IsTouching, Is.True);
-        }
-
-        [UnityTest]
         public IEnumerator WithoutAForceSourceGeometryDecides()
         {
             Board();
@@ -197,15 +179,6 @@ namespace HaptoFlow.Tests
             Assert.That(After(0.03), Is.EqualTo(ForceVerdict.Lifted), "the previous touch has ended");
         }
 
-        [Test]
-        public void ADropoutWhileLiftedStaysLiftedUntilTheForceIsUnknown()
-        {
-            After(0.0);
-            Assert.That(After(null), Is.EqualTo(ForceVerdict.Lifted));
-            now += 0.1;
-            Assert.That(After(null), Is.EqualTo(ForceVerdict.Unknown));
-        }
-
         [TestCase(double.NaN)]
         [TestCase(double.PositiveInfinity)]
         [TestCase(double.NegativeInfinity)]
@@ -227,18 +200,6 @@ namespace HaptoFlow.Tests
         public void APenWithoutAMeasurementIsUnknown()
         {
             Assert.That(After(null), Is.EqualTo(ForceVerdict.Unknown));
-            Assert.That(touch.Update(double.NaN, null), Is.EqualTo(ForceVerdict.Unknown));
-        }
-
-        [Test]
-        public void AForceIsNotHeldForeverWhenTheClockRunsBackwardsOrBreaks()
-        {
-            After(1.0);
-            now = 5.0;
-            Assert.That(After(null), Is.EqualTo(ForceVerdict.Pressed));
-            now += 0.1;
-            Assert.That(After(null), Is.EqualTo(ForceVerdict.Unknown));
-            After(1.0);
             Assert.That(touch.Update(double.NaN, null), Is.EqualTo(ForceVerdict.Unknown));
         }
 

@@ -2,6 +2,7 @@
 using System;
 using System.Collections;
 using System.Linq;
+using System.Text.RegularExpressions;
 using NUnit.Framework;
 using UnityEngine;
 using UnityEngine.TestTools;
@@ -18,6 +19,7 @@ namespace HaptoFlow.Tests
         public IEnumerator AnAuthorsOutputReplacesTheCreatedOne()
         {
             FinishLoading();
+            LogAssert.Expect(LogType.Log, new Regex("the scene has no Haptic Output"));
             Board();
             HapticStylus stylus = Circling();
             yield return Frames(30);

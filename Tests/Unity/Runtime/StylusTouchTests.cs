@@ -145,19 +145,6 @@ namespace HaptoFlow.Tests
             Assert.That(stylus.IsTouching, Is.True);
         }
 
-        [UnityTest]
-        public IEnumerator TwoStylusesTouchTwoThings()
-        {
-            HapticSurface board = Board("wood");
-            HapticSurface ball = Tagged<SphereCollider>("fur", sphere => sphere.radius = 0.05f);
-            ball.transform.position = new Vector3(1f, 0f, 0f);
-            HapticStylus first = StylusAlong(_ => new Vector3(0f, Pressed, 0f));
-            HapticStylus second = StylusAlong(_ => new Vector3(1f, 0.051f, 0f));
-            yield return Frames(2);
-            Assert.That(first.Contact.Surface, Is.SameAs(board));
-            Assert.That(second.Contact.Surface, Is.SameAs(ball));
-        }
-
         private static double StiffnessOf(string label)
         {
             foreach (HapticLabel each in HaptoFlowSettings.Active.Model!.Header.Labels)

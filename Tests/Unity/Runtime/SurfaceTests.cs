@@ -49,21 +49,6 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator ReadingSharedDescriptionKeepsTheSharedMaterial()
-        {
-            HapticMaterial shared = Shared();
-            HapticSurface board = Board();
-            board.SharedMaterial = shared;
-            HapticStylus stylus = StylusAlong(_ => new Vector3(0f, 0.001f, 0f));
-            yield return Frames(2);
-            Assert.That(stylus.IsTouching, Is.True);
-            Assert.That(board.SharedDescription, Is.SameAs(shared.Description));
-            Assert.That(board.SharedMaterial, Is.SameAs(shared));
-            board.SharedMaterial = null;
-            Assert.That(board.SharedDescription, Is.SameAs(board.Material));
-        }
-
-        [UnityTest]
         public IEnumerator FeatureScaleAndToneAreLimitedToTheirRanges()
         {
             var material = new MaterialDescription();

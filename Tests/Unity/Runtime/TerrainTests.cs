@@ -37,27 +37,6 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator WeightsChangeSmoothlyBetweenTexels()
-        {
-            FinishLoading();
-            Terrain("grass", "rock");
-            AddRule(0, "wood");
-            AddRule(1, "stone");
-            Paint((x, z) => new[] { 1f - x, x });
-            HapticStylus stylus = StylusAlong(seconds => new Vector3(-0.4f + 0.5f * (float)seconds, 0.001f, 0.1f));
-            yield return Frames(2);
-            float before = WeightOf(stylus, "stone");
-            for (int frame = 0; frame < 60; ++frame)
-            {
-                yield return null;
-                float now = WeightOf(stylus, "stone");
-                Assert.That(now, Is.GreaterThan(before - 0.003f).And.LessThan(before + 0.05f), $"frame {frame}");
-                before = now;
-            }
-            Assert.That(before, Is.GreaterThan(0.3f));
-        }
-
-        [UnityTest]
         public IEnumerator TheFourHeaviestOfSixLayersAreKeptWithWeightsThatSumToOne()
         {
             FinishLoading();
@@ -117,21 +96,6 @@ namespace HaptoFlow.Tests
             Assert.That(felt.ToneDbPerOctave, Is.EqualTo(-1f).Within(0.05f));
             Assert.That(felt.StiffnessNewtonsPerMetre, Is.EqualTo(400.0).Within(4.0));
             Assert.That(stylus.Contact.ForceNewtons, Is.EqualTo(0.4f).Within(0.02f));
-        }
-
-        [UnityTest]
-        public IEnumerator PaintingTheTerrainAtRunTimeChangesTheMaterial()
-        {
-            FinishLoading();
-            Terrain("grass", "rock");
-            AddRule(0, "wood");
-            AddRule(1, "stone");
-            HapticStylus stylus = Resting();
-            yield return Frames(2);
-            Assert.That(FeltAlone(stylus), Is.EqualTo("wood"));
-            Paint((x, z) => new[] { 0f, 1f });
-            yield return null;
-            Assert.That(FeltAlone(stylus), Is.EqualTo("stone"));
         }
 
         [UnityTest]

@@ -150,7 +150,6 @@ namespace UnityEngine
     {
         public static float time => (float)Clock.Seconds;
         public static double timeAsDouble => Clock.Seconds;
-        public static float deltaTime => (float)(Clock.InFixedStep ? Clock.FixedStepSeconds : Clock.DeltaSeconds);
         public static double unscaledTimeAsDouble => Clock.UnscaledSeconds;
         public static double realtimeSinceStartupAsDouble => Clock.UnscaledSeconds;
         public static float unscaledDeltaTime => (float)Clock.UnscaledDeltaSeconds;

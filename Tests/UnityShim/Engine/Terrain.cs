@@ -89,9 +89,6 @@ namespace UnityEngine
 
     public sealed class TerrainLayer : Object
     {
-        public Texture2D? diffuseTexture { get; set; }
-
-        public Vector2 tileSize { get; set; }
     }
 
     public sealed class TerrainData : Object

@@ -36,14 +36,6 @@ public static partial class OVRPlugin
         HandRight = 1,
     }
 
-    public enum InteractionProfile
-    {
-        None = 0,
-        Touch = 1,
-        TouchPro = 2,
-        TouchPlus = 4,
-    }
-
     public struct Vector2f
     {
         public float x;
@@ -101,13 +93,6 @@ public static partial class OVRPlugin
     internal static Dictionary<string, Posef> Poses { get; } = new Dictionary<string, Posef>();
 
     public static Controller GetConnectedControllers() => Connected;
-
-    public static InteractionProfile GetCurrentInteractionProfile(Hand hand) => Profiles[(int)hand] switch
-    {
-        TouchProfile => InteractionProfile.Touch,
-        TouchPlusProfile => InteractionProfile.TouchPlus,
-        _ => InteractionProfile.None,
-    };
 
     public static string GetCurrentInteractionProfileName(Hand hand)
     {
