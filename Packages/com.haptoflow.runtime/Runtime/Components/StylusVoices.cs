@@ -3,6 +3,7 @@ using System;
 using HaptoFlow.Contact;
 using HaptoFlow.Numerics;
 using UnityEngine;
+using Object = UnityEngine.Object;
 
 namespace HaptoFlow
 {
