@@ -12,13 +12,21 @@ namespace HaptoFlow.Tests
     public sealed class HapticOutputTests : SceneTest
     {
         private const float Audible = 0.001f;
+        private HapticSurface board = null!;
+        private HapticOutput output = null!;
+        private AudioTap tap = null!;
+
+        [SetUp]
+        public void MakeABoardAndAnOutput()
+        {
+            FinishLoading();
+            board = Board();
+            tap = Output(out output);
+        }
 
         [UnityTest]
         public IEnumerator SlidingSoundsRestingAndLiftingAreSilent()
         {
-            FinishLoading();
-            Board();
-            AudioTap tap = Output(out _);
             HapticStylus stylus = StylusAlong(seconds => seconds < 1.0
                 ? new Vector3(-0.1f + 0.1f * (float)seconds, 0.001f, 0f)
                 : new Vector3(0f, 0.1f, 0f));
@@ -40,9 +48,6 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator WithoutTouchNothingIsInferred()
         {
-            FinishLoading();
-            Board();
-            Output(out _);
             HapticStylus stylus = StylusAlong(seconds => new Vector3(0.05f * (float)seconds, 0.05f, 0f));
             yield return Frames(60);
             Assert.That(stylus.TryGetStatistics(out VoiceStatistics statistics), Is.True);
@@ -55,9 +60,6 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator OnlyTheStagesThatAnOutputUsesRun()
         {
-            FinishLoading();
-            Board();
-            AudioTap tap = Output(out HapticOutput output);
             output.Processing.Actuator = OutputActuator.VoiceCoil;
             HapticStylus stylus = Circling();
             yield return Frames(45);
@@ -80,9 +82,6 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator ListenPlaysLouderOnLoudspeakersAndHasNoEffectOnAChannelOfItsOwnOrAnActuator()
         {
-            FinishLoading();
-            Board();
-            AudioTap tap = Output(out HapticOutput output);
             HapticStylus stylus = Circling();
             yield return Frames(45);
             float quiet = tap.Peak();
@@ -112,9 +111,6 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator AnInvalidProfileIsSkippedWithAnError()
         {
-            FinishLoading();
-            Board();
-            AudioTap tap = Output(out HapticOutput output);
             var asset = new TextAsset("{\"name\": 7}") { name = "Broken" };
             output.Processing.Actuator = OutputActuator.Profile;
             output.Processing.Profile = asset;
@@ -135,9 +131,6 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator AMutedOutputIsSilentAndCostsNoInference()
         {
-            FinishLoading();
-            Board();
-            AudioTap tap = Output(out HapticOutput output);
             HapticStylus stylus = Circling();
             yield return Frames(45);
             Assert.That(tap.Peak(), Is.GreaterThan(Audible));
@@ -158,9 +151,6 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator PanicSilencesTheOutputUntilTheNextTouchDown()
         {
-            FinishLoading();
-            Board();
-            AudioTap tap = Output(out _);
             HapticStylus stylus = StylusAlong(seconds => new Vector3(
                 0.05f * (float)Math.Sin(3.0 * seconds), seconds > 1.0 && seconds < 1.2 ? 0.05f : 0.001f, 0f));
             var mover = stylus.GetComponent<PathMover>();
@@ -178,9 +168,6 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator APausedApplicationIsSilentAndSoundsAgainAfterwards()
         {
-            FinishLoading();
-            Board();
-            AudioTap tap = Output(out HapticOutput output);
             Circling();
             yield return null;
             yield return Frames(40);
@@ -198,8 +185,6 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator AnExclusiveChannelCarriesOnlyTheHaptics()
         {
-            FinishLoading();
-            Board();
             GameObject listener = Make("Ears");
             listener.AddComponent<AudioSource>();
             listener.AddComponent<SteadySource>();
@@ -218,9 +203,6 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator StrengthOfSurfaceStylusAndOutputMultiply()
         {
-            FinishLoading();
-            HapticSurface board = Board();
-            AudioTap tap = Output(out HapticOutput output);
             HapticStylus stylus = Circling();
             yield return Frames(60);
             Assert.That(tap.Peak(), Is.GreaterThan(Audible));
@@ -237,9 +219,6 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator TwoStylusesShareOneOutput()
         {
-            FinishLoading();
-            Board();
-            AudioTap tap = Output(out HapticOutput output);
             HapticStylus first = Circling();
             HapticStylus second = Circling();
             yield return Frames(60);

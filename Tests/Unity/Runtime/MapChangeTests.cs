@@ -12,7 +12,6 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator AChangeOfTagOrLayerDuringATouchAppliesInTheNextFrame()
         {
-            FinishLoading();
             BoxCollider box = Bare();
             Map.Add(HapticMaterialRule.ForTag("Finish", Feeling("stone")));
             Map.Add(HapticMaterialRule.ForLayer(4, Feeling("glass")));
@@ -35,7 +34,6 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator AChangedRendererMaterialAppliesAndItsInstanceMatchesTheSameRule()
         {
-            FinishLoading();
             BoxCollider box = Bare();
             var renderer = box.gameObject.AddComponent<MeshRenderer>();
             Material oak = Paint("Oak");
@@ -58,7 +56,6 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator AChangedOrDestroyedMapAppliesDuringATouch()
         {
-            FinishLoading();
             Bare();
             HapticMaterialRule rule = HapticMaterialRule.ForName("Plank", Feeling("wood"));
             Map.Add(rule);
@@ -83,7 +80,6 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator AMaterialDestroyedDuringATouchCausesNoError()
         {
-            FinishLoading();
             Bare();
             HapticMaterial wood = Feeling("wood");
             Map.DefaultMaterial = wood;
@@ -99,7 +95,6 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator ANewNameAppliesAfterARefresh()
         {
-            FinishLoading();
             BoxCollider box = Bare();
             Map.Add(HapticMaterialRule.ForName("Rug*", Feeling("fur")));
             Map.DefaultMaterial = Feeling("wood");
@@ -114,7 +109,6 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator AHapticSurfaceAddedDuringATouchAppliesUntilItIsRemoved()
         {
-            FinishLoading();
             BoxCollider box = Bare();
             Map.DefaultMaterial = Feeling("wood");
             HapticStylus stylus = Resting();

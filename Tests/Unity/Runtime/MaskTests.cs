@@ -15,7 +15,6 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator AChannelBlendsItsMaterialByBrightness()
         {
-            FinishLoading();
             HapticMaskMap mask = Mask(4, 1, 0, 85, 170, 255);
             mask.Red.SetMaterial(Feeling("glass"));
             Rule("wood", mask);
@@ -34,7 +33,6 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator AHapticSurfaceCanHaveAMask()
         {
-            FinishLoading();
             HapticMaskMap mask = Mask(2, 1, 0, 255);
             mask.Red.SetMaterial(Feeling("glass"));
             var surface = Floor().gameObject.AddComponent<HapticSurface>();
@@ -50,7 +48,6 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator StrengthAndFeatureScaleFollowTheirChannels()
         {
-            FinishLoading();
             HapticMaskMap mask = Mask(2, 1, 0, 255);
             mask.Red.SetFactor(MaskChannelUse.Strength, 0.25f, 1f);
             mask.Green.SetFactor(MaskChannelUse.FeatureScale, 0.5f, 2f);
@@ -65,7 +62,6 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator ChannelsWithASumAboveOneReplaceTheMaterialBelow()
         {
-            FinishLoading();
             HapticMaskMap mask = Mask(1, 1, 255);
             mask.Red.SetMaterial(Feeling("glass"));
             mask.Green.SetMaterial(Feeling("fur"));
@@ -79,7 +75,6 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator AMaskWithoutAMaterialBelowIsFeltWhereItsChannelsHaveOne()
         {
-            FinishLoading();
             HapticMaskMap mask = Mask(2, 1, 0, 255);
             mask.Red.SetMaterial(Feeling("glass"));
             Floor();
@@ -95,7 +90,6 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator ARepeatedMaskRepeatsAndAClampedOneDoesNot()
         {
-            FinishLoading();
             HapticMaskMap mask = Mask(2, 1, 0, 255);
             mask.Red.SetMaterial(Feeling("glass"));
             mask.Tiling = new Vector2(2f, 1f);
@@ -115,7 +109,6 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator WithoutATextureCoordinateTheMaterialBelowTheMaskIsFelt()
         {
-            FinishLoading();
             HapticMaskMap mask = Mask(1, 1, 255);
             mask.Red.SetMaterial(Feeling("glass"));
             Bare();
@@ -129,7 +122,6 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator ExtremeNumbersInAMaskGiveValidResults()
         {
-            FinishLoading();
             HapticMaskMap mask = Mask(2, 2, 0, 255, 255, 0);
             mask.Red.SetMaterial(null);
             mask.Green.SetFactor(MaskChannelUse.Strength, float.NaN, float.PositiveInfinity);
@@ -205,7 +197,6 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator EachSubmeshHasTheMaterialOfItsRule()
         {
-            FinishLoading();
             MeshCollider mesh = TwoHalves();
             Map.Add(HapticMaterialRule.ForSubmesh(mesh.sharedMesh, 0, Feeling("wood")));
             Map.Add(HapticMaterialRule.ForSubmesh(null, 1, Feeling("glass")));
@@ -220,7 +211,6 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator EachSubmeshIsMatchedByItsRendererMaterial()
         {
-            FinishLoading();
             MeshCollider mesh = TwoHalves();
             Material oak = Paint("Oak");
             Material ice = Paint("Ice");
@@ -237,7 +227,6 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator AnUnreadableMeshHasTheMaterialOfItsFirstSubmesh()
         {
-            FinishLoading();
             MeshCollider mesh = TwoHalves();
             mesh.sharedMesh!.UploadMeshData(true);
             Map.Add(HapticMaterialRule.ForSubmesh(mesh.sharedMesh, 0, Feeling("wood")));

@@ -17,7 +17,6 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator AColliderWithoutSurfaceIsFeltWhereARuleMatchesIt()
         {
-            FinishLoading();
             Bare().gameObject.tag = "Finish";
             Map.Add(HapticMaterialRule.ForTag("Finish", Feeling("stone")));
             HapticStylus stylus = Resting();
@@ -34,7 +33,6 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator EveryKindOfRuleFindsItsObject()
         {
-            FinishLoading();
             BoxCollider box = Bare("Old Rug (1)");
             box.gameObject.layer = 4;
             box.gameObject.tag = "Respawn";
@@ -64,7 +62,6 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator AColliderWithoutRendererUsesOneAboveOrBelowItButNoTrail()
         {
-            FinishLoading();
             Material oak = Paint("Oak");
             Map.Add(HapticMaterialRule.ForRendererMaterial(oak, Feeling("wood")));
             BoxCollider box = Bare();
@@ -89,7 +86,6 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator AnEndedContactStillNamesItsRuleAlsoAfterItsMapWasDestroyed()
         {
-            FinishLoading();
             Bare();
             HapticMaterialMap map = MapNamed("Other");
             map.DefaultMaterial = Feeling("wood");
@@ -104,7 +100,6 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator TheFirstMatchingRuleAppliesAlsoWithoutAMaterial()
         {
-            FinishLoading();
             Bare();
             Map.Add(HapticMaterialRule.ForName("Plank", Feeling("wood")));
             Map.Add(HapticMaterialRule.ForName("*", Feeling("stone")));
@@ -122,7 +117,6 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator AColliderThatNoRuleMatchesGetsTheDefaultMaterial()
         {
-            FinishLoading();
             Bare();
             Map.Add(HapticMaterialRule.ForTag("Finish", Feeling("stone")));
             Map.DefaultMaterial = Feeling("rubber");
@@ -135,7 +129,6 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator AnEnabledHapticSurfaceTakesPrecedenceOverEveryRule()
         {
-            FinishLoading();
             HapticSurface board = Board("glass");
             Map.DefaultMaterial = Feeling("rubber");
             HapticStylus stylus = Resting();
@@ -153,7 +146,6 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator TheMapsOfASceneAreTriedInOrderBeforeTheProjectsMap()
         {
-            FinishLoading();
             Bare();
             Map.DefaultMaterial = Feeling("rubber");
             HapticStylus stylus = Resting();
@@ -178,7 +170,6 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator StiffnessStrengthAndOwnMotionComeFromTheRulesMaterial()
         {
-            FinishLoading();
             BoxCollider box = Bare();
             Map.DefaultMaterial = Feeling("wood", material => material.StiffnessNewtonsPerMetre = 200f);
             HapticStylus stylus = Resting();
@@ -197,7 +188,6 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator ARuleDoesNotMakeAPenTouchItselfOrItsHolder()
         {
-            FinishLoading();
             Map.DefaultMaterial = Feeling("rubber");
             GameObject rig = Make("Rig");
             rig.AddComponent<CharacterController>();
@@ -211,7 +201,6 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator SlidingBetweenCollidersWithRulesRaisesSurfaceChanged()
         {
-            FinishLoading();
             Bare("Left").center = new Vector3(-0.2f, -0.01f, 0f);
             Bare("Right").center = new Vector3(0.2f, -0.01f, 0f);
             Map.Add(HapticMaterialRule.ForName("Left", Feeling("wood")));

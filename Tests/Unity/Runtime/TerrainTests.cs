@@ -19,7 +19,6 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator HalfWoodAndHalfCorduroyGiveTwoLabelsOfEqualWeight()
         {
-            FinishLoading();
             Terrain("grass", "rock");
             AddRule(0, "wood");
             AddRule(1, "corduroy");
@@ -39,7 +38,6 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator TheFourHeaviestOfSixLayersAreKeptWithWeightsThatSumToOne()
         {
-            FinishLoading();
             string[] labels = { "wood", "stone", "glass", "fur", "rubber", "jute" };
             Terrain("a", "b", "c", "d", "e", "f");
             for (int layer = 0; layer < labels.Length; ++layer)
@@ -57,7 +55,6 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator LayersOfOneMaterialMergeAndALayerWithoutMaterialWeakensTheRest()
         {
-            FinishLoading();
             Terrain("grass", "moss", "water");
             HapticMaterial soft = Feeling("fur", material => material.Strength = 0.8f);
             Map.Add(HapticMaterialRule.ForTerrainLayer(layers[0], soft));
@@ -74,7 +71,6 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator ScaleToneAndStiffnessOfABlendLieBetweenThoseOfItsMaterials()
         {
-            FinishLoading();
             Terrain("grass", "rock");
             Map.Add(HapticMaterialRule.ForTerrainLayer(layers[0], Feeling("wood", material =>
             {
@@ -101,7 +97,6 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator WeightsOfALargeTerrainAreStoredAtALowerResolution()
         {
-            FinishLoading();
             Terrain("a", "b", "c", "d", "e");
             terrain.terrainData!.alphamapResolution = 2048;
             AddRule(0, "wood");
@@ -126,7 +121,6 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator TerrainDataDestroyedUnderTheTipEndsTheTouchWithoutAnError()
         {
-            FinishLoading();
             Terrain("grass", "rock");
             AddRule(0, "wood");
             AddRule(1, "stone");
@@ -141,7 +135,6 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator ATerrainWithoutLayersMatchesTheRulesForItsObject()
         {
-            FinishLoading();
             Terrain();
             Map.Add(HapticMaterialRule.ForName("Ground", Feeling("stone")));
             HapticStylus stylus = Resting();

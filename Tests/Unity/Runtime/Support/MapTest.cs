@@ -14,10 +14,11 @@ namespace HaptoFlow.Tests
         internal HapticMaterialMap Map { get; private set; } = null!;
 
         [SetUp]
-        public void GiveTheProjectAMap()
+        public void LoadAndGiveTheProjectAMap()
         {
             Map = MapNamed("Project");
             HaptoFlowSettings.Active.MaterialMap = Map;
+            FinishLoading();
         }
 
         internal HapticMaterialMap MapNamed(string name)
