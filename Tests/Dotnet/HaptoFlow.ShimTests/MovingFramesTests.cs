@@ -4,7 +4,6 @@ using HaptoFlow.Tests;
 using NUnit.Framework;
 using UnityEngine;
 using UnityShim;
-using Object = UnityEngine.Object;
 
 namespace HaptoFlow.ShimTests
 {
@@ -73,8 +72,16 @@ namespace HaptoFlow.ShimTests
                 Path((Math.Floor(Time.unscaledTimeAsDouble * TicksPerSecond + Phase) - Phase) / TicksPerSecond);
         }
 
-        private static void Carry(GameObject owner, Carrier carrier, Func<double, Vector3> path)
+        /// <summary>Steadily along x, whatever the clock's start.</summary>
+        private static Func<double, Vector3> Steadily(double mps)
         {
+            double? began = null;
+            return now => new Vector3((float)(mps * (now - (began ??= now))), 0f, 0f);
+        }
+
+        private static void Carry(GameObject owner, Carrier carrier, double mps)
+        {
+            Func<double, Vector3> path = Steadily(mps);
             switch (carrier)
             {
                 case Carrier.Transform:
@@ -117,134 +124,80 @@ namespace HaptoFlow.ShimTests
         private static Vector3 Circle(double seconds) => new Vector3(
             0.05f * (float)Math.Cos(4.0 * seconds), 0.001f, 0.05f * (float)Math.Sin(4.0 * seconds));
 
-        private static void Clear(params GameObject[] made)
+        /// <summary>Frames and steps per second: physics is slower than the frames, as fast, and faster.</summary>
+        private static readonly (double Frames, double Steps)[] Rates =
+            { (72.0, 50.0), (72.0, 90.0), (90.0, 90.0), (120.0, 100.0) };
+
+        private static void SetRates((double Frames, double Steps) rates)
         {
-            foreach (GameObject each in made)
-            {
-                Object.DestroyImmediate(each);
-            }
+            SetFrameRate(rates.Frames);
+            Clock.FixedStepSeconds = 1.0 / rates.Steps;
         }
 
-        /// <summary>Pairs in which physics is slower than the frames, as fast, and faster.</summary>
-        public static IEnumerable<TestCaseData> Rates()
+        /// <summary>The largest speed of the contact in as many frames.</summary>
+        private static float Fastest(HapticStylus pen, int frames)
         {
-            yield return new TestCaseData(72.0, 50.0);
-            yield return new TestCaseData(72.0, 90.0);
-            yield return new TestCaseData(90.0, 90.0);
-            yield return new TestCaseData(120.0, 100.0);
+            float most = 0f;
+            for (int frame = 0; frame < frames; ++frame)
+            {
+                World.Frame();
+                most = Math.Max(most, pen.Contact.TangentialVelocity.magnitude);
+            }
+            return most;
         }
 
-        [TestCaseSource(nameof(Rates))]
-        public void ATipThatRidesAlongIsAtRestAtEverySpeed(double framesPerSecond, double stepsPerSecond)
+        [Test]
+        public void ATipThatRidesAlongIsAtRestAtEverySpeed([ValueSource(nameof(Rates))] (double, double) rates,
+            [Values] Carrier carrier, [Values(0.05, 3.0, 250.0)] double mps)
         {
-            SetFrameRate(framesPerSecond);
-            Clock.FixedStepSeconds = 1.0 / stepsPerSecond;
-            foreach (Carrier carrier in Enum.GetValues(typeof(Carrier)))
-            {
-                foreach (double speed in new[] { 0.05, 3.0, 250.0 })
-                {
-                    double began = Clock.UnscaledSeconds;
-                    Vector3 Drive(double now) => new Vector3((float)(speed * (now - began)), 0f, 0f);
-                    GameObject vehicle = Make("Vehicle");
-                    HapticSurface panel = Board();
-                    panel.transform.SetParent(vehicle.transform, false);
-                    double beganSteps = Clock.FixedSeconds;
-                    Carry(vehicle, carrier, carrier == Carrier.Stepped || carrier == Carrier.Interpolated
-                        ? now => new Vector3((float)(speed * now), 0f, 0f)
-                        : carrier == Carrier.TransformInSteps
-                            ? now => new Vector3((float)(speed * (now - beganSteps)), 0f, 0f)
-                            : (Func<double, Vector3>)Drive);
-                    HapticStylus pen = Pen(_ => new Vector3(0.02f, 0.001f, 0.01f), vehicle);
-                    float most = 0f;
-                    for (int frame = 0; frame < 90; ++frame)
-                    {
-                        World.Frame();
-                        most = Math.Max(most, pen.Contact.TangentialVelocity.magnitude);
-                        Assert.That(frame < 2 || pen.IsTouching, Is.True, $"{carrier}, {speed} m/s, frame {frame}");
-                    }
-                    Assert.That(most, Is.LessThan(StillMps), $"{carrier}, {speed} m/s");
-                    Assert.That(pen.Contact.TouchCounter, Is.EqualTo(1U), $"{carrier}, {speed} m/s");
-                    Clear(pen.gameObject, panel.gameObject, vehicle);
-                }
-            }
+            SetRates(rates);
+            GameObject vehicle = Make("Vehicle");
+            Board().transform.SetParent(vehicle.transform, false);
+            Carry(vehicle, carrier, mps);
+            HapticStylus pen = Pen(_ => new Vector3(0.02f, 0.001f, 0.01f), vehicle);
+            Assert.That(Fastest(pen, 90), Is.LessThan(StillMps));
+            Assert.That(pen.IsTouching, Is.True);
+            Assert.That(pen.Contact.TouchCounter, Is.EqualTo(1U));
         }
 
         /// <summary>The pen follows the same path in Update, as a hand in a vehicle that a script copies.</summary>
-        [TestCaseSource(nameof(Rates))]
-        public void ATipThatFollowsWithoutAParentIsAtRestAtEverySpeed(double framesPerSecond, double stepsPerSecond)
+        [Test]
+        public void ATipThatFollowsWithoutAParentIsAtRestAtEverySpeed([ValueSource(nameof(Rates))] (double, double) rates,
+            [Values] Carrier carrier, [Values(0.05, 3.0, 250.0)] double mps)
         {
-            SetFrameRate(framesPerSecond);
-            Clock.FixedStepSeconds = 1.0 / stepsPerSecond;
-            foreach (Carrier carrier in Enum.GetValues(typeof(Carrier)))
-            {
-                foreach (double speed in new[] { 0.05, 3.0, 250.0 })
-                {
-                    HapticSurface ground = Ground(2000f);
-                    double began = Clock.Seconds;
-                    Vector3 Drive(double now) => new Vector3((float)(speed * (now - began)), 0f, 0f);
-                    double late = Clock.FixedSeconds - began;
-                    Carry(ground.gameObject, carrier, carrier == Carrier.Stepped || carrier == Carrier.Interpolated
-                        ? now => new Vector3((float)(speed * (now + late)), 0f, 0f)
-                        : (Func<double, Vector3>)Drive);
-                    HapticStylus pen = Pen(now => Drive(now) + new Vector3(0.1f, 0.001f, 0.2f));
-                    float most = 0f;
-                    for (int frame = 0; frame < 120; ++frame)
-                    {
-                        World.Frame();
-                        most = frame < 40 ? 0f : Math.Max(most, pen.Contact.TangentialVelocity.magnitude);
-                    }
-                    Assert.That(pen.IsTouching, Is.True);
-                    // Unity's positions are single: 400 m from the origin a frame is 30 um out.
-                    double rounding = 3.0 * Math.Pow(2.0, -24.0) * Math.Abs(ground.transform.position.x) * framesPerSecond;
-                    Assert.That(most, Is.LessThan(Math.Max(StillMps, rounding)), $"{carrier}, {speed} m/s");
-                    Clear(pen.gameObject, ground.gameObject);
-                }
-            }
+            SetRates(rates);
+            HapticSurface ground = Ground(2000f);
+            Carry(ground.gameObject, carrier, mps);
+            Func<double, Vector3> drive = Steadily(mps);
+            HapticStylus pen = Pen(now => drive(now) + new Vector3(0.1f, 0.001f, 0.2f));
+            World.Frames(40);
+            // Unity's positions are single: 400 m from the origin a frame is 30 um out.
+            double rounding = 3.0 * Math.Pow(2.0, -24.0) * mps * 120.0;
+            Assert.That(Fastest(pen, 80), Is.LessThan(Math.Max(StillMps, rounding)));
+            Assert.That(pen.IsTouching, Is.True);
         }
 
         /// <summary>A surface that moves steadily under a tip at rest, by whatever steps.</summary>
-        [TestCaseSource(nameof(Rates))]
-        public void ASteadySurfaceHasItsSpeedUnderATipAtRest(double framesPerSecond, double stepsPerSecond)
+        [Test]
+        public void ASteadySurfaceHasItsSpeedUnderATipAtRest([ValueSource(nameof(Rates))] (double Frames, double Steps) rates,
+            [Values] Carrier carrier, [Values(0.02f, 0.2f, 1f)] float mps)
         {
-            SetFrameRate(framesPerSecond);
-            Clock.FixedStepSeconds = 1.0 / stepsPerSecond;
-            foreach (Carrier carrier in Enum.GetValues(typeof(Carrier)))
-            {
-                foreach (float speed in new[] { 0.02f, 0.2f, 1f })
-                {
-                    HapticSurface ground = Ground(40f);
-                    double began = Clock.FixedSeconds;
-                    Carry(ground.gameObject, carrier, carrier == Carrier.Stepped || carrier == Carrier.Interpolated
-                        ? now => new Vector3(speed * (float)now, 0f, 0f)
-                        : now => new Vector3(speed * (float)(now - began), 0f, 0f));
-                    HapticStylus pen = Pen(_ => new Vector3(0f, 0.001f, 0f));
-                    AssertSpeed(pen, speed, 0.1 + 2.0 / stepsPerSecond, $"{carrier}, {speed} m/s");
-                    Clear(pen.gameObject, ground.gameObject);
-                }
-            }
+            SetRates(rates);
+            Carry(Ground(40f).gameObject, carrier, mps);
+            AssertSpeed(Pen(_ => new Vector3(0f, 0.001f, 0f)), mps, 0.1 + 2.0 / rates.Steps);
         }
 
         /// <summary>Ticks of a network, of an animation and of a slow tracker.</summary>
         [Test]
-        public void ASurfaceThatMovesInTicksHasItsSpeedUnderATipAtRest(
-            [Values(72.0, 120.0)] double framesPerSecond, [Values(20.0, 45.0)] double ticksPerSecond)
+        public void ASurfaceThatMovesInTicksHasItsSpeedUnderATipAtRest([Values(72.0, 120.0)] double framesPerSecond,
+            [Values(20.0, 45.0)] double ticksPerSecond, [Values(0.02f, 0.2f, 1f)] float mps, [Values(0.0, 0.5)] double phase)
         {
             SetFrameRate(framesPerSecond);
-            foreach (float speed in new[] { 0.02f, 0.2f, 1f })
-            {
-                for (int phase = 0; phase < 4; ++phase)
-                {
-                    HapticSurface ground = Ground(40f);
-                    double began = Clock.UnscaledSeconds;
-                    TickMover mover = ground.gameObject.AddComponent<TickMover>();
-                    mover.Path = now => new Vector3(speed * (float)(now - began), 0f, 0f);
-                    mover.TicksPerSecond = ticksPerSecond;
-                    mover.Phase = 0.25 * phase;
-                    HapticStylus pen = Pen(_ => new Vector3(0f, 0.001f, 0f));
-                    AssertSpeed(pen, speed, 2.0 / ticksPerSecond + 0.1, $"{speed} m/s, phase {phase}");
-                    Clear(pen.gameObject, ground.gameObject);
-                }
-            }
+            TickMover mover = Ground(40f).gameObject.AddComponent<TickMover>();
+            mover.Path = Steadily(mps);
+            mover.TicksPerSecond = ticksPerSecond;
+            mover.Phase = phase;
+            AssertSpeed(Pen(_ => new Vector3(0f, 0.001f, 0f)), mps, 2.0 / ticksPerSecond + 0.1);
         }
 
         [Test]
@@ -304,11 +257,7 @@ namespace HaptoFlow.ShimTests
                 {
                     rig.transform.position = new Vector3(0.4f * (turn + 1), 0f, -0.2f * turn);
                 }
-                for (int frame = 0; frame < 30; ++frame)
-                {
-                    World.Frame();
-                    Assert.That(pen.Contact.TangentialVelocity.magnitude, Is.LessThan(0.21f), $"turn {turn}, frame {frame}");
-                }
+                Assert.That(Fastest(pen, 30), Is.LessThan(0.21f), $"turn {turn}");
                 Assert.That(pen.Contact.TangentialVelocity.magnitude, Is.EqualTo(0.2f).Within(0.01f));
             }
             Assert.That(tap.Peak(), Is.GreaterThan(0.3f * before).And.LessThan(2f * before));
@@ -324,7 +273,7 @@ namespace HaptoFlow.ShimTests
             GameObject vehicle = Make("Vehicle");
             HapticSurface board = Board();
             board.transform.SetParent(vehicle.transform, false);
-            vehicle.AddComponent<Mover>().Path = now => new Vector3((float)(mps * now), 0f, 0f);
+            vehicle.AddComponent<Mover>().Path = Steadily(mps);
             HapticStylus pen = Pen(_ => new Vector3(0.02f, 0.001f, 0.01f), vehicle);
             var collider = board.GetComponent<BoxCollider>();
             if (how == "a second collider" || how == "loaded")
@@ -366,18 +315,14 @@ namespace HaptoFlow.ShimTests
         public void APenAtRestOnAPlatformIsAtRestInSlowMotionAndAfterHitches([Values] Carrier carrier)
         {
             HapticSurface ground = Ground(40f);
-            double late = Clock.FixedSeconds;
-            Carry(ground.gameObject, carrier, carrier == Carrier.Stepped || carrier == Carrier.Interpolated
-                ? now => new Vector3(0.2f * (float)(now + late), 0f, 0f)
-                : now => new Vector3(0.2f * (float)now, 0f, 0f));
+            Carry(ground.gameObject, carrier, 0.2);
             if (ground.TryGetComponent(out Mover mover))
             {
                 mover.Scaled = true;
             }
-            HapticStylus pen = Pen(_ => Vector3.zero);
-            Mover hand = pen.GetComponent<Mover>();
-            hand.Scaled = true;
-            hand.Path = now => new Vector3(0.2f * (float)now, 0.001f, 0f);
+            Func<double, Vector3> drive = Steadily(0.2);
+            HapticStylus pen = Pen(now => drive(now) + new Vector3(0f, 0.001f, 0f));
+            pen.GetComponent<Mover>().Scaled = true;
             World.Frames(60);
             foreach (double scale in new[] { 1.0, 0.5, 0.1, 1.0, 2.0, 0.05, 1.0 })
             {
@@ -413,11 +358,7 @@ namespace HaptoFlow.ShimTests
             // The rig grows in the hand of its user: no stroke.
             float grown = 1.5f * scale;
             rig.transform.localScale = new Vector3(grown, grown, grown);
-            for (int frame = 0; frame < 60; ++frame)
-            {
-                World.Frame();
-                Assert.That(pen.Contact.TangentialVelocity.magnitude, Is.LessThan(0.21f), $"frame {frame}");
-            }
+            Assert.That(Fastest(pen, 60), Is.LessThan(0.21f));
             Assert.That(pen.Contact.TangentialVelocity.magnitude, Is.EqualTo(0.2f).Within(0.004f));
         }
 
@@ -497,7 +438,7 @@ namespace HaptoFlow.ShimTests
             Assert.That(silent, Is.LessThan(0.03 * blocks), $"of {blocks} blocks of 10 ms");
         }
 
-        private static void AssertSpeed(HapticStylus pen, float speed, double fromSeconds, string what)
+        private static void AssertSpeed(HapticStylus pen, float mps, double fromSeconds)
         {
             double squares = 0.0;
             int frames = 0;
@@ -505,16 +446,16 @@ namespace HaptoFlow.ShimTests
             while (Clock.UnscaledSeconds < began + 1.5)
             {
                 World.Frame();
-                float error = pen.Contact.FirstVelocityMps + speed;
-                Assert.That(pen.Contact.FirstVelocityMps, Is.LessThan(0.05f * speed), $"{what}: wrong sign");
-                Assert.That(Math.Abs(pen.Contact.FirstVelocityMps), Is.LessThan(1.6f * speed), $"{what} after {Clock.UnscaledSeconds - began:0.000} s");
+                float error = pen.Contact.FirstVelocityMps + mps;
+                Assert.That(pen.Contact.FirstVelocityMps, Is.LessThan(0.05f * mps), "wrong sign");
+                Assert.That(Math.Abs(pen.Contact.FirstVelocityMps), Is.LessThan(1.6f * mps), $"after {Clock.UnscaledSeconds - began:0.000} s");
                 if (Clock.UnscaledSeconds > began + fromSeconds)
                 {
                     squares += error * error;
                     ++frames;
                 }
             }
-            Assert.That(Math.Sqrt(squares / frames), Is.LessThan(0.1 * speed), what);
+            Assert.That(Math.Sqrt(squares / frames), Is.LessThan(0.1 * mps));
         }
     }
 }
