@@ -31,6 +31,23 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
+        public void AmongTooManyCollidersTheTouchedOneIsFeltAndOneWarningIsWritten()
+        {
+            for (int index = 0; index < 40; ++index)
+            {
+                Tagged<BoxCollider>("stone", box => box.size = new Vector3(0.01f, 0.01f, 0.01f))
+                    .transform.position = new Vector3(0.03f, 0.03f, 0f);
+            }
+            HapticSurface board = Board();
+            HapticStylus pen = StylusAlong(seconds => new Vector3(0f, seconds < 0.3 ? 0.05f : 0.001f, 0f));
+            pen.TipRadiusMetres = 0.003f;
+            World.Frames(90);
+            Assert.That(pen.IsTouching, Is.True);
+            Assert.That(pen.Contact.Surface, Is.SameAs(board));
+            Assert.That(Log.Count("tagged colliders", LogType.Warning), Is.EqualTo(1));
+        }
+
+        [Test]
         public void DestroyedFurnitureDoesNotStayRememberedForever()
         {
             var untagged = new UntaggedColliders();

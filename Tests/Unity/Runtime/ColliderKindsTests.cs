@@ -79,16 +79,8 @@ namespace HaptoFlow.Tests
         public IEnumerator AGutterMeshIsTouchedAtItsFloorAndItsWall()
         {
             HapticSurface surface = Tagged<MeshCollider>("wood", mesh => mesh.sharedMesh = TestMeshes.Gutter());
-            IEnumerator floor = Presses(surface, Vector3.zero, Vector3.up);
-            while (floor.MoveNext())
-            {
-                yield return null;
-            }
-            IEnumerator wall = Presses(surface, new Vector3(0.01f, 0.012f, 0f), Vector3.left, 0.015f);
-            while (wall.MoveNext())
-            {
-                yield return null;
-            }
+            yield return Presses(surface, Vector3.zero, Vector3.up);
+            yield return Presses(surface, new Vector3(0.01f, 0.012f, 0f), Vector3.left, 0.015f);
         }
 
         [UnityTest]

@@ -108,6 +108,7 @@ namespace HaptoFlow.Tests
             int place = HaptoFlowSettings.Active.Model!.Header.Tiers.ToList().FindIndex(tier => tier.Name == "standard");
             Assert.That(engine.Statistics().Tier, Is.Not.EqualTo(draft).And.EqualTo((uint)place));
             Assert.That(HaptoFlowSettings.Active.Quality, Is.EqualTo(HapticQuality.Standard));
+            Assert.That(Haptics.LastFailure, Is.Empty);
         }
 
         [UnityTest]
