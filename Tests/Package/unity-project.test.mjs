@@ -155,7 +155,7 @@ test('the OpenXR settings list every feature under the name and in the order of 
 
 test('the settings of MX Ink are those that its attribute declares', () => {
   const [, attribute] = files.text(feature).match(/OpenXRFeature\(([\s\S]*?)\)\]/);
-  const constants = files.text(feature) + files.text(feature.replace('MxInkInteraction', 'MxInkFeatures'));
+  const constants = files.text(feature);
   const constant = (word) => constants.match(new RegExp(`const string ${word.split('.').at(-1)} = "([^"]*)"`))[1];
   const declared = (key) => {
     const [, text, word] = attribute.match(new RegExp(`\\b${key} = (?:"([^"]*)"|([\\w.]+))`));

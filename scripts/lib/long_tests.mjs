@@ -82,10 +82,6 @@ export const longTests = {
       because: 'a material is learnt to its end; another learning to its end stays, and cancelling, saving and options have tests of their own',
       tests: ['TouchingTheButtonLearnsTheRecordingForTheSpecimen'],
     },
-    {
-      because: 'worlds move at every pair of frame and physics rates; the tests that it calls run for four pairs',
-      tests: ['EveryPairOfRatesOfFramesAndPhysics'],
-    },
   ],
 };
 

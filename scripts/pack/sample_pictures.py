@@ -114,7 +114,7 @@ def gallery_picture(file: Path) -> None:
     felt = [tile_render(label) for label in labels]
     reach = np.ceil(max(np.abs(one.acceleration_mps2).max() for one in felt) / 10.0) * 10.0
     top_db = max(10.0 * np.log10(spectrogram(one.acceleration_mps2, one.rate_hz)[2].max()) for one in felt)
-    # The same layout as in Wall.cs.
+    # The same layout as Wall in GalleryScene.cs.
     columns = int(np.ceil(np.sqrt(1.25 * len(labels))))
     rows = -(-len(labels) // columns)
     figure, grid = plt.subplots(
@@ -158,7 +158,7 @@ def draw_tile(
     axes.set_xlim(0, len(felt.acceleration_mps2))
 
 
-# The same as in GardenBed.cs: corner and size in metres, layers with their labels and colours.
+# The same as in GardenBed (Shapes.cs): corner and size in metres, layers with their labels and colours.
 GARDEN_CORNER = np.array([-0.45, 0.001, -0.02])
 GARDEN_SIZE = np.array([0.42, 0.012, 0.26])
 GARDEN_LABELS = ("concrete", "carpet", "sandpaper")
@@ -221,7 +221,7 @@ def sheet_facets(corner: np.ndarray, size: np.ndarray, low: float, high: float) 
 
 
 def draw_pane(axes: plt.Axes, camera: Camera) -> None:
-    """The inlaid pane in the colours of its texture, as InlaidPane.cs paints it."""
+    """The inlaid pane in the colours of its texture, as InlaidPane (Shapes.cs) paints it."""
     size, texels = np.array([0.26, 0.18]), 64
     centres = (np.arange(texels) + 0.5) / texels
     x, z = np.meshgrid(centres, centres)

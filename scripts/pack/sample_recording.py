@@ -26,7 +26,7 @@ from haptoflow_training.recordings.recording import STANDARD_GRAVITY_MPS2, Recor
 from haptoflow_training.recordings.synthetic.materials import load_materials  # noqa: E402
 from haptoflow_training.recordings.synthetic.recorder import record_condition  # noqa: E402
 
-FOLDER = ROOT / "Packages/com.haptoflow.runtime/Runtime/SampleScenes/Workshop/Recordings"
+FOLDER = ROOT / "Packages/com.haptoflow.runtime/Runtime/SampleScenes/Recordings"
 NAME = "doormat"
 SECONDS, RATE_HZ, MOTION_HZ = 10.5, 2000, 100
 SEED = 17

@@ -207,11 +207,11 @@ namespace HaptoFlow.EditorTests
         {
             HapticStylus stylus = PlayTouching(out _);
             HapticSurface surface = stylus.Contact.Surface!;
-            LabelBlend before = surface.BlendFor(HapticSession.Current);
+            LabelBlend before = surface.LookUp(HapticSession.Current).Labels;
             EditorScreen.Press("wood");
             InspectorTests.Draw(surface);
             UnityEditor.IMGUI.Controls.AdvancedDropdown.Shown!.Pick("sandpaper");
-            Assert.That(surface.BlendFor(HapticSession.Current).Label(0), Is.Not.EqualTo(before.Label(0)));
+            Assert.That(surface.LookUp(HapticSession.Current).Labels.Label(0), Is.Not.EqualTo(before.Label(0)));
             World.Frames(2);
             Assert.That(stylus.IsTouching, Is.True);
         }

@@ -1,50 +1,57 @@
+using System;
+using System.IO;
 using System.Linq;
-using HaptoFlow.Tests;
+using System.Security.Cryptography;
+using System.Text;
+using HaptoFlow.Editor;
+using HaptoFlow.EditorTests;
+using HaptoFlow.Tests.Support;
 using NUnit.Framework;
-using UnityEngine;
-using UnityShim;
+using UnityEditor;
+using UnityEditor.AssetImporters;
 
 namespace HaptoFlow.MissingLibraryTests
 {
-    public sealed class MissingLibraryTests : SceneTest
+    public sealed class MissingLibraryImportTests : EditorTest
     {
+        private static readonly byte[] Material =
+            File.ReadAllBytes(RepositoryFiles.In("Tests", "Golden", "material", "denim.haptomaterial"));
+
         [Test]
-        public void TheSceneRunsOnAndOneErrorNamesThePackagesToInstall()
+        public void AModelIsImportedAndItsSizeItsChecksumAndTheReasonAreShown()
         {
-            Board();
-            AudioTap tap = Output(out HapticOutput output);
-            HapticStylus stylus = StylusAlong(seconds =>
-                new Vector3(0f, seconds > 0.2 && seconds < 0.4 ? 0.1f : 0.001f, 0f));
-            var log = new TouchLog(stylus);
-            FinishLoading();
-            World.Frames(60);
-            Assert.That(log.Began, Is.EqualTo(2));
-            Assert.That(tap.Blocks, Is.GreaterThan(0));
-            Assert.That(tap.Peak(), Is.Zero);
-            Assert.That(Haptics.IsReady, Is.False);
-            string[] errors = Log.Lines.Where(line => line.Type == LogType.Error).Select(line => line.Text).ToArray();
-            Assert.That(errors, Has.Length.EqualTo(1));
-            Assert.That(errors[0], Does.Contain("runs without haptics").And.Contain("com.github.asus4.onnxruntime"));
-            output.Muted = true;
-            output.Panic();
-            Haptics.Panic();
+            byte[] file = Model().File;
+            string path = Import("unchecked.haptoflow", file);
+            var asset = AssetDatabase.LoadAssetAtPath<HapticModelAsset>(path);
+            Assert.That(asset.File.AsSpan().SequenceEqual(file), Is.True);
+            AssertIdentified(OnlyWarning(path), file);
+            AssertIdentified(ModelSummary.Of(asset).Problem, file);
         }
 
         [Test]
-        public void TheHeaderOfAModelSaysWhyItCannotBeRead()
+        public void AMaterialFileIsKeptForPlayersThatHaveTheLibrary()
         {
-            var refusal = Assert.Throws<HaptoFlowException>(() => _ = DefaultModel.Asset().Header);
-            Assert.That(refusal!.Status, Is.EqualTo(HaptoFlowStatus.LibraryUnavailable));
-            Assert.That(refusal.Message, Does.Contain("install the packages"));
+            string path = Import("unchecked.haptomaterial", Material);
+            var asset = AssetDatabase.LoadAssetAtPath<HapticMaterial>(path);
+            Assert.That(asset.Learnt, Is.EqualTo(Encoding.UTF8.GetString(Material)));
+            AssertIdentified(OnlyWarning(path), Material);
+            AssertIdentified(MaterialSummary.Of(asset.Learnt, Model()).Problem, Material);
         }
 
-        [Test]
-        public void TheBindingReportsAMissingLibrary()
+        private static string OnlyWarning(string path)
         {
-            var refusal = Assert.Throws<HaptoFlowException>(() => OnnxRuntime.LibraryVersion());
-            Assert.That(refusal!.Status, Is.EqualTo(HaptoFlowStatus.LibraryUnavailable));
-            refusal = Assert.Throws<HaptoFlowException>(() => HapticModel.Open(DefaultModel.Asset().File));
-            Assert.That(refusal!.Status, Is.EqualTo(HaptoFlowStatus.LibraryUnavailable));
+            ImportLog.ImportLogEntry entry = AssetImporter.GetImportLog(path)!.logEntries.Single();
+            Assert.That(entry.flags, Is.EqualTo(ImportLogFlags.Warning));
+            Assert.That(entry.message, Does.Contain(path));
+            return entry.message;
+        }
+
+        private static void AssertIdentified(string? shown, byte[] file)
+        {
+            using SHA256 hash = SHA256.Create();
+            string sum = string.Concat(hash.ComputeHash(file).Select(value => value.ToString("x2")));
+            Assert.That(shown, Does.Contain("native library").And.Contain("install the packages")
+                .And.Contain(file.Length + " bytes").And.Contain(sum));
         }
     }
 }

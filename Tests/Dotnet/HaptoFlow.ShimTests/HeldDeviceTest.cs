@@ -56,8 +56,5 @@ namespace HaptoFlow.ShimTests
         internal static TComponent[] All<TComponent>()
             where TComponent : Object => Object.FindObjectsByType<TComponent>(
             FindObjectsInactive.Include, FindObjectsSortMode.None);
-
-        internal static int CountMessages(LogType type, string text) =>
-            Log.Lines.Count(line => line.Type == type && line.Text.Contains(text));
     }
 }

@@ -4,7 +4,6 @@ using HaptoFlow.Tests;
 using NUnit.Framework;
 using UnityEngine;
 using UnityShim;
-using Object = UnityEngine.Object;
 
 namespace HaptoFlow.ShimTests
 {
@@ -37,7 +36,6 @@ namespace HaptoFlow.ShimTests
         private sealed class Mover : MonoBehaviour
         {
             public Func<double, Vector3> Path { get; set; } = _ => Vector3.zero;
-            public Func<double, Quaternion>? Turn { get; set; }
             public bool Local { get; set; }
             public bool Scaled { get; set; }
 
@@ -51,10 +49,6 @@ namespace HaptoFlow.ShimTests
                 else
                 {
                     transform.position = Path(now);
-                }
-                if (Turn != null)
-                {
-                    transform.rotation = Turn(now);
                 }
             }
         }
@@ -78,8 +72,16 @@ namespace HaptoFlow.ShimTests
                 Path((Math.Floor(Time.unscaledTimeAsDouble * TicksPerSecond + Phase) - Phase) / TicksPerSecond);
         }
 
-        private static void Carry(GameObject owner, Carrier carrier, Func<double, Vector3> path)
+        /// <summary>Steadily along x, whatever the clock's start.</summary>
+        private static Func<double, Vector3> Steadily(double mps)
         {
+            double? began = null;
+            return now => new Vector3((float)(mps * (now - (began ??= now))), 0f, 0f);
+        }
+
+        private static void Carry(GameObject owner, Carrier carrier, double mps)
+        {
+            Func<double, Vector3> path = Steadily(mps);
             switch (carrier)
             {
                 case Carrier.Transform:
@@ -122,152 +124,80 @@ namespace HaptoFlow.ShimTests
         private static Vector3 Circle(double seconds) => new Vector3(
             0.05f * (float)Math.Cos(4.0 * seconds), 0.001f, 0.05f * (float)Math.Sin(4.0 * seconds));
 
-        private static void Clear(params GameObject[] made)
+        /// <summary>Frames and steps per second: physics is slower than the frames, as fast, and faster.</summary>
+        private static readonly (double Frames, double Steps)[] Rates =
+            { (72.0, 50.0), (72.0, 90.0), (90.0, 90.0), (120.0, 100.0) };
+
+        private static void SetRates((double Frames, double Steps) rates)
         {
-            foreach (GameObject each in made)
+            SetFrameRate(rates.Frames);
+            Clock.FixedStepSeconds = 1.0 / rates.Steps;
+        }
+
+        /// <summary>The largest speed of the contact in as many frames.</summary>
+        private static float Fastest(HapticStylus pen, int frames)
+        {
+            float most = 0f;
+            for (int frame = 0; frame < frames; ++frame)
             {
-                Object.DestroyImmediate(each);
+                World.Frame();
+                most = Math.Max(most, pen.Contact.TangentialVelocity.magnitude);
             }
+            return most;
         }
 
-        private static readonly double[] FrameRatesHz = { 72.0, 90.0, 120.0 };
-        private static readonly double[] StepRatesHz = { 50.0, 72.0, 90.0, 100.0, 120.0 };
-
-        /// <summary>Pairs in which physics is slower than the frames, as fast, and faster.</summary>
-        public static IEnumerable<TestCaseData> Rates()
-        {
-            yield return new TestCaseData(72.0, 50.0);
-            yield return new TestCaseData(72.0, 90.0);
-            yield return new TestCaseData(90.0, 90.0);
-            yield return new TestCaseData(120.0, 100.0);
-        }
-
-        /// <summary>Every pair of a headset's frame rate and a rate of physics; long.</summary>
         [Test]
-        public void EveryPairOfRatesOfFramesAndPhysics()
+        public void ATipThatRidesAlongIsAtRestAtEverySpeed([ValueSource(nameof(Rates))] (double, double) rates,
+            [Values] Carrier carrier, [Values(0.05, 3.0, 250.0)] double mps)
         {
-            foreach (double framesPerSecond in FrameRatesHz)
-            {
-                foreach (double stepsPerSecond in StepRatesHz)
-                {
-                    ATipThatRidesAlongIsAtRestAtEverySpeed(framesPerSecond, stepsPerSecond);
-                    ATipThatFollowsWithoutAParentIsAtRestAtEverySpeed(framesPerSecond, stepsPerSecond);
-                    ASteadySurfaceHasItsSpeedUnderATipAtRest(framesPerSecond, stepsPerSecond);
-                }
-            }
-        }
-
-        [TestCaseSource(nameof(Rates))]
-        public void ATipThatRidesAlongIsAtRestAtEverySpeed(double framesPerSecond, double stepsPerSecond)
-        {
-            SetFrameRate(framesPerSecond);
-            Clock.FixedStepSeconds = 1.0 / stepsPerSecond;
-            foreach (Carrier carrier in Enum.GetValues(typeof(Carrier)))
-            {
-                foreach (double speed in new[] { 0.05, 0.5, 3.0, 20.0, 30.0, 250.0 })
-                {
-                    double began = Clock.UnscaledSeconds;
-                    Vector3 Drive(double now) => new Vector3((float)(speed * (now - began)), 0f, 0f);
-                    GameObject vehicle = Make("Vehicle");
-                    HapticSurface panel = Board();
-                    panel.transform.SetParent(vehicle.transform, false);
-                    double beganSteps = Clock.FixedSeconds;
-                    Carry(vehicle, carrier, carrier == Carrier.Stepped || carrier == Carrier.Interpolated
-                        ? now => new Vector3((float)(speed * now), 0f, 0f)
-                        : carrier == Carrier.TransformInSteps
-                            ? now => new Vector3((float)(speed * (now - beganSteps)), 0f, 0f)
-                            : (Func<double, Vector3>)Drive);
-                    HapticStylus pen = Pen(_ => new Vector3(0.02f, 0.001f, 0.01f), vehicle);
-                    float most = 0f;
-                    for (int frame = 0; frame < 90; ++frame)
-                    {
-                        World.Frame();
-                        most = Math.Max(most, pen.Contact.TangentialVelocity.magnitude);
-                        Assert.That(frame < 2 || pen.IsTouching, Is.True, $"{carrier}, {speed} m/s, frame {frame}");
-                    }
-                    Assert.That(most, Is.LessThan(StillMps), $"{carrier}, {speed} m/s");
-                    Assert.That(pen.Contact.TouchCounter, Is.EqualTo(1U), $"{carrier}, {speed} m/s");
-                    Clear(pen.gameObject, panel.gameObject, vehicle);
-                }
-            }
+            SetRates(rates);
+            GameObject vehicle = Make("Vehicle");
+            Board().transform.SetParent(vehicle.transform, false);
+            Carry(vehicle, carrier, mps);
+            HapticStylus pen = Pen(_ => new Vector3(0.02f, 0.001f, 0.01f), vehicle);
+            Assert.That(Fastest(pen, 90), Is.LessThan(StillMps));
+            Assert.That(pen.IsTouching, Is.True);
+            Assert.That(pen.Contact.TouchCounter, Is.EqualTo(1U));
         }
 
         /// <summary>The pen follows the same path in Update, as a hand in a vehicle that a script copies.</summary>
-        [TestCaseSource(nameof(Rates))]
-        public void ATipThatFollowsWithoutAParentIsAtRestAtEverySpeed(double framesPerSecond, double stepsPerSecond)
+        [Test]
+        public void ATipThatFollowsWithoutAParentIsAtRestAtEverySpeed([ValueSource(nameof(Rates))] (double, double) rates,
+            [Values] Carrier carrier, [Values(0.05, 3.0, 250.0)] double mps)
         {
-            SetFrameRate(framesPerSecond);
-            Clock.FixedStepSeconds = 1.0 / stepsPerSecond;
-            foreach (Carrier carrier in Enum.GetValues(typeof(Carrier)))
-            {
-                foreach (double speed in new[] { 0.05, 0.5, 3.0, 30.0, 250.0 })
-                {
-                    HapticSurface ground = Ground(2000f);
-                    double began = Clock.Seconds;
-                    Vector3 Drive(double now) => new Vector3((float)(speed * (now - began)), 0f, 0f);
-                    double late = Clock.FixedSeconds - began;
-                    Carry(ground.gameObject, carrier, carrier == Carrier.Stepped || carrier == Carrier.Interpolated
-                        ? now => new Vector3((float)(speed * (now + late)), 0f, 0f)
-                        : (Func<double, Vector3>)Drive);
-                    HapticStylus pen = Pen(now => Drive(now) + new Vector3(0.1f, 0.001f, 0.2f));
-                    float most = 0f;
-                    for (int frame = 0; frame < 120; ++frame)
-                    {
-                        World.Frame();
-                        most = frame < 40 ? 0f : Math.Max(most, pen.Contact.TangentialVelocity.magnitude);
-                    }
-                    Assert.That(pen.IsTouching, Is.True);
-                    // Unity's positions are single: 400 m from the origin a frame is 30 um out.
-                    double rounding = 3.0 * Math.Pow(2.0, -24.0) * Math.Abs(ground.transform.position.x) * framesPerSecond;
-                    Assert.That(most, Is.LessThan(Math.Max(StillMps, rounding)), $"{carrier}, {speed} m/s");
-                    Clear(pen.gameObject, ground.gameObject);
-                }
-            }
+            SetRates(rates);
+            HapticSurface ground = Ground(2000f);
+            Carry(ground.gameObject, carrier, mps);
+            Func<double, Vector3> drive = Steadily(mps);
+            HapticStylus pen = Pen(now => drive(now) + new Vector3(0.1f, 0.001f, 0.2f));
+            World.Frames(40);
+            // Unity's positions are single: 400 m from the origin a frame is 30 um out.
+            double rounding = 3.0 * Math.Pow(2.0, -24.0) * mps * 120.0;
+            Assert.That(Fastest(pen, 80), Is.LessThan(Math.Max(StillMps, rounding)));
+            Assert.That(pen.IsTouching, Is.True);
         }
 
         /// <summary>A surface that moves steadily under a tip at rest, by whatever steps.</summary>
-        [TestCaseSource(nameof(Rates))]
-        public void ASteadySurfaceHasItsSpeedUnderATipAtRest(double framesPerSecond, double stepsPerSecond)
+        [Test]
+        public void ASteadySurfaceHasItsSpeedUnderATipAtRest([ValueSource(nameof(Rates))] (double Frames, double Steps) rates,
+            [Values] Carrier carrier, [Values(0.02f, 0.2f, 1f)] float mps)
         {
-            SetFrameRate(framesPerSecond);
-            Clock.FixedStepSeconds = 1.0 / stepsPerSecond;
-            foreach (Carrier carrier in Enum.GetValues(typeof(Carrier)))
-            {
-                foreach (float speed in new[] { 0.02f, 0.2f, 1f })
-                {
-                    HapticSurface ground = Ground(40f);
-                    double began = Clock.FixedSeconds;
-                    Carry(ground.gameObject, carrier, carrier == Carrier.Stepped || carrier == Carrier.Interpolated
-                        ? now => new Vector3(speed * (float)now, 0f, 0f)
-                        : now => new Vector3(speed * (float)(now - began), 0f, 0f));
-                    HapticStylus pen = Pen(_ => new Vector3(0f, 0.001f, 0f));
-                    AssertSpeed(pen, speed, 0.1 + 2.0 / stepsPerSecond, $"{carrier}, {speed} m/s");
-                    Clear(pen.gameObject, ground.gameObject);
-                }
-            }
+            SetRates(rates);
+            Carry(Ground(40f).gameObject, carrier, mps);
+            AssertSpeed(Pen(_ => new Vector3(0f, 0.001f, 0f)), mps, 0.1 + 2.0 / rates.Steps);
         }
 
         /// <summary>Ticks of a network, of an animation and of a slow tracker.</summary>
         [Test]
-        public void ASurfaceThatMovesInTicksHasItsSpeedUnderATipAtRest(
-            [Values(72.0, 90.0, 120.0)] double framesPerSecond, [Values(20.0, 24.0, 30.0, 45.0, 60.0)] double ticksPerSecond)
+        public void ASurfaceThatMovesInTicksHasItsSpeedUnderATipAtRest([Values(72.0, 120.0)] double framesPerSecond,
+            [Values(20.0, 45.0)] double ticksPerSecond, [Values(0.02f, 0.2f, 1f)] float mps, [Values(0.0, 0.5)] double phase)
         {
             SetFrameRate(framesPerSecond);
-            foreach (float speed in new[] { 0.02f, 0.2f, 1f })
-            {
-                for (int phase = 0; phase < 4; ++phase)
-                {
-                    HapticSurface ground = Ground(40f);
-                    double began = Clock.UnscaledSeconds;
-                    TickMover mover = ground.gameObject.AddComponent<TickMover>();
-                    mover.Path = now => new Vector3(speed * (float)(now - began), 0f, 0f);
-                    mover.TicksPerSecond = ticksPerSecond;
-                    mover.Phase = 0.25 * phase;
-                    HapticStylus pen = Pen(_ => new Vector3(0f, 0.001f, 0f));
-                    AssertSpeed(pen, speed, 2.0 / ticksPerSecond + 0.1, $"{speed} m/s, phase {phase}");
-                    Clear(pen.gameObject, ground.gameObject);
-                }
-            }
+            TickMover mover = Ground(40f).gameObject.AddComponent<TickMover>();
+            mover.Path = Steadily(mps);
+            mover.TicksPerSecond = ticksPerSecond;
+            mover.Phase = phase;
+            AssertSpeed(Pen(_ => new Vector3(0f, 0.001f, 0f)), mps, 2.0 / ticksPerSecond + 0.1);
         }
 
         [Test]
@@ -306,7 +236,7 @@ namespace HaptoFlow.ShimTests
         /// <summary>Rig and pen turn, jump or are recentred in one frame, while the pen draws on the desk.</summary>
         [Test]
         public void SnapTurnsAndTeleportsMakeNoSound(
-            [Values(72.0, 90.0, 120.0)] double framesPerSecond, [Values(15f, 45f, 90f, 180f, 0f)] float degrees)
+            [Values(72.0, 120.0)] double framesPerSecond, [Values(45f, 180f, 0f)] float degrees)
         {
             FinishLoading();
             SetFrameRate(framesPerSecond);
@@ -327,11 +257,7 @@ namespace HaptoFlow.ShimTests
                 {
                     rig.transform.position = new Vector3(0.4f * (turn + 1), 0f, -0.2f * turn);
                 }
-                for (int frame = 0; frame < 30; ++frame)
-                {
-                    World.Frame();
-                    Assert.That(pen.Contact.TangentialVelocity.magnitude, Is.LessThan(0.21f), $"turn {turn}, frame {frame}");
-                }
+                Assert.That(Fastest(pen, 30), Is.LessThan(0.21f), $"turn {turn}");
                 Assert.That(pen.Contact.TangentialVelocity.magnitude, Is.EqualTo(0.2f).Within(0.01f));
             }
             Assert.That(tap.Peak(), Is.GreaterThan(0.3f * before).And.LessThan(2f * before));
@@ -347,7 +273,7 @@ namespace HaptoFlow.ShimTests
             GameObject vehicle = Make("Vehicle");
             HapticSurface board = Board();
             board.transform.SetParent(vehicle.transform, false);
-            vehicle.AddComponent<Mover>().Path = now => new Vector3((float)(mps * now), 0f, 0f);
+            vehicle.AddComponent<Mover>().Path = Steadily(mps);
             HapticStylus pen = Pen(_ => new Vector3(0.02f, 0.001f, 0.01f), vehicle);
             var collider = board.GetComponent<BoxCollider>();
             if (how == "a second collider" || how == "loaded")
@@ -389,18 +315,14 @@ namespace HaptoFlow.ShimTests
         public void APenAtRestOnAPlatformIsAtRestInSlowMotionAndAfterHitches([Values] Carrier carrier)
         {
             HapticSurface ground = Ground(40f);
-            double late = Clock.FixedSeconds;
-            Carry(ground.gameObject, carrier, carrier == Carrier.Stepped || carrier == Carrier.Interpolated
-                ? now => new Vector3(0.2f * (float)(now + late), 0f, 0f)
-                : now => new Vector3(0.2f * (float)now, 0f, 0f));
+            Carry(ground.gameObject, carrier, 0.2);
             if (ground.TryGetComponent(out Mover mover))
             {
                 mover.Scaled = true;
             }
-            HapticStylus pen = Pen(_ => Vector3.zero);
-            Mover hand = pen.GetComponent<Mover>();
-            hand.Scaled = true;
-            hand.Path = now => new Vector3(0.2f * (float)now, 0.001f, 0f);
+            Func<double, Vector3> drive = Steadily(0.2);
+            HapticStylus pen = Pen(now => drive(now) + new Vector3(0f, 0.001f, 0f));
+            pen.GetComponent<Mover>().Scaled = true;
             World.Frames(60);
             foreach (double scale in new[] { 1.0, 0.5, 0.1, 1.0, 2.0, 0.05, 1.0 })
             {
@@ -436,11 +358,7 @@ namespace HaptoFlow.ShimTests
             // The rig grows in the hand of its user: no stroke.
             float grown = 1.5f * scale;
             rig.transform.localScale = new Vector3(grown, grown, grown);
-            for (int frame = 0; frame < 60; ++frame)
-            {
-                World.Frame();
-                Assert.That(pen.Contact.TangentialVelocity.magnitude, Is.LessThan(0.21f), $"frame {frame}");
-            }
+            Assert.That(Fastest(pen, 60), Is.LessThan(0.21f));
             Assert.That(pen.Contact.TangentialVelocity.magnitude, Is.EqualTo(0.2f).Within(0.004f));
         }
 
@@ -454,96 +372,6 @@ namespace HaptoFlow.ShimTests
             Assert.That(pen.Contact.TangentialVelocity.magnitude, Is.EqualTo(0.2f).Within(0.004f));
         }
 
-        /// <summary>Board and pen ride on a rig whose scale changes steadily.</summary>
-        [Test]
-        public void AWorldThatGrowsWithThePenIsNotFelt()
-        {
-            GameObject world = Make("World");
-            HapticSurface board = Board();
-            board.transform.SetParent(world.transform, false);
-            HapticStylus pen = Pen(_ => new Vector3(0.1f, 0.001f, 0.05f), world);
-            pen.Rig = Make("Rig").transform;
-            World.Frames(20);
-            for (int frame = 0; frame < 90; ++frame)
-            {
-                float size = 1f + 0.005f * frame;
-                world.transform.localScale = new Vector3(size, size, size);
-                World.Frame();
-                Assert.That(pen.Contact.TangentialVelocity.magnitude, Is.LessThan(StillMps), $"frame {frame}");
-            }
-        }
-
-        /// <summary>A random carrier, its turn and its steps, and a stroke that both worlds share: what is heard is what
-        /// is heard in a world at rest.</summary>
-        [Test]
-        public void RandomCarriersSoundLikeAWorldAtRest([NUnit.Framework.Range(0, 19)] int seed)
-        {
-            FinishLoading();
-            double[] rest = Play(seed, false);
-            EndScene();
-            BeginScene();
-            FinishLoading();
-            double[] carried = Play(seed, true);
-            Assert.That(20.0 * Math.Log10(carried[0] / rest[0]), Is.InRange(-3.0, 3.0), "level, dB");
-            Assert.That(20.0 * Math.Log10(carried[1] / rest[1]), Is.LessThan(6.0), "loudest sample, dB");
-        }
-
-        /// <returns>Root mean square and peak at the device.</returns>
-        private double[] Play(int seed, bool isCarried)
-        {
-            var random = new Random(seed);
-            double Number(double from, double to) => from + (to - from) * random.NextDouble();
-            SetFrameRate(new[] { 72.0, 90.0, 120.0 }[random.Next(3)]);
-            Clock.FixedStepSeconds = 1.0 / new[] { 50.0, 72.0, 90.0, 100.0, 120.0 }[random.Next(5)];
-            var carrier = (Carrier)random.Next(5);
-            double speed = Math.Pow(10.0, Number(-1.0, 2.4));
-            double turn = random.Next(2) == 0 ? 0.0 : Number(-1.5, 1.5);
-            double handMps = Number(0.05, 0.6);
-            double ticks = random.Next(3) == 0 ? Number(20.0, 60.0) : 0.0;
-            Output(out _);
-            GameObject vehicle = Make("Vehicle");
-            HapticSurface board = Board();
-            board.transform.SetParent(vehicle.transform, false);
-            if (isCarried)
-            {
-                double Stepped(double now) => ticks > 0.0 ? Math.Floor(now * ticks) / ticks : now;
-                Func<double, Vector3> drive = now => new Vector3(
-                    (float)(speed * Stepped(now)), 0.1f * (float)Math.Sin(3.0 * Stepped(now)), 0f);
-                if (turn != 0.0)
-                {
-                    Mover mover = vehicle.AddComponent<Mover>();
-                    mover.Path = drive;
-                    mover.Turn = now => Quaternion.AngleAxis((float)(57.3 * turn * Stepped(now)), Vector3.up);
-                }
-                else
-                {
-                    Carry(vehicle, carrier, drive);
-                }
-            }
-            Pen(now => new Vector3(0.05f * (float)Math.Cos(handMps / 0.05 * now), 0.001f,
-                0.05f * (float)Math.Sin(handMps / 0.05 * now)), vehicle);
-            World.Frames(20);
-            AudioDevice.Forget();
-            for (int frame = 0; frame < 150; ++frame)
-            {
-                if (isCarried && frame % 50 == 25)
-                {
-                    // Everything is shifted, as a floating origin does.
-                    vehicle.transform.position += new Vector3(-300f, 0f, 100f);
-                }
-                World.Frame();
-            }
-            double squares = 0.0;
-            double peak = 0.0;
-            for (int frame = 0; frame < AudioDevice.RecordedFrames; ++frame)
-            {
-                double sample = Math.Abs(AudioDevice.Sample(frame, 0));
-                squares += sample * sample;
-                peak = Math.Max(peak, sample);
-            }
-            return new[] { Math.Sqrt(squares), peak };
-        }
-
         private sealed class Follower : MonoBehaviour
         {
             public Rigidbody Body = null!;
@@ -555,7 +383,7 @@ namespace HaptoFlow.ShimTests
         /// <summary>A tip that physics moves after a tracked hand: the steps of a hitch wait for the next frame.</summary>
         [Test]
         public void AHitchIsNoStrokeInFixedUpdates(
-            [Values(0.05, 0.12, 0.2, 0.3, 0.6)] double hitch, [Values(0.01, 0.02, 0.025)] double step)
+            [Values(0.05, 0.2, 0.6)] double hitch, [Values(0.01, 0.025)] double step)
         {
             Clock.FixedStepSeconds = step;
             Ground(4f);
@@ -610,7 +438,7 @@ namespace HaptoFlow.ShimTests
             Assert.That(silent, Is.LessThan(0.03 * blocks), $"of {blocks} blocks of 10 ms");
         }
 
-        private static void AssertSpeed(HapticStylus pen, float speed, double fromSeconds, string what)
+        private static void AssertSpeed(HapticStylus pen, float mps, double fromSeconds)
         {
             double squares = 0.0;
             int frames = 0;
@@ -618,16 +446,16 @@ namespace HaptoFlow.ShimTests
             while (Clock.UnscaledSeconds < began + 1.5)
             {
                 World.Frame();
-                float error = pen.Contact.FirstVelocityMps + speed;
-                Assert.That(pen.Contact.FirstVelocityMps, Is.LessThan(0.05f * speed), $"{what}: wrong sign");
-                Assert.That(Math.Abs(pen.Contact.FirstVelocityMps), Is.LessThan(1.6f * speed), $"{what} after {Clock.UnscaledSeconds - began:0.000} s");
+                float error = pen.Contact.FirstVelocityMps + mps;
+                Assert.That(pen.Contact.FirstVelocityMps, Is.LessThan(0.05f * mps), "wrong sign");
+                Assert.That(Math.Abs(pen.Contact.FirstVelocityMps), Is.LessThan(1.6f * mps), $"after {Clock.UnscaledSeconds - began:0.000} s");
                 if (Clock.UnscaledSeconds > began + fromSeconds)
                 {
                     squares += error * error;
                     ++frames;
                 }
             }
-            Assert.That(Math.Sqrt(squares / frames), Is.LessThan(0.1 * speed), what);
+            Assert.That(Math.Sqrt(squares / frames), Is.LessThan(0.1 * mps));
         }
     }
 }

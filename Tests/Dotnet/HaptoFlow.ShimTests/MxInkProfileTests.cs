@@ -52,7 +52,7 @@ namespace HaptoFlow.ShimTests
             }
             Assert.That(pen.Stylus!.Contact.ForceNewtons, Is.EqualTo(0.4f).Within(1e-5f));
             Assert.That(OpenXRInput.Impulses.Count, Is.GreaterThan(60));
-            Assert.That(CountMessages(LogType.Warning, ""), Is.Zero);
+            Assert.That(Log.Count("", LogType.Warning), Is.Zero);
             held.Move("/input/grip/pose", Vector3.zero, Quaternion.identity, isTracked: false);
             World.Frames(2);
             Assert.That(pen.Stylus.isActiveAndEnabled, Is.False);
@@ -164,7 +164,7 @@ namespace HaptoFlow.ShimTests
             OpenXrRuntime.Start(MxInkFeatures.Extension);
             Assert.That(OpenXrRuntime.Maps.Select(map => map.localizedName), Is.EqualTo(new[] { "Foreign pen" }));
             OpenXrRuntime.Start(MxInkFeatures.Extension);
-            Assert.That(CountMessages(LogType.Log, "MX Ink Stylus (HaptoFlow) stays off, because ForeignProfile"),
+            Assert.That(Log.Count("MX Ink Stylus (HaptoFlow) stays off, because ForeignProfile", LogType.Log),
                 Is.EqualTo(1));
         }
 
@@ -177,7 +177,7 @@ namespace HaptoFlow.ShimTests
             OpenXrRuntime.Start(MxInkFeatures.Extension);
             Assert.That(OpenXrRuntime.Maps.Select(map => map.localizedName),
                 Is.EquivalentTo(new[] { "MX Ink Stylus HaptoFlow", "Other device" }));
-            Assert.That(CountMessages(LogType.Log, "stays off"), Is.Zero);
+            Assert.That(Log.Count("stays off", LogType.Log), Is.Zero);
         }
 
         [Test]

@@ -1,7 +1,14 @@
+using System;
+using System.IO;
 using System.Linq;
+using System.Text.RegularExpressions;
+using HaptoFlow.ProjectCheck;
 using HaptoFlow.Tests;
+using HaptoFlow.Tests.Support;
 using NUnit.Framework;
 using UnityEngine;
+using UnityEngine.TestTools;
+using UnityEngine.XR;
 using UnityShim;
 
 namespace HaptoFlow.ShimTests
@@ -96,18 +103,6 @@ namespace HaptoFlow.ShimTests
             Assert.That(tap.Peak(), Is.LessThanOrEqualTo(0.01f).And.GreaterThan(0.005f));
         }
 
-        [Test]
-        public void OneOfSixtyFiveStylusesHasNoVoiceAndOneMessageIsLogged()
-        {
-            FinishLoading();
-            Board();
-            HapticStylus[] all = Enumerable.Range(0, 65).Select(_ => StylusAlong(_ => new Vector3(0f, 0.001f, 0f))).ToArray();
-            World.Frames(5);
-            Assert.That(all.Count(stylus => stylus.TryGetStatistics(out VoiceStatistics _)), Is.EqualTo(64));
-            int messageCount = Log.Lines.Count(line => line.Type == LogType.Error && line.Text.Contains("gets no voice"));
-            Assert.That(messageCount, Is.EqualTo(1));
-        }
-
         private HapticStylus Touch()
         {
             Board();
@@ -115,5 +110,58 @@ namespace HaptoFlow.ShimTests
             World.Frames(10);
             return stylus;
         }
+    }
+
+    /// <summary>The engine's update rate, which follows the display.</summary>
+    public sealed class DisplayRateTests : SceneTest
+    {
+        [SetUp]
+        [TearDown]
+        public void RemoveTheHeadset() => Displays.Reset();
+
+        [TestCase(60u, 1u, new[] { 120f }, true, 120.0, TestName = "a headset before the screen")]
+        [TestCase(59940u, 1000u, new[] { float.NaN }, true, 59.94, TestName = "the screen beside a headset without a rate")]
+        [TestCase(0u, 1u, new float[0], true, 80.0, TestName = "the settings without a display's rate")]
+        [TestCase(0u, 1u, new[] { 120f }, false, 80.0, TestName = "the settings where the display is not followed")]
+        [TestCase(0u, 1u, new[] { 0f, -1f, float.PositiveInfinity, 1e6f }, true, 80.0, TestName = "no implausible rate")]
+        public void TheEngineRunsAtTheRateOf(uint screen, uint share, float[] headsets, bool follows, double expectedHz)
+        {
+            Displays.Screen = new RefreshRate { numerator = screen, denominator = share };
+            Array.ForEach(headsets, hertz => Displays.Wear(float.IsNaN(hertz) ? (float?)null : hertz));
+            Displays.Wear(90f).Stop();
+            (HaptoFlowSettings.Active.UpdateRateHz, HaptoFlowSettings.Active.FollowDisplay) = (80f, follows);
+            Assert.That(EngineRateHz(), Is.EqualTo(expectedHz).Within(1e-3));
+        }
+
+        private static double EngineRateHz()
+        {
+            FinishLoading();
+            Assert.That(Haptics.Problem, Is.Null);
+            Haptics.TryGetStatistics(out EngineStatistics engine);
+            return 1000.0 * HaptoFlowSettings.Active.BudgetShare / engine.BudgetMs;
+        }
+    }
+
+    /// <summary>The console of a clone without ONNX Runtime.</summary>
+    public sealed class RuntimeIsInstalledTests : SceneTest
+    {
+        [Test]
+        public void AfterNpmCiTheConsoleIsSilent()
+        {
+            RuntimeIsInstalled.Check(RepositoryFiles.Root);
+            Assert.That(Errors(), Is.Empty);
+        }
+
+        [Test]
+        public void WithoutItTheConsoleNamesTheCommandAndTheFolder()
+        {
+            string clone = Path.Combine(Path.GetTempPath(), $"haptoflow-clone-{Guid.NewGuid():N}");
+            LogAssert.Expect(LogType.Error, new Regex("\"npm ci\" in "));
+            RuntimeIsInstalled.Check(clone);
+            Assert.That(Errors().Single(), Does.Contain(clone).And.Contain("open the project again"));
+        }
+
+        private static string[] Errors() =>
+            Log.Lines.Where(line => line.Type == LogType.Error).Select(line => line.Text).ToArray();
     }
 }

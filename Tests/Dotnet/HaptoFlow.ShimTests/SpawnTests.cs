@@ -44,34 +44,6 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void ASurfaceListsNoDestroyedColliderAndNoneOfAnother()
-        {
-            HapticSurface left = Board();
-            HapticSurface right = Tagged<BoxCollider>("stone");
-            right.transform.position = new Vector3(0f, -1f, 0f);
-            Transform leftPool = Make("Left").transform;
-            Transform rightPool = Make("Right").transform;
-            leftPool.SetParent(left.transform, false);
-            rightPool.SetParent(right.transform, true);
-            rightPool.position = Vector3.zero;
-            Circling();
-            GameObject moving = SpawnBelow(leftPool);
-            World.Frames(40);
-            Assert.That(left.Colliders, Has.Count.EqualTo(2));
-            for (int round = 0; round < 3; ++round)
-            {
-                moving.transform.SetParent(rightPool, true);
-                World.Frames(40);
-                Assert.That((left.Colliders.Count, right.Colliders.Count), Is.EqualTo((1, 2)));
-                moving.transform.SetParent(leftPool, true);
-                World.Frames(40);
-                Assert.That((left.Colliders.Count, right.Colliders.Count), Is.EqualTo((2, 1)));
-            }
-            Object.DestroyImmediate(moving.GetComponent<BoxCollider>());
-            Assert.That(left.Colliders, Has.Count.EqualTo(1));
-        }
-
-        [Test]
         public void TenThousandSpawnsThatRulesMatchLeaveABoundedCacheAndCostTheSameInEveryFrame()
         {
             HaptoFlowSettings.Active.MaterialMap = map;
@@ -125,21 +97,6 @@ namespace HaptoFlow.ShimTests
                 World.Frames(2);
             }
             Assert.That(TerrainWeights.StripsRead, Is.LessThanOrEqualTo(2 * 200));
-        }
-
-        [Test]
-        public void TilesThatAreSpawnedAndDestroyedWithinASceneAreForgottenByTheNext()
-        {
-            HaptoFlowSettings.Active.MaterialMap = map;
-            Circling();
-            for (int spawn = 0; spawn < 40; ++spawn)
-            {
-                TerrainCollider tile = Tile(64, Vector3.zero);
-                World.Frames(3);
-                Assert.That(TerrainWeights.Count, Is.EqualTo(1));
-                Object.DestroyImmediate(tile.gameObject);
-                World.Frames(2);
-            }
         }
 
         [Test]
@@ -286,14 +243,6 @@ namespace HaptoFlow.ShimTests
             LabelBlend blend = stylus.Contact.Labels;
             Assert.That(blend.Count, Is.EqualTo(1));
             return HapticSession.Current.Labels.All[blend.Label(0)];
-        }
-
-        private static HapticMaterial Feeling(string label)
-        {
-            var material = ScriptableObject.CreateInstance<HapticMaterial>();
-            material.name = label;
-            material.Description.Label = label;
-            return material;
         }
     }
 }

@@ -68,7 +68,7 @@ namespace HaptoFlow.ShimTests
             stylus.Force = stylus.gameObject.AddComponent<MetaActionTipForce>();
             OVRPlugin.Tip = 0.4f;
             World.Frames(90);
-            Assert.That(Log.Lines.Count(line => line.Text.Contains("no hand is known to hold it")), Is.EqualTo(1));
+            Assert.That(Log.Count("no hand is known to hold it"), Is.EqualTo(1));
         }
 
         [TearDown]
@@ -79,6 +79,95 @@ namespace HaptoFlow.ShimTests
             HapticSurface board = Board();
             board.Material.StiffnessNewtonsPerMetre = 700f;
             return StylusAlong(_ => new Vector3(0f, 0.001f, 0f));
+        }
+    }
+
+    /// <summary>Meta's SDK logs an error for every failing call, so it is called only when it can succeed.</summary>
+    public sealed class MetaTipForceTests : SceneTest
+    {
+        private MetaActionTipForce source = null!;
+
+        [SetUp]
+        public void PressAPen()
+        {
+            OVRPlugin.Reset();
+            OVRPlugin.Connected = OVRPlugin.Controller.RTouch;
+            HapticSurface board = Board();
+            board.Material.StiffnessNewtonsPerMetre = 700f;
+            HapticStylus stylus = StylusAlong(_ => new Vector3(0f, 0.001f, 0f));
+            source = stylus.gameObject.AddComponent<MetaActionTipForce>();
+            stylus.Force = source;
+        }
+
+        [TearDown]
+        public void RemoveThePen() => OVRPlugin.Reset();
+
+        [Test]
+        public void AMissingActionIsQueriedOnceAndLoggedOnce()
+        {
+            World.Frames(90);
+            Assert.That(OVRPlugin.Calls, Is.EqualTo(1));
+            Assert.That(Log.Count("GetActionStateFloat", LogType.Error), Is.EqualTo(1));
+            Assert.That(Log.Count("\"tip\"", LogType.Warning), Is.EqualTo(1));
+        }
+
+        [Test]
+        public void WithoutASessionNothingIsQueried()
+        {
+            OVRPlugin.hasInputFocus = false;
+            OVRPlugin.Tip = 0.4f;
+            World.Frames(90);
+            Assert.That(OVRPlugin.Calls, Is.Zero);
+            Assert.That(Log.Count("", LogType.Error), Is.Zero);
+            OVRPlugin.hasInputFocus = true;
+            World.Frames(2);
+            Assert.That(source.TryRead(out float newtons), Is.True);
+            Assert.That(newtons, Is.EqualTo(0.4f).Within(1e-6f));
+        }
+
+        [Test]
+        public void ARestartedSessionIsQueriedAgain()
+        {
+            World.Frames(10);
+            OVRPlugin.Tip = 0.4f;
+            World.Frames(10);
+            Assert.That(source.TryRead(out _), Is.False, "no event has reported the change");
+            OVRPlugin.hasInputFocus = false;
+            World.Frames(2);
+            OVRPlugin.hasInputFocus = true;
+            World.Frames(2);
+            Assert.That(source.TryRead(out _), Is.True);
+            Assert.That(Log.Count("", LogType.Error), Is.EqualTo(1));
+        }
+
+        [Test]
+        public void AConnectingPenIsQueriedAgain()
+        {
+            World.Frames(10);
+            OVRPlugin.Tip = 0.4f;
+            OVRPlugin.Connected = OVRPlugin.Controller.LTouch | OVRPlugin.Controller.RTouch;
+            World.Frames(2);
+            Assert.That(source.TryRead(out _), Is.True);
+        }
+
+        [Test]
+        public void ANewActionNameAndAnEnabledComponentAreQueried()
+        {
+            World.Frames(10);
+            OVRPlugin.Tip = 0.4f;
+            OVRPlugin.BoundAction = "force";
+            source.Action = "force";
+            World.Frames(2);
+            Assert.That(source.TryRead(out _), Is.True);
+            OVRPlugin.BoundAction = "tip";
+            World.Frames(2);
+            OVRPlugin.BoundAction = "force";
+            World.Frames(2);
+            Assert.That(source.TryRead(out _), Is.False);
+            source.enabled = false;
+            source.enabled = true;
+            World.Frames(2);
+            Assert.That(source.TryRead(out _), Is.True);
         }
     }
 }

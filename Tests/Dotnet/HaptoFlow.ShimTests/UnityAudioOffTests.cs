@@ -69,8 +69,7 @@ namespace HaptoFlow.ShimTests
             Assert.That(UnityAudio.Problem, Is.Null);
             AudioDevice.Forget();
             World.Frames(20);
-            Assert.That(Enumerable.Range(0, AudioDevice.RecordedFrames).Max(frame =>
-                Math.Abs(AudioDevice.Sample(frame, 0))), Is.GreaterThan(0.001f));
+            Assert.That(AudioDevice.Peak(), Is.GreaterThan(0.001f));
         }
 
         [Test]
@@ -84,17 +83,6 @@ namespace HaptoFlow.ShimTests
             World.Frames(3);
             Assert.That(noise.Problem, Does.Contain("Disable Unity Audio"));
             Assert.That(StudyPlayer.BlockMilliseconds, Is.GreaterThan(0.0).And.LessThan(100.0));
-        }
-
-        [Test]
-        public void APausedListenerFreezesTheClockAndIsNotTakenForAudioThatIsOff()
-        {
-            Output(out _);
-            World.Frames(20);
-            AudioListener.pause = true;
-            World.Frames(300);
-            Assert.That(UnityAudio.Problem, Is.Null);
-            Assert.That(Log.Lines.Count(line => line.Type == LogType.Warning), Is.Zero);
         }
 
         [Test]
@@ -115,38 +103,6 @@ namespace HaptoFlow.ShimTests
             Assert.That(OVRInput.Waves.SelectMany(wave => wave.Samples).Select(Math.Abs).DefaultIfEmpty().Max(), Is.Zero);
             Assert.That(XrHand.Right.Impulses.Max(each => each.Amplitude), Is.GreaterThan(0.01f), "it plays while paused");
             Time.timeScale = 1f;
-            AudioListener.pause = false;
-            World.Frames(60);
-            Assert.That(OVRInput.Waves.Max(wave => wave.Samples.Max(Math.Abs)), Is.GreaterThan(0.01f));
-        }
-
-        [Test]
-        public void APenThatWakesDuringAPauseIsSilentOnItsDeviceUntilTheEnd()
-        {
-            OVRPlugin.Connected = OVRPlugin.Controller.RTouch;
-            Add<ControllerWaveformOutput>();
-            Pen.enabled = false;
-            World.Frames(60);
-            AudioListener.pause = true;
-            World.Frames(5);
-            Pen.enabled = true;
-            World.Frames(72);
-            Assert.That(OVRInput.Waves.SelectMany(wave => wave.Samples).Select(Math.Abs).DefaultIfEmpty().Max(), Is.Zero);
-            AudioListener.pause = false;
-            World.Frames(60);
-            Assert.That(OVRInput.Waves.Max(wave => wave.Samples.Max(Math.Abs)), Is.GreaterThan(0.01f));
-        }
-
-        [Test]
-        public void ADeviceThatConnectsDuringAPauseStaysSilentUntilItsEnd()
-        {
-            Add<ControllerWaveformOutput>();
-            World.Frames(20);
-            AudioListener.pause = true;
-            World.Frames(20);
-            OVRPlugin.Connected = OVRPlugin.Controller.RTouch;
-            World.Frames(100);
-            Assert.That(OVRInput.Waves.SelectMany(wave => wave.Samples).Select(Math.Abs).DefaultIfEmpty().Max(), Is.Zero);
             AudioListener.pause = false;
             World.Frames(60);
             Assert.That(OVRInput.Waves.Max(wave => wave.Samples.Max(Math.Abs)), Is.GreaterThan(0.01f));

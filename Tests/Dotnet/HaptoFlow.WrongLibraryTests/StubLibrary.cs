@@ -10,15 +10,11 @@ using NUnit.Framework;
 
 namespace HaptoFlow.WrongLibraryTests
 {
-    /// <summary>Stands in for the native library, once with and once without haptoflow_struct_size.</summary>
+    /// <summary>Stands in for the native library.</summary>
     internal static unsafe class StubLibrary
     {
         private static readonly string Folder = Path.Combine(Path.GetTempPath(), $"haptoflow-stub-{Guid.NewGuid():N}");
         private static IntPtr stub;
-        private static IntPtr stubWithoutSizes;
-
-        /// <summary>True for a library that is too old to have haptoflow_struct_size.</summary>
-        public static bool IsWithoutSizes { get; set; }
 
         /// <summary>Calls of other functions than those of agreement since <see cref="Become"/>.</summary>
         public static int Calls => ((delegate* unmanaged[Cdecl]<int>)Export("stub_calls"))();
@@ -26,13 +22,9 @@ namespace HaptoFlow.WrongLibraryTests
         /// <summary>Gives the library a version, and the structs of the C# with one size changed.</summary>
         public static void Become(string version, string changed = "", int bytes = 0)
         {
-            foreach (IntPtr library in new[] { stub, stubWithoutSizes })
+            fixed (byte* text = NativeCall.Utf8(version))
             {
-                var become = (delegate* unmanaged[Cdecl]<byte*, void>)NativeLibrary.GetExport(library, "stub_become");
-                fixed (byte* text = NativeCall.Utf8(version))
-                {
-                    become(text);
-                }
+                ((delegate* unmanaged[Cdecl]<byte*, void>)Export("stub_become"))(text);
             }
             var add = (delegate* unmanaged[Cdecl]<byte*, uint, void>)Export("stub_add_struct");
             foreach (string name in LibraryAgreement.Structs.Keys.Where(name => name != changed || bytes != 0))
@@ -44,25 +36,19 @@ namespace HaptoFlow.WrongLibraryTests
             }
         }
 
-        /// <summary>Compiles and loads both, or ignores the tests where there is no C compiler.</summary>
-        public static void Build()
-        {
-            Directory.CreateDirectory(Folder);
-            stub = Compiled("stub", "-DWITH_SIZES");
-            stubWithoutSizes = Compiled("stub_without_sizes", "-DWITHOUT_SIZES");
-        }
-
         public static void Delete() => Directory.Delete(Folder, true);
 
         private static IntPtr Export(string name) => NativeLibrary.GetExport(stub, name);
 
-        private static IntPtr Compiled(string name, string option)
+        /// <summary>Compiles and loads it, or ignores the tests where there is no C compiler.</summary>
+        public static void Build()
         {
-            string file = Path.Combine(Folder, $"lib{name}.so");
+            Directory.CreateDirectory(Folder);
+            string file = Path.Combine(Folder, "libstub.so");
             try
             {
                 using Process compiler = Process.Start(
-                    "cc", new[] { "-shared", "-fPIC", option, "-o", file, Path.Combine(HereFolder(), "stub.c") });
+                    "cc", new[] { "-shared", "-fPIC", "-o", file, Path.Combine(HereFolder(), "stub.c") });
                 compiler.WaitForExit();
                 Assert.That(compiler.ExitCode, Is.Zero);
             }
@@ -70,7 +56,7 @@ namespace HaptoFlow.WrongLibraryTests
             {
                 Assert.Ignore("there is no C compiler `cc`");
             }
-            return NativeLibrary.Load(file);
+            stub = NativeLibrary.Load(file);
         }
 
         private static string HereFolder([CallerFilePath] string path = "") => Path.GetDirectoryName(path)!;
@@ -79,6 +65,6 @@ namespace HaptoFlow.WrongLibraryTests
         internal static void Lead() => NativeLibrary.SetDllImportResolver(typeof(HapticModel).Assembly, Resolve);
 
         private static IntPtr Resolve(string name, Assembly assembly, DllImportSearchPath? searchPath) =>
-            name == "audioplugin_haptoflow" ? (IsWithoutSizes ? stubWithoutSizes : stub) : IntPtr.Zero;
+            name == "audioplugin_haptoflow" ? stub : IntPtr.Zero;
     }
 }

@@ -17,17 +17,6 @@ namespace HaptoFlow.WrongLibraryTests
         [OneTimeTearDown]
         public void DeleteStub() => StubLibrary.Delete();
 
-        // Runs first: .NET binds a function to a library at the first call that finds it.
-        [Test, Order(0)]
-        public void ALibraryThatCannotTellItsSizesIsRefused()
-        {
-            StubLibrary.Become(LibraryAgreement.Version);
-            StubLibrary.IsWithoutSizes = true;
-            string sentence = Refusal(() => OnnxRuntime.Open());
-            StubLibrary.IsWithoutSizes = false;
-            Assert.That(sentence, Does.Contain("does not say how large its struct haptoflow_"));
-        }
-
         [TestCase("0.0.9")]
         [TestCase("99.0.0")]
         [TestCase("")]

@@ -24,7 +24,6 @@ int stub_calls(void) { return calls; }
 
 const char* haptoflow_version(void) { return version; }
 
-#ifndef WITHOUT_SIZES
 int32_t haptoflow_struct_size(const char* name, uint32_t* bytes) {
     for (int index = 0; index < count; ++index) {
         if (strcmp(names[index], name) == 0) {
@@ -34,7 +33,6 @@ int32_t haptoflow_struct_size(const char* name, uint32_t* bytes) {
     }
     return 1;
 }
-#endif
 
 int32_t haptoflow_runtime_open(const void* options, void** runtime) { return ++calls; }
 int32_t haptoflow_model_open(const void* options, void** model) { return ++calls; }

@@ -10,7 +10,7 @@ namespace HaptoFlow.Tests.Support
     {
         /// <summary>The recording from which the sample Workshop learns, and the files beside it.</summary>
         public static string DoormatFolder => RepositoryFiles.In(
-            "Packages", "com.haptoflow.runtime", "Runtime", "SampleScenes", "Workshop", "Recordings");
+            "Packages", "com.haptoflow.runtime", "Runtime", "SampleScenes", "Recordings");
 
         /// <summary>The recording of the sample Workshop.</summary>
         public static Recording Doormat() => RecordingReader.Read("doormat.wav", Directory

@@ -76,37 +76,11 @@ namespace HaptoFlow.Tests
         }), new Vector3(0.01f, 0.05f, 0.02f), Vector3.up);
 
         [UnityTest]
-        public IEnumerator AMeshThatMovesWithABody()
-        {
-            HapticSurface surface = Tagged<MeshCollider>("wood", mesh => mesh.sharedMesh = TestMeshes.Box(0.1f));
-            PlatformMover.On(surface.gameObject, RigidbodyInterpolation.Interpolate, seconds =>
-                new Vector3(0f, 0.1f * (float)seconds, 0f));
-            HapticStylus stylus = StylusAlong(_ => new Vector3(0f, 1f, 0f));
-            GameObject tip = Make("tip");
-            tip.transform.SetParent(surface.transform, false);
-            tip.transform.localPosition = new Vector3(0f, 0.051f, 0f);
-            stylus.Tip = tip.transform;
-            for (int frame = 0; frame < 40; ++frame)
-            {
-                yield return null;
-                Assert.That(stylus.Contact.PenetrationMetres, Is.EqualTo(0.001f).Within(2e-5f), $"frame {frame}");
-            }
-        }
-
-        [UnityTest]
         public IEnumerator AGutterMeshIsTouchedAtItsFloorAndItsWall()
         {
             HapticSurface surface = Tagged<MeshCollider>("wood", mesh => mesh.sharedMesh = TestMeshes.Gutter());
-            IEnumerator floor = Presses(surface, Vector3.zero, Vector3.up);
-            while (floor.MoveNext())
-            {
-                yield return null;
-            }
-            IEnumerator wall = Presses(surface, new Vector3(0.01f, 0.012f, 0f), Vector3.left, 0.015f);
-            while (wall.MoveNext())
-            {
-                yield return null;
-            }
+            yield return Presses(surface, Vector3.zero, Vector3.up);
+            yield return Presses(surface, new Vector3(0.01f, 0.012f, 0f), Vector3.left, 0.015f);
         }
 
         [UnityTest]
@@ -135,8 +109,7 @@ namespace HaptoFlow.Tests
         {
             Tagged<BoxCollider>("wood", box => box.isTrigger = true);
             HapticStylus stylus = StylusAlong(_ => new Vector3(0f, 0.501f, 0f));
-            yield return null;
-            yield return null;
+            yield return Frames(2);
             Assert.That(stylus.IsTouching, Is.False);
         }
 
@@ -152,15 +125,9 @@ namespace HaptoFlow.Tests
             var mover = stylus.GetComponent<PathMover>();
             yield return null;
             Assert.That(stylus.IsTouching, Is.False, "before it comes down");
-            while (mover.Seconds < 0.55)
-            {
-                yield return null;
-            }
+            yield return Until(mover, 0.55);
             Check(stylus, surface, 0.001f, normal, point);
-            while (mover.Seconds < 0.8)
-            {
-                yield return null;
-            }
+            yield return Until(mover, 0.8);
             Check(stylus, surface, 0.012f, normal, point);
             Object.DestroyImmediate(stylus.gameObject);
         }

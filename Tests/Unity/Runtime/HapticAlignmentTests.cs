@@ -225,13 +225,5 @@ namespace HaptoFlow.Tests
             Assert.That(
                 Vector3.Distance(moved.rotation * Vector3.right, deskRotation * Vector3.right), Is.LessThan(1e-3f));
         }
-
-        private static IEnumerator Frames(int count)
-        {
-            for (int frame = 0; frame < count; ++frame)
-            {
-                yield return null;
-            }
-        }
     }
 }

@@ -12,31 +12,30 @@ namespace HaptoFlow.Tests
     public sealed class HapticOutputTests : SceneTest
     {
         private const float Audible = 0.001f;
+        private HapticSurface board = null!;
+        private HapticOutput output = null!;
+        private AudioTap tap = null!;
+
+        [SetUp]
+        public void MakeABoardAndAnOutput()
+        {
+            FinishLoading();
+            board = Board();
+            tap = Output(out output);
+        }
 
         [UnityTest]
         public IEnumerator SlidingSoundsRestingAndLiftingAreSilent()
         {
-            FinishLoading();
-            Board();
-            AudioTap tap = Output(out _);
             HapticStylus stylus = StylusAlong(seconds => seconds < 1.0
                 ? new Vector3(-0.1f + 0.1f * (float)seconds, 0.001f, 0f)
                 : new Vector3(0f, 0.1f, 0f));
             var mover = stylus.GetComponent<PathMover>();
-            while (mover.Seconds < 0.9)
-            {
-                yield return null;
-            }
+            yield return Until(mover, 0.9);
             Assert.That(tap.Peak(), Is.GreaterThan(Audible));
-            while (mover.Seconds < 1.2)
-            {
-                yield return null;
-            }
+            yield return Until(mover, 1.2);
             tap.Restart();
-            while (mover.Seconds < 1.5)
-            {
-                yield return null;
-            }
+            yield return Until(mover, 1.5);
             Assert.That(tap.Blocks, Is.GreaterThan(5));
             Assert.That(tap.Peak(), Is.Zero);
             Assert.That(tap.BrokenSamples, Is.Zero);
@@ -49,14 +48,8 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator WithoutTouchNothingIsInferred()
         {
-            FinishLoading();
-            Board();
-            Output(out _);
             HapticStylus stylus = StylusAlong(seconds => new Vector3(0.05f * (float)seconds, 0.05f, 0f));
-            for (int frame = 0; frame < 60; ++frame)
-            {
-                yield return null;
-            }
+            yield return Frames(60);
             Assert.That(stylus.TryGetStatistics(out VoiceStatistics statistics), Is.True);
             Assert.That(statistics.Updates, Is.GreaterThan(50UL));
             Assert.That(statistics.Inferences, Is.Zero);
@@ -67,15 +60,9 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator OnlyTheStagesThatAnOutputUsesRun()
         {
-            FinishLoading();
-            Board();
-            AudioTap tap = Output(out HapticOutput output);
             output.Processing.Actuator = OutputActuator.VoiceCoil;
             HapticStylus stylus = Circling();
-            for (int frame = 0; frame < 45; ++frame)
-            {
-                yield return null;
-            }
+            yield return Frames(45);
             Assert.That(tap.Peak(), Is.GreaterThan(Audible));
             Assert.That(RunsOf(stylus, HapticEffect.Compensation), Is.GreaterThan(10UL));
             Assert.That(RunsOf(stylus, HapticEffect.Delay) + RunsOf(stylus, HapticEffect.ExposureGuard), Is.Zero);
@@ -83,15 +70,9 @@ namespace HaptoFlow.Tests
             output.Processing.ExposureGuard = true;
             output.Processing.DelayMilliseconds = 50f;
             output.ApplyProcessing();
-            for (int frame = 0; frame < 10; ++frame)
-            {
-                yield return null;
-            }
+            yield return Frames(10);
             ulong compensated = RunsOf(stylus, HapticEffect.Compensation);
-            for (int frame = 0; frame < 20; ++frame)
-            {
-                yield return null;
-            }
+            yield return Frames(20);
             Assert.That(RunsOf(stylus, HapticEffect.Compensation), Is.EqualTo(compensated));
             Assert.That(RunsOf(stylus, HapticEffect.Delay), Is.GreaterThan(10UL));
             Assert.That(RunsOf(stylus, HapticEffect.ExposureGuard), Is.GreaterThan(10UL));
@@ -101,22 +82,13 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator ListenPlaysLouderOnLoudspeakersAndHasNoEffectOnAChannelOfItsOwnOrAnActuator()
         {
-            FinishLoading();
-            Board();
-            AudioTap tap = Output(out HapticOutput output);
             HapticStylus stylus = Circling();
-            for (int frame = 0; frame < 45; ++frame)
-            {
-                yield return null;
-            }
+            yield return Frames(45);
             float quiet = tap.Peak();
             Assert.That(RunsOf(stylus, HapticEffect.Listen), Is.Zero);
             output.Processing.Listen = true;
             output.ApplyProcessing();
-            for (int frame = 0; frame < 45; ++frame)
-            {
-                yield return null;
-            }
+            yield return Frames(45);
             Assert.That(tap.Peak(), Is.GreaterThan(3f * quiet));
             Assert.That(tap.Peak(), Is.LessThan(1f));
             output.Processing.Actuator = OutputActuator.VoiceCoil;
@@ -130,33 +102,21 @@ namespace HaptoFlow.Tests
         /// <summary>Waits for the end of a fade; afterwards Listen may not run.</summary>
         private static IEnumerator NoRuns(HapticStylus stylus)
         {
-            for (int frame = 0; frame < 20; ++frame)
-            {
-                yield return null;
-            }
+            yield return Frames(20);
             ulong runs = RunsOf(stylus, HapticEffect.Listen);
-            for (int frame = 0; frame < 20; ++frame)
-            {
-                yield return null;
-            }
+            yield return Frames(20);
             Assert.That(RunsOf(stylus, HapticEffect.Listen), Is.EqualTo(runs));
         }
 
         [UnityTest]
         public IEnumerator AnInvalidProfileIsSkippedWithAnError()
         {
-            FinishLoading();
-            Board();
-            AudioTap tap = Output(out HapticOutput output);
             var asset = new TextAsset("{\"name\": 7}") { name = "Broken" };
             output.Processing.Actuator = OutputActuator.Profile;
             output.Processing.Profile = asset;
             LogAssert.Expect(LogType.Error, new Regex("Output plays uncompensated: Broken is not an actuator profile"));
             HapticStylus stylus = Circling();
-            for (int frame = 0; frame < 45; ++frame)
-            {
-                yield return null;
-            }
+            yield return Frames(45);
             Assert.That(tap.Peak(), Is.GreaterThan(Audible));
             Assert.That(RunsOf(stylus, HapticEffect.Compensation), Is.Zero);
             Object.DestroyImmediate(asset);
@@ -171,139 +131,60 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator AMutedOutputIsSilentAndCostsNoInference()
         {
-            FinishLoading();
-            Board();
-            AudioTap tap = Output(out HapticOutput output);
             HapticStylus stylus = Circling();
-            for (int frame = 0; frame < 45; ++frame)
-            {
-                yield return null;
-            }
+            yield return Frames(45);
             Assert.That(tap.Peak(), Is.GreaterThan(Audible));
             output.Muted = true;
-            for (int frame = 0; frame < 10; ++frame)
-            {
-                yield return null;
-            }
+            yield return Frames(10);
             stylus.TryGetStatistics(out VoiceStatistics before);
             tap.Restart();
-            for (int frame = 0; frame < 20; ++frame)
-            {
-                yield return null;
-            }
+            yield return Frames(20);
             stylus.TryGetStatistics(out VoiceStatistics after);
             Assert.That(tap.Blocks, Is.GreaterThan(0));
             Assert.That(tap.Peak(), Is.Zero);
             Assert.That(after.Inferences, Is.EqualTo(before.Inferences));
             output.Muted = false;
-            for (int frame = 0; frame < 30; ++frame)
-            {
-                yield return null;
-            }
+            yield return Frames(30);
             Assert.That(tap.Peak(), Is.GreaterThan(Audible));
         }
 
         [UnityTest]
         public IEnumerator PanicSilencesTheOutputUntilTheNextTouchDown()
         {
-            FinishLoading();
-            Board();
-            AudioTap tap = Output(out _);
             HapticStylus stylus = StylusAlong(seconds => new Vector3(
                 0.05f * (float)Math.Sin(3.0 * seconds), seconds > 1.0 && seconds < 1.2 ? 0.05f : 0.001f, 0f));
             var mover = stylus.GetComponent<PathMover>();
-            while (mover.Seconds < 0.5)
-            {
-                yield return null;
-            }
+            yield return Until(mover, 0.5);
             Assert.That(tap.Peak(), Is.GreaterThan(Audible));
             Haptics.Panic();
-            for (int frame = 0; frame < 3; ++frame)
-            {
-                yield return null;
-            }
+            yield return Frames(3);
             tap.Restart();
-            while (mover.Seconds < 0.9)
-            {
-                yield return null;
-            }
+            yield return Until(mover, 0.9);
             Assert.That(tap.Peak(), Is.Zero);
-            while (mover.Seconds < 1.6)
-            {
-                yield return null;
-            }
+            yield return Until(mover, 1.6);
             Assert.That(tap.Peak(), Is.GreaterThan(Audible));
         }
 
         [UnityTest]
         public IEnumerator APausedApplicationIsSilentAndSoundsAgainAfterwards()
         {
-            FinishLoading();
-            Board();
-            AudioTap tap = Output(out HapticOutput output);
             Circling();
             yield return null;
-            for (int frame = 0; frame < 40; ++frame)
-            {
-                yield return null;
-            }
+            yield return Frames(40);
             output.SendMessage("OnApplicationPause", true);
-            for (int frame = 0; frame < 5; ++frame)
-            {
-                yield return null;
-            }
+            yield return Frames(5);
             tap.Restart();
-            for (int frame = 0; frame < 20; ++frame)
-            {
-                yield return null;
-            }
+            yield return Frames(20);
             Assert.That(tap.Blocks, Is.GreaterThan(0));
             Assert.That(tap.Peak(), Is.Zero);
             output.SendMessage("OnApplicationPause", false);
-            for (int frame = 0; frame < 40; ++frame)
-            {
-                yield return null;
-            }
+            yield return Frames(40);
             Assert.That(tap.Peak(), Is.GreaterThan(Audible));
-        }
-
-        [UnityTest]
-        public IEnumerator AfterADeviceChangeTheOutputPlaysAtTheNewRate()
-        {
-            FinishLoading();
-            Board();
-            AudioTap tap = Output(out HapticOutput output);
-            HapticStylus stylus = Circling();
-            for (int frame = 0; frame < 40; ++frame)
-            {
-                yield return null;
-            }
-            AudioConfiguration configuration = AudioSettings.GetConfiguration();
-            configuration.sampleRate = 24000;
-            configuration.dspBufferSize = 1024;
-            Assert.That(AudioSettings.Reset(configuration), Is.True);
-            Assert.That(output.SampleRateHz, Is.EqualTo(24000));
-            for (int frame = 0; frame < 20; ++frame)
-            {
-                yield return null;
-            }
-            tap.Restart();
-            for (int frame = 0; frame < 30; ++frame)
-            {
-                yield return null;
-            }
-            Assert.That(tap.Blocks, Is.GreaterThan(0));
-            Assert.That(tap.Peak(), Is.GreaterThan(Audible));
-            Assert.That(tap.BrokenSamples, Is.Zero);
-            stylus.TryGetStatistics(out VoiceStatistics statistics);
-            Assert.That(statistics.RateChanges, Is.EqualTo(1UL));
         }
 
         [UnityTest]
         public IEnumerator AnExclusiveChannelCarriesOnlyTheHaptics()
         {
-            FinishLoading();
-            Board();
             GameObject listener = Make("Ears");
             listener.AddComponent<AudioSource>();
             listener.AddComponent<SteadySource>();
@@ -313,10 +194,7 @@ namespace HaptoFlow.Tests
             var tap = listener.AddComponent<AudioTap>();
             HapticStylus stylus = StylusAlong(_ => new Vector3(0f, 0.05f, 0f));
             stylus.Output = output;
-            for (int frame = 0; frame < 20; ++frame)
-            {
-                yield return null;
-            }
+            yield return Frames(20);
             Assert.That(tap.Blocks, Is.GreaterThan(0));
             Assert.That(tap.Peak(0), Is.EqualTo(0.25f).Within(1e-6f));
             Assert.That(tap.Peak(1), Is.Zero);
@@ -325,27 +203,15 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator StrengthOfSurfaceStylusAndOutputMultiply()
         {
-            FinishLoading();
-            HapticSurface board = Board();
-            AudioTap tap = Output(out HapticOutput output);
             HapticStylus stylus = Circling();
-            for (int frame = 0; frame < 60; ++frame)
-            {
-                yield return null;
-            }
+            yield return Frames(60);
             Assert.That(tap.Peak(), Is.GreaterThan(Audible));
             board.Material.Strength = 0.5f;
             stylus.Strength = 0f;
             output.Strength = 0.5f;
-            for (int frame = 0; frame < 5; ++frame)
-            {
-                yield return null;
-            }
+            yield return Frames(5);
             tap.Restart();
-            for (int frame = 0; frame < 30; ++frame)
-            {
-                yield return null;
-            }
+            yield return Frames(30);
             Assert.That(tap.Blocks, Is.GreaterThan(0));
             Assert.That(tap.Peak(), Is.LessThan(1e-6f));
         }
@@ -353,15 +219,9 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator TwoStylusesShareOneOutput()
         {
-            FinishLoading();
-            Board();
-            AudioTap tap = Output(out HapticOutput output);
             HapticStylus first = Circling();
             HapticStylus second = Circling();
-            for (int frame = 0; frame < 60; ++frame)
-            {
-                yield return null;
-            }
+            yield return Frames(60);
             Assert.That(tap.Peak(), Is.GreaterThan(Audible));
             Assert.That(tap.BrokenSamples, Is.Zero);
             first.TryGetStatistics(out VoiceStatistics ofFirst);
@@ -369,26 +229,6 @@ namespace HaptoFlow.Tests
             Assert.That(ofFirst.RenderedFrames, Is.GreaterThan(10000UL));
             Assert.That(ofSecond.RenderedFrames, Is.EqualTo(ofFirst.RenderedFrames));
             Assert.That(output.Level, Is.GreaterThan(0f));
-        }
-
-        [UnityTest]
-        public IEnumerator ASceneWithoutOutputGetsOneAndLogsIt()
-        {
-            FinishLoading();
-            LogAssert.Expect(LogType.Log, new Regex("the scene has no Haptic Output"));
-            Board();
-            HapticStylus first = Circling();
-            HapticStylus second = Circling();
-            for (int frame = 0; frame < 60; ++frame)
-            {
-                yield return null;
-            }
-            Assert.That(first.TryGetStatistics(out VoiceStatistics statistics), Is.True);
-            Assert.That(statistics.RenderedFrames, Is.GreaterThan(0UL));
-            Assert.That(second.TryGetStatistics(out _), Is.True);
-            HapticOutput made = SceneOutputs.For(first)!;
-            Assert.That(made.GetComponentInChildren<AudioSource>(true).isPlaying, Is.True);
-            Object.DestroyImmediate(made.gameObject);
         }
     }
 }

@@ -17,16 +17,7 @@ namespace HaptoFlow.Tests
     {
         private const int LabelCount = 20;
 
-        private readonly List<Object> materials = new List<Object>();
-
         private static HapticSession Session => HapticSession.Current;
-
-        [TearDown]
-        public void DestroyMaterials()
-        {
-            materials.ForEach(Object.DestroyImmediate);
-            materials.Clear();
-        }
 
         private static string Text(string label, params (string Key, object? Value)[] changes)
         {
@@ -36,16 +27,14 @@ namespace HaptoFlow.Tests
 
         private HapticMaterial Learnt(string of, string label, params (string Key, object? Value)[] changes)
         {
-            HapticMaterial material = HapticMaterial.Create(Text(of, changes), label);
-            materials.Add(material);
-            return material;
+            return Keep(HapticMaterial.Create(Text(of, changes), label));
         }
 
         private static LabelBlend BlendOf(HapticSurface surface)
         {
-            surface.BlendFor(Session);
+            _ = surface.LookUp(Session);
             Session.FinishRegistrations();
-            return surface.BlendFor(Session);
+            return surface.LookUp(Session).Labels;
         }
 
         [UnityTest]
@@ -56,14 +45,11 @@ namespace HaptoFlow.Tests
             board.SharedMaterial = Learnt("glass", "fur", ("stiffness_newtons_per_metre", 432.0));
             LabelBlend blend = BlendOf(board);
             Assert.That((blend.Count, blend.Label(0), blend.Weight(0)), Is.EqualTo((1, LabelCount, 1f)));
-            Assert.That(board.StiffnessFor(Session), Is.EqualTo(432.0));
+            Assert.That(board.LookUp(Session).StiffnessNewtonsPerMetre, Is.EqualTo(432.0));
             Assert.That((Haptics.LearntMaterials, Haptics.RefusedMaterials), Is.EqualTo((1, 0)));
             AudioTap tap = Output(out _);
             HapticStylus stylus = Circling();
-            for (int frame = 0; frame < 40; ++frame)
-            {
-                yield return null;
-            }
+            yield return Frames(40);
             Assert.That(stylus.IsTouching, Is.True);
             Assert.That(tap.Peak(), Is.GreaterThan(0.001f));
         }
@@ -74,9 +60,9 @@ namespace HaptoFlow.Tests
             HapticSurface board = Board("wood");
             board.SharedMaterial = Learnt("glass", "fur");
             FinishLoading();
-            Assert.That(board.BlendFor(Session).Label(0), Is.EqualTo(Session.Labels.All.ToList().IndexOf("fur")));
+            Assert.That(board.LookUp(Session).Labels.Label(0), Is.EqualTo(Session.Labels.All.ToList().IndexOf("fur")));
             Session.FinishRegistrations();
-            Assert.That(board.BlendFor(Session).Label(0), Is.EqualTo(LabelCount));
+            Assert.That(board.LookUp(Session).Labels.Label(0), Is.EqualTo(LabelCount));
             yield return null;
         }
 
@@ -90,21 +76,6 @@ namespace HaptoFlow.Tests
             after.SharedMaterial = Learnt("stone", "fur");
             Session.FinishRegistrations();
             Assert.That(Haptics.LearntMaterials, Is.EqualTo(2), "nothing was touched");
-            yield return null;
-        }
-
-        [UnityTest]
-        public IEnumerator ManySurfacesShareOneRegistration()
-        {
-            FinishLoading();
-            HapticMaterial shared = Learnt("glass", "fur");
-            foreach (int _ in Enumerable.Range(0, 5))
-            {
-                HapticSurface board = Board();
-                board.SharedMaterial = shared;
-                Assert.That(BlendOf(board).Label(0), Is.EqualTo(LabelCount));
-            }
-            Assert.That(Haptics.LearntMaterials, Is.EqualTo(1));
             yield return null;
         }
 
@@ -123,7 +94,7 @@ namespace HaptoFlow.Tests
             LabelBlend blend = BlendOf(board);
             Assert.That((blend.Count, blend.Label(0), blend.Label(1)), Is.EqualTo((2, LabelCount, 0)));
             board.Material.Learnt = null;
-            Assert.That(board.BlendFor(Session).Label(0), Is.LessThan(LabelCount));
+            Assert.That(board.LookUp(Session).Labels.Label(0), Is.LessThan(LabelCount));
             yield return null;
         }
 
@@ -151,21 +122,6 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator AModelOfTheMaterialsSpaceRegistersItAndAnotherRefusesIt()
-        {
-            HapticSurface board = Board();
-            board.SharedMaterial = Learnt("glass", "fur");
-            FinishLoading();
-            Assert.That(BlendOf(board).Label(0), Is.EqualTo(LabelCount));
-            Haptics.Restart();
-            Assert.That((Haptics.LearntMaterials, Haptics.IsReady), Is.EqualTo((0, false)));
-            FinishLoading();
-            Assert.That(BlendOf(board).Label(0), Is.EqualTo(LabelCount));
-            Assert.That(Haptics.LearntMaterials, Is.EqualTo(1));
-            yield return null;
-        }
-
-        [UnityTest]
         public IEnumerator ANewTextReplacesTheMaterialDuringATouch()
         {
             FinishLoading();
@@ -173,48 +129,17 @@ namespace HaptoFlow.Tests
             HapticSurface board = Board();
             board.SharedMaterial = material;
             HapticStylus stylus = Circling();
-            for (int frame = 0; frame < 10; ++frame)
-            {
-                yield return null;
-            }
+            yield return Frames(10);
             Assert.That(BlendOf(board).Label(0), Is.EqualTo(LabelCount));
             material.Carry(Text("sandpaper", ("stiffness_newtons_per_metre", 600.0)));
             Session.FinishRegistrations();
             Assert.That((BlendOf(board).Label(0), Haptics.LearntMaterials), Is.EqualTo((LabelCount, 1)));
-            Assert.That(board.StiffnessFor(Session), Is.EqualTo(600.0));
+            Assert.That(board.LookUp(Session).StiffnessNewtonsPerMetre, Is.EqualTo(600.0));
             material.Carry("");
-            Assert.That(board.BlendFor(Session).Label(0), Is.EqualTo(Session.Labels.All.ToList().IndexOf("fur")));
+            Assert.That(board.LookUp(Session).Labels.Label(0), Is.EqualTo(Session.Labels.All.ToList().IndexOf("fur")));
             Assert.That(Haptics.LearntMaterials, Is.Zero);
             yield return null;
             Assert.That(stylus.IsTouching, Is.True);
-        }
-
-        [UnityTest]
-        public IEnumerator AfterItsMaterialIsDestroyedDuringATouchASurfaceIsSilentUntilItGetsAnother()
-        {
-            FinishLoading();
-            HapticMaterial material = Learnt("glass", "fur");
-            HapticSurface board = Board("stone");
-            board.SharedMaterial = material;
-            HapticSurface copied = Board("stone");
-            copied.Material.Learnt = material;
-            Circling();
-            for (int frame = 0; frame < 10; ++frame)
-            {
-                yield return null;
-            }
-            Assert.That(BlendOf(copied).Label(0), Is.EqualTo(LabelCount));
-            Object.DestroyImmediate(material);
-            for (int frame = 0; frame < 10; ++frame)
-            {
-                yield return null;
-            }
-            Assert.That((BlendOf(board).Count, BlendOf(copied).Count), Is.EqualTo((0, 0)));
-            Assert.That(Haptics.LearntMaterials, Is.Zero);
-            board.SharedMaterial = null;
-            copied.Material.Learnt = null;
-            int stone = Session.Labels.All.ToList().IndexOf("stone");
-            Assert.That((BlendOf(board).Label(0), BlendOf(copied).Label(0)), Is.EqualTo((stone, stone)));
         }
 
         [UnityTest]
@@ -236,7 +161,7 @@ namespace HaptoFlow.Tests
             Application.logMessageReceived -= Note;
             Assert.That((Haptics.LearntMaterials, Haptics.RefusedMaterials), Is.EqualTo((64, 6)));
             Assert.That(refusals, Has.Count.EqualTo(6).And.All.Contains("64 learnt materials are in use"));
-            Assert.That(boards.Select(board => board.BlendFor(Session).Label(0)).Distinct().Count(), Is.EqualTo(65));
+            Assert.That(boards.Select(board => board.LookUp(Session).Labels.Label(0)).Distinct().Count(), Is.EqualTo(65));
             Object.DestroyImmediate(boards[3].SharedMaterial!);
             Session.FinishRegistrations();
             Assert.That(BlendOf(boards[64]).Label(0), Is.EqualTo(LabelCount + 3));
@@ -287,18 +212,14 @@ namespace HaptoFlow.Tests
             var box = plate.AddComponent<BoxCollider>();
             box.size = new Vector3(0.4f, 0.02f, 0.4f);
             box.center = new Vector3(0f, -0.01f, 0f);
-            var map = ScriptableObject.CreateInstance<HapticMaterialMap>();
-            materials.Add(map);
+            HapticMaterialMap map = Keep(ScriptableObject.CreateInstance<HapticMaterialMap>());
             map.Add(HapticMaterialRule.ForName("Plate", material));
             Make("Scope").AddComponent<HapticMaterialMapScope>().Map = map;
             FinishLoading();
             Session.FinishRegistrations();
             Assert.That(Haptics.LearntMaterials, Is.EqualTo(1), "nothing was touched");
             HapticStylus stylus = Circling();
-            for (int frame = 0; frame < 20; ++frame)
-            {
-                yield return null;
-            }
+            yield return Frames(20);
             Assert.That(stylus.IsTouching, Is.True);
             Assert.That(stylus.Contact.Labels.Label(0), Is.EqualTo(LabelCount));
         }

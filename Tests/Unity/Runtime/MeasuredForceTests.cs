@@ -1,6 +1,7 @@
 #nullable enable
 using System;
 using System.Collections;
+using HaptoFlow.Contact;
 using NUnit.Framework;
 using UnityEngine;
 using UnityEngine.TestTools;
@@ -29,17 +30,6 @@ namespace HaptoFlow.Tests
             Assert.That(stylus.Contact.ForceNewtons, Is.EqualTo(1.25f).Within(1e-6f));
             Assert.That(stylus.Contact.FirstVelocityMps, Is.EqualTo(0.1f).Within(0.01f));
             Assert.That(tap.Peak(), Is.GreaterThan(Audible));
-        }
-
-        [UnityTest]
-        public IEnumerator APenBelowTheVirtualSurfaceTouchesToo()
-        {
-            Board();
-            HapticStylus stylus = Pen(_ => new Vector3(0f, -0.008f, 0f));
-            force.ForceNewtons = 0.5f;
-            yield return Frames(3);
-            Assert.That(stylus.IsTouching, Is.True);
-            Assert.That(stylus.Contact.ForceNewtons, Is.EqualTo(0.5f).Within(1e-6f));
         }
 
         [UnityTest]
@@ -89,79 +79,6 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator TrackingErrorsOfMillimetresDoNotInterruptATouch()
-        {
-            Board();
-            var random = new System.Random(11);
-            HapticStylus stylus = Pen(seconds => new Vector3(
-                0.05f * (float)seconds, 0.006f * (float)(2.0 * random.NextDouble() - 1.0), 0f));
-            var log = new TouchLog(stylus);
-            force.ForceNewtons = 0.8f;
-            yield return Frames(90);
-            Assert.That(log.Began, Is.EqualTo(1));
-            Assert.That(log.Ended, Is.Zero);
-        }
-
-        [UnityTest]
-        public IEnumerator SlidingBetweenSurfacesIsOneTouchAndRaisesSurfaceChanged()
-        {
-            HapticSurface left = Board("wood");
-            HapticSurface right = Board("fur");
-            left.transform.position = new Vector3(-0.2f, 0f, 0f);
-            right.transform.position = new Vector3(0.2f, 0f, 0f);
-            HapticStylus stylus = Pen(seconds => new Vector3(0.2f * (float)seconds - 0.1f, 0.005f, 0f));
-            var log = new TouchLog(stylus);
-            int changes = 0;
-            HapticSurface? to = null;
-            stylus.SurfaceChanged += (HapticStylus _, in HapticContact contact) =>
-            {
-                ++changes;
-                to = contact.Surface;
-            };
-            force.ForceNewtons = 0.8f;
-            yield return Frames(90);
-            Assert.That(log.Began, Is.EqualTo(1));
-            Assert.That(changes, Is.EqualTo(1));
-            Assert.That(to, Is.SameAs(right));
-        }
-
-        [UnityTest]
-        public IEnumerator AShortDropoutIsBridgedAndAfterALongOneGeometryDecides()
-        {
-            Board();
-            HapticStylus stylus = Pen(_ => new Vector3(0f, 0.006f, 0f));
-            force.ForceNewtons = 1f;
-            yield return Frames(5);
-            force.HasNews = false;
-            yield return Frames(2);
-            Assert.That(stylus.IsTouching, Is.True);
-            Assert.That(stylus.Contact.ForceNewtons, Is.EqualTo(1f).Within(1e-6f));
-            yield return Frames(20);
-            Assert.That(stylus.IsTouching, Is.False, "by geometry the tip is 4 mm above the surface");
-            force.HasNews = true;
-            yield return Frames(1);
-            Assert.That(stylus.IsTouching, Is.True);
-        }
-
-        [UnityTest]
-        public IEnumerator AnInvalidForceIsNeverPublished()
-        {
-            Board();
-            HapticStylus stylus = Pen(_ => new Vector3(0f, 0.006f, 0f));
-            force.ForceNewtons = float.NaN;
-            yield return Frames(5);
-            Assert.That(stylus.IsTouching, Is.False);
-            force.ForceNewtons = 1f;
-            yield return Frames(2);
-            force.ForceNewtons = float.NaN;
-            yield return Frames(2);
-            Assert.That(stylus.Contact.ForceNewtons, Is.EqualTo(1f).Within(1e-6f));
-            force.ForceNewtons = float.PositiveInfinity;
-            yield return Frames(20);
-            Assert.That(stylus.IsTouching, Is.False);
-        }
-
-        [UnityTest]
         public IEnumerator WithoutAForceSourceGeometryDecides()
         {
             Board();
@@ -195,27 +112,6 @@ namespace HaptoFlow.Tests
             Assert.That(stylus.IsTouching, Is.False);
         }
 
-        [UnityTest]
-        public IEnumerator MeshesAreTouchedByForceToo()
-        {
-            HapticSurface box = Tagged<MeshCollider>("wood", mesh => mesh.sharedMesh = TestMeshes.Box(0.2f));
-            box.transform.position = new Vector3(0f, -0.1f, 0f);
-            Physics.SyncTransforms();
-            HapticStylus stylus = Pen(_ => new Vector3(0f, 0.01f, 0f));
-            force.ForceNewtons = 0.5f;
-            yield return Frames(3);
-            Assert.That(stylus.IsTouching, Is.True);
-            Assert.That(Vector3.Dot(stylus.Contact.Normal, Vector3.up), Is.EqualTo(1f).Within(1e-4f));
-        }
-
-        private static IEnumerator Frames(int count)
-        {
-            for (int frame = 0; frame < count; ++frame)
-            {
-                yield return null;
-            }
-        }
-
         private HapticStylus Pen(Func<double, Vector3> path)
         {
             HapticStylus stylus = StylusAlong(path);
@@ -223,6 +119,106 @@ namespace HaptoFlow.Tests
             stylus.Force = force;
             stylus.TouchBy = TouchDecision.MeasuredForce;
             return stylus;
+        }
+    }
+
+    /// <summary>The force detector alone, without scene and geometry.</summary>
+    public sealed class ForceTouchTests
+    {
+        private const double FrameSeconds = 1.0 / 90.0;
+
+        private ForceTouch touch = null!;
+        private double now;
+
+        [SetUp]
+        public void TakeAPen()
+        {
+            touch = new ForceTouch(new ForceTouchSettings());
+            now = 100.0;
+        }
+
+        [Test]
+        public void ATouchBeginsAtThePressForceAndEndsAtTheReleaseForce()
+        {
+            Assert.That(After(0.0), Is.EqualTo(ForceVerdict.Lifted));
+            Assert.That(After(0.049), Is.EqualTo(ForceVerdict.Lifted));
+            Assert.That(After(0.05), Is.EqualTo(ForceVerdict.Pressed));
+            Assert.That(After(0.021), Is.EqualTo(ForceVerdict.Pressed));
+            Assert.That(After(0.02), Is.EqualTo(ForceVerdict.Lifted));
+            Assert.That(After(0.049), Is.EqualTo(ForceVerdict.Lifted));
+        }
+
+        [Test]
+        public void SensorNoiseBelowTheHysteresisCausesOneTouchHoweverSlowThePenIs()
+        {
+            var random = new System.Random(7);
+            int touches = 0;
+            ForceVerdict before = ForceVerdict.Lifted;
+            for (int frame = 0; frame < 900; ++frame)
+            {
+                double ramp = 0.4 * Math.Min(frame, 900 - frame) / 450.0;
+                double noise = 0.014 * (2.0 * random.NextDouble() - 1.0);
+                ForceVerdict verdict = After(Math.Max(0.0, ramp + noise));
+                touches += verdict == ForceVerdict.Pressed && before != ForceVerdict.Pressed ? 1 : 0;
+                before = verdict;
+            }
+            Assert.That(touches, Is.EqualTo(1));
+            Assert.That(before, Is.EqualTo(ForceVerdict.Lifted));
+        }
+
+        [Test]
+        public void AShortDropoutKeepsTheTouchAndItsForceAndALongOneEndsIt()
+        {
+            After(1.5);
+            Assert.That(After(null), Is.EqualTo(ForceVerdict.Pressed));
+            Assert.That(touch.ForceNewtons, Is.EqualTo(1.5));
+            Assert.That(After(null), Is.EqualTo(ForceVerdict.Pressed));
+            now += 0.1;
+            Assert.That(After(null), Is.EqualTo(ForceVerdict.Unknown));
+            Assert.That(touch.ForceNewtons, Is.Zero);
+            Assert.That(After(0.03), Is.EqualTo(ForceVerdict.Lifted), "the previous touch has ended");
+        }
+
+        [TestCase(double.NaN)]
+        [TestCase(double.PositiveInfinity)]
+        [TestCase(double.NegativeInfinity)]
+        [TestCase(-0.5)]
+        public void AnInvalidForceCountsAsADropout(double broken)
+        {
+            Assert.That(After(broken), Is.EqualTo(ForceVerdict.Unknown));
+            After(1.0);
+            Assert.That(After(broken), Is.EqualTo(ForceVerdict.Pressed));
+            Assert.That(touch.ForceNewtons, Is.EqualTo(1.0));
+            for (int frame = 0; frame < 10; ++frame)
+            {
+                After(broken);
+            }
+            Assert.That(touch.Verdict, Is.EqualTo(ForceVerdict.Unknown));
+        }
+
+        [Test]
+        public void APenWithoutAMeasurementIsUnknown()
+        {
+            Assert.That(After(null), Is.EqualTo(ForceVerdict.Unknown));
+            Assert.That(touch.Update(double.NaN, null), Is.EqualTo(ForceVerdict.Unknown));
+        }
+
+        [Test]
+        public void TheNearDistanceAppliesOnBothSidesAndIsLongerForATouchedSurface()
+        {
+            Assert.That(touch.IsNear(0.02, false), Is.True);
+            Assert.That(touch.IsNear(-0.02, false), Is.True);
+            Assert.That(touch.IsNear(0.021, false), Is.False);
+            Assert.That(touch.IsNear(-0.021, false), Is.False);
+            Assert.That(touch.IsNear(0.024, true), Is.True);
+            Assert.That(touch.IsNear(0.026, true), Is.False);
+            Assert.That(touch.IsNear(double.NaN, true), Is.False);
+        }
+
+        private ForceVerdict After(double? forceNewtons)
+        {
+            now += FrameSeconds;
+            return touch.Update(now, forceNewtons);
         }
     }
 }

@@ -4,6 +4,65 @@ using UnityShim;
 
 namespace UnityEngine
 {
+    public class Object
+    {
+        private readonly int instance = World.NextInstance();
+        private string text = "";
+
+        /// <summary>The object whose name this one shows: components show that of their GameObject.</summary>
+        internal virtual Object Named => this;
+
+        internal bool IsDestroyed { get; private set; }
+
+        /// <summary>Reading it allocates, as in Unity.</summary>
+        public string name
+        {
+            get => new string(Named.text.AsSpan());
+            set => Named.text = value;
+        }
+
+        public HideFlags hideFlags { get; set; }
+
+        public int GetInstanceID() => instance;
+
+        public static implicit operator bool(Object? exists) => !IsNull(exists);
+        public static bool operator ==(Object? x, Object? y) => IsNull(x) ? IsNull(y) : ReferenceEquals(x, y);
+        public static bool operator !=(Object? x, Object? y) => !(x == y);
+
+        public override bool Equals(object? other) => other is Object that ? this == that : other == null && IsDestroyed;
+        public override int GetHashCode() => instance;
+        public override string ToString() => name + " (" + GetType().FullName + ")";
+
+        /// <summary>Destroys the object at the end of the frame.</summary>
+        public static void Destroy(Object obj) => World.DestroyLater(obj);
+
+        public static void DestroyImmediate(Object obj) => World.DestroyNow(obj);
+
+        public static void DestroyImmediate(Object obj, bool allowDestroyingAssets) => World.DestroyNow(obj);
+
+        public static T[] FindObjectsByType<T>(FindObjectsInactive findObjectsInactive, FindObjectsSortMode sortMode)
+            where T : Object => World.Find<T>(findObjectsInactive == FindObjectsInactive.Include);
+
+        public static void DontDestroyOnLoad(Object target) => World.KeepOverSceneLoads(target);
+
+        internal void MarkDestroyed() => IsDestroyed = true;
+
+        private static bool IsNull(Object? candidate) => candidate is null || candidate.IsDestroyed;
+    }
+
+    public class ScriptableObject : Object
+    {
+        public static T CreateInstance<T>()
+            where T : ScriptableObject => (T)CreateInstance(typeof(T));
+
+        public static ScriptableObject CreateInstance(Type type)
+        {
+            var instance = (ScriptableObject)Activator.CreateInstance(type)!;
+            Messages.Of(instance).Send(Message.OnEnable);
+            return instance;
+        }
+    }
+
     public sealed partial class GameObject : Object
     {
         internal readonly List<Component> Components = new List<Component>();
@@ -156,5 +215,96 @@ namespace UnityEngine
 
     public class MonoBehaviour : Behaviour
     {
+    }
+
+    public class Transform : Component
+    {
+        internal readonly List<Transform> Children = new List<Transform>();
+        private Transform? above;
+
+        protected internal Transform()
+        {
+        }
+
+        public Vector3 localPosition { get; set; }
+        public Quaternion localRotation { get; set; } = Quaternion.identity;
+        public Vector3 localScale { get; set; } = Vector3.one;
+
+        public Transform? parent
+        {
+            get => above;
+            set => SetParent(value, true);
+        }
+
+        public Vector3 position
+        {
+            get => above == null ? localPosition : above.TransformPoint(localPosition);
+            set => localPosition = above == null ? value : above.InverseTransformPoint(value);
+        }
+
+        public Quaternion rotation
+        {
+            get => above == null ? localRotation : above.rotation * localRotation;
+            set => localRotation = above == null ? value : Quaternion.Inverse(above.rotation) * value;
+        }
+
+        /// <summary>Correct unless a rotated child below a non-uniform scale is sheared.</summary>
+        public Transform root => above == null ? this : above.root;
+
+        public Vector3 lossyScale => above == null ? localScale : Vector3.Scale(above.lossyScale, localScale);
+
+        public void SetParent(Transform? parent, bool worldPositionStays)
+        {
+            Vector3 place = position;
+            Quaternion turned = rotation;
+            Transform? before = above;
+            above?.Children.Remove(this);
+            above = parent;
+            above?.Children.Add(this);
+            UnityShim.World.SendChildrenChanged(before);
+            UnityShim.World.SendChildrenChanged(above);
+            if (worldPositionStays)
+            {
+                SetPositionAndRotation(place, turned);
+            }
+            UnityShim.World.RefreshActivity(gameObject);
+        }
+
+        /// <summary>True for the transform itself, as in Unity.</summary>
+        public bool IsChildOf(Transform parent) =>
+            ReferenceEquals(this, parent) || (above != null && above.IsChildOf(parent));
+
+        public int childCount => Children.Count;
+
+        public Transform GetChild(int index) => Children[index];
+
+        public int GetSiblingIndex() => above is object
+            ? above.Children.IndexOf(this)
+            : UnityShim.World.RootIndexOf(gameObject);
+
+        public Transform? Find(string n) => Children.Find(child => child.name == n);
+
+        public void SetPositionAndRotation(Vector3 position, Quaternion rotation)
+        {
+            this.position = position;
+            this.rotation = rotation;
+        }
+
+        public void GetPositionAndRotation(out Vector3 position, out Quaternion rotation)
+        {
+            position = this.position;
+            rotation = this.rotation;
+        }
+
+        public Vector3 TransformPoint(Vector3 position) => this.position + rotation * Vector3.Scale(lossyScale, position);
+
+        public Vector3 InverseTransformPoint(Vector3 position)
+        {
+            Vector3 turned = Quaternion.Inverse(rotation) * (position - this.position);
+            Vector3 scale = lossyScale;
+            return new Vector3(turned.x / scale.x, turned.y / scale.y, turned.z / scale.z);
+        }
+
+        public Vector3 TransformDirection(Vector3 direction) => rotation * direction;
     }
 }

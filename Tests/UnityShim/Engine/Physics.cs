@@ -26,10 +26,6 @@ namespace UnityEngine
         public void MovePosition(Vector3 position) => State.MoveTo(position);
     }
 
-    public class ArticulationBody : Behaviour
-    {
-    }
-
 #if UNITY_6000_0_OR_NEWER
     public class PhysicsMaterial : Object
     {
@@ -56,8 +52,6 @@ namespace UnityEngine
 #endif
 
         public Rigidbody? attachedRigidbody => BodyState.Above(transform);
-        public ArticulationBody? attachedArticulationBody => null;
-
         public Vector3 ClosestPoint(Vector3 position) => Physics.ClosestPoint(position, this, PhysicsPosition, PhysicsRotation);
 
         /// <summary>The bounds in world space, at the pose of the last physics step. The shim has them for meshes and

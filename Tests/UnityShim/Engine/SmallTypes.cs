@@ -1,4 +1,7 @@
 using System;
+using System.Linq;
+using System.Text;
+using UnityShim;
 
 namespace UnityEngine
 {
@@ -113,5 +116,58 @@ namespace UnityEngine
         Warning = 2,
         Log = 3,
         Exception = 4,
+    }
+
+    public static class JsonUtility
+    {
+        /// <summary>The serialised fields by their names; the shim writes each value as a text.</summary>
+        public static string ToJson(object obj) => "{" + string.Join(",", SerializedFields.Leaves(obj)
+            .Select(path => $"\"{path}\":\"{SerializedFields.Get(obj, path)}\"")) + "}";
+    }
+
+    public class TextAsset : Object
+    {
+        private readonly string content;
+        private readonly byte[]? file;
+
+        public TextAsset()
+            : this("")
+        {
+        }
+
+        public TextAsset(string text) => content = text;
+
+        /// <summary>Creates an asset from bytes, as the importer does for a binary file.</summary>
+        internal TextAsset(byte[] file)
+            : this("") => this.file = file;
+
+        public string text => content;
+
+        public byte[] bytes => file != null ? (byte[])file.Clone() : Encoding.UTF8.GetBytes(content);
+    }
+
+    public class Time
+    {
+        public static float time => (float)Clock.Seconds;
+        public static double timeAsDouble => Clock.Seconds;
+        public static double unscaledTimeAsDouble => Clock.UnscaledSeconds;
+        public static double realtimeSinceStartupAsDouble => Clock.UnscaledSeconds;
+        public static float unscaledDeltaTime => (float)Clock.UnscaledDeltaSeconds;
+        public static double fixedTimeAsDouble => Clock.FixedSeconds;
+        public static double fixedUnscaledTimeAsDouble => Clock.FixedUnscaledSeconds;
+        public static float fixedDeltaTime
+        {
+            get => (float)Clock.FixedStepSeconds;
+            set => Clock.FixedStepSeconds = value;
+        }
+
+        public static float timeScale
+        {
+            get => (float)Clock.Scale;
+            set => Clock.Scale = value;
+        }
+
+        public static int frameCount => Clock.Frames;
+        public static bool inFixedTimeStep => Clock.InFixedStep;
     }
 }

@@ -63,6 +63,28 @@ namespace UnityShim
 
         public static float Sample(int frame, int channel) => recorded[frame * Channels + channel];
 
+        /// <summary>A channel of the recorded frames.</summary>
+        public static float[] Samples(int channel = 0)
+        {
+            var samples = new float[RecordedFrames];
+            for (int frame = 0; frame < samples.Length; ++frame)
+            {
+                samples[frame] = Sample(frame, channel);
+            }
+            return samples;
+        }
+
+        /// <summary>The largest magnitude from a frame up to another, or to the last.</summary>
+        public static float Peak(int channel = 0, int from = 0, int to = int.MaxValue)
+        {
+            float peak = 0f;
+            for (int frame = from; frame < Math.Min(to, RecordedFrames); ++frame)
+            {
+                peak = Math.Max(peak, Math.Abs(Sample(frame, channel)));
+            }
+            return peak;
+        }
+
         public static void Forget()
         {
             RecordedFrames = 0;

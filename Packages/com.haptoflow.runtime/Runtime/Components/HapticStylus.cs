@@ -277,8 +277,7 @@ namespace HaptoFlow
             }
             using (Markers.Publish.Auto())
             {
-                // After the handlers, which may have changed the surface's material.
-                Voices.Publish(reading, contacts.Touched?.Feel(session).On(contacts.Scale) ?? default, session);
+                Voices.Publish(reading, contacts.Touched?.Felt.On(contacts.Scale) ?? default, session);
             }
         }
 
@@ -321,18 +320,20 @@ namespace HaptoFlow
                 return;
             }
             HapticContact before = contact;
-            contact = new HapticContact(touched, touched.Feel(session), reading);
+            contact = new HapticContact(touched, touched.Felt, reading);
             if (!touching)
             {
                 touching = true;
                 TouchBegan?.Invoke(this, contact);
                 Invoke(events.TouchBegan);
+                FeelAgain(session);
                 return;
             }
             if (contact.IsElsewhere(before))
             {
                 SurfaceChanged?.Invoke(this, contact);
                 Invoke(events.SurfaceChanged);
+                FeelAgain(session);
             }
             if (touching)
             {
@@ -340,6 +341,9 @@ namespace HaptoFlow
                 Invoke(events.TouchMoved);
             }
         }
+
+        /// <summary>A touch begins with the material that its own handlers gave the surface.</summary>
+        private void FeelAgain(HapticSession session) => contacts!.Touched?.Feel(session);
 
         // A handler called before may have ended the touch.
         private void Invoke(UnityEvent<HapticSurface> handlers)

@@ -179,12 +179,6 @@ namespace HaptoFlow
         /// <summary>Forgets a collider that belongs elsewhere now.</summary>
         internal void Disown(Collider collider) => registered.Remove(collider);
 
-        /// <summary>The labels and their weights for the engine, looked up again only after a change.</summary>
-        internal LabelBlend BlendFor(HapticSession session) => LookUp(session).Labels;
-
-        /// <summary>Stiffness in N/m; 0 for the contact model's default.</summary>
-        internal double StiffnessFor(HapticSession session) => LookUp(session).StiffnessNewtonsPerMetre;
-
         /// <summary>The material at a place on one of the colliders; without labels where the place has none.</summary>
         internal ResolvedMaterial At(in TouchedPlace place, HapticSession session)
         {
@@ -200,7 +194,8 @@ namespace HaptoFlow
         // A shared material that was unloaded is not replaced by the surface's own description.
         private bool IsShared => sharedMaterial != null || HapticMaterial.IsUnloaded(sharedMaterial);
 
-        private MaterialLookUp LookUp(HapticSession session) => IsShared
+        /// <summary>Labels and stiffness for the engine, looked up again only after a change.</summary>
+        internal MaterialLookUp LookUp(HapticSession session) => IsShared
             ? sharedMaterial!.LookUp(session, this)
             : ownLookUp.Of(own, session, this);
 

@@ -1,6 +1,9 @@
 #nullable enable
 using System;
 using HaptoFlow.Contact;
+using HaptoFlow.Numerics;
+using UnityEngine;
+using Object = UnityEngine.Object;
 
 namespace HaptoFlow
 {
@@ -146,5 +149,210 @@ namespace HaptoFlow
 
             public StylusVoice Voice { get; }
         }
+    }
+
+    /// <summary>The voice of one stylus on one output: opens it when engine and output are available, reopens it when
+    /// either changes, and publishes contact states to it. The voice that it leaves fades on its output. Main thread,
+    /// no garbage while nothing changes.</summary>
+    internal sealed class StylusVoice
+    {
+        private const double RetrySeconds = 0.5;
+
+        private readonly HapticStylus stylus;
+        private readonly MotionGate motion = new MotionGate();
+        private ContactBody? movedOn;
+        private HapticVoice? voice;
+        private HapticEngine? engine;
+        private IVoiceTarget? output;
+        private float publishedStrength;
+
+        // Why the last attempt to open a voice failed, what was asked for, and when to ask for the same again.
+        private string? refusal;
+        private (HapticEngine? Engine, IVoiceTarget? Output, int RateHz) refused;
+        private double retrySeconds;
+
+        // The output of which the console said last that the stylus left it during a touch.
+        private IVoiceTarget? leftOutput;
+
+        // The touch counter of the newest reading, whether or not a voice played it.
+        private uint? newestTouch;
+
+        // The landing that was over before the voice opened; null without one.
+        private (uint Touch, uint Landings)? missedLanding;
+
+        public StylusVoice(HapticStylus stylus) => this.stylus = stylus;
+
+        // A restart closes the engine with its voices; the stylus detects it in its next update.
+        private bool IsOpen => voice != null && ReferenceEquals(engine, HapticSession.Existing?.Engine);
+
+        public bool TryGetStatistics(out VoiceStatistics statistics)
+        {
+            statistics = IsOpen ? voice!.Statistics() : default;
+            return IsOpen;
+        }
+
+        public bool TryGetEffectStatistics(HapticEffect effect, out EffectStatistics statistics)
+        {
+            statistics = IsOpen ? voice!.EffectStatistics(effect) : default;
+            return IsOpen;
+        }
+
+        public bool TryGetSignalStatistics(out SignalStatistics statistics)
+        {
+            statistics = IsOpen ? voice!.SignalStatistics() : default;
+            return IsOpen;
+        }
+
+        public void Panic()
+        {
+            if (IsOpen)
+            {
+                voice!.Panic();
+            }
+        }
+
+        /// <summary>Publishes a contact state; opens the voice first where possible.</summary>
+        /// <param name="felt">The material at the contact; without labels where there is none.</param>
+        /// <param name="wanted">The output that plays the voice; null for silence.</param>
+        public void Publish(
+            in ContactReading reading, in ResolvedMaterial felt, HapticSession session, IVoiceTarget? wanted)
+        {
+            bool isReady = MakeReady(session, wanted, reading.State);
+            newestTouch = reading.State.TouchCounter;
+            if (!isReady)
+            {
+                return;
+            }
+            ContactState state = reading.State;
+            bool isMissed = missedLanding == (state.TouchCounter, state.LandingCounter);
+            state.ApproachSpeedMps = isMissed ? 0f : state.ApproachSpeedMps;
+            // A material without a label that the model knows is silent, rather than played as another.
+            state.Touching = felt.Labels.Count > 0;
+            if (state.Touching)
+            {
+                state.Material = felt.Labels;
+                state.Effects = felt.Effects;
+                state.SpatialScale = felt.FeatureScale;
+                state.ToneDbPerOctave = felt.ToneDbPerOctave;
+                state.Variation = felt.Variation;
+                SetStrength(felt.Strength * stylus.Strength * output!.Strength);
+            }
+            bool moves = Moves(reading);
+            if (output!.PlaysSignal)
+            {
+                state.FirstVelocityMps = moves ? (float)motion.SpeedMps : 0f;
+                state.SecondVelocityMps = 0f;
+            }
+            voice!.Publish(state);
+        }
+
+        public void Close()
+        {
+            EndVoice();
+            refusal = null;
+        }
+
+        private void EndVoice()
+        {
+            voice?.Dispose();
+            voice = null;
+            engine = null;
+            output = null;
+        }
+
+        /// <summary>Whether the tip moves over what it touches, in its frame.</summary>
+        private bool Moves(in ContactReading reading)
+        {
+            PlaceVector place = reading.State.PlaceMetres;
+            var point = new Double3(place.X, place.Y, place.Z);
+            if (!ReferenceEquals(movedOn, reading.Surface))
+            {
+                movedOn = reading.Surface;
+                motion.Continue(reading.TimeSeconds, point);
+            }
+            return motion.Update(reading.TimeSeconds, reading.State.Touching, point);
+        }
+
+        private void SetStrength(float wanted)
+        {
+            if (!wanted.Equals(publishedStrength))
+            {
+                publishedStrength = wanted;
+                voice!.SetStrength(wanted);
+            }
+        }
+
+        private bool MakeReady(HapticSession session, IVoiceTarget? wanted, in ContactState tip)
+        {
+            if (voice != null && ReferenceEquals(engine, session.Engine) && ReferenceEquals(output, wanted))
+            {
+                return true;
+            }
+            bool isUnderWay = tip.Touching && (newestTouch ?? tip.TouchCounter) == tip.TouchCounter;
+            if (isUnderWay && voice != null && !ReferenceEquals(output, wanted))
+            {
+                SayThatTheOutputChanged(wanted);
+            }
+            EndVoice();
+            if (session.Engine == null || wanted == null || !MayOpen(session.Engine, wanted) || !Open(session, wanted))
+            {
+                return false;
+            }
+            missedLanding = isUnderWay ? (tip.TouchCounter, tip.LandingCounter) : ((uint, uint)?)null;
+            return true;
+        }
+
+        /// <summary>False where the same was refused a moment ago. What kept it from being served may pass: another
+        /// voice ends, a device returns.</summary>
+        private bool MayOpen(HapticEngine asked, IVoiceTarget wanted) =>
+            refusal == null || Time.unscaledTimeAsDouble >= retrySeconds ||
+            refused != (asked, wanted, wanted.SampleRateHz);
+
+        private bool Open(HapticSession session, IVoiceTarget wanted)
+        {
+            try
+            {
+                voice = session.Engine!.OpenVoice(wanted.SampleRateHz);
+            }
+            catch (HaptoFlowException refusing)
+            {
+                if (refusal != refusing.Message)
+                {
+                    Debug.LogError(
+                        $"HaptoFlow: {stylus.PenName} gets no voice, and asks again: {refusing.Message}", stylus);
+                }
+                refusal = refusing.Message;
+                refused = (session.Engine, wanted, wanted.SampleRateHz);
+                retrySeconds = Time.unscaledTimeAsDouble + RetrySeconds;
+                return false;
+            }
+            if (refusal != null)
+            {
+                refusal = null;
+                Debug.Log($"HaptoFlow: {stylus.PenName} has got its voice.", stylus);
+            }
+            voice.SetCeiling(session.Settings.Ceiling);
+            publishedStrength = stylus.Strength * wanted.Strength;
+            voice.SetStrength(publishedStrength);
+            engine = session.Engine;
+            output = wanted;
+            wanted.Add(voice);
+            return true;
+        }
+
+        private void SayThatTheOutputChanged(IVoiceTarget? wanted)
+        {
+            if (!ReferenceEquals(leftOutput, output))
+            {
+                leftOutput = output;
+                Debug.Log($"HaptoFlow: {stylus.PenName} lost {NameOf(output)} during a touch: its sound fades there, " +
+                    "and " + (wanted == null
+                        ? "it is silent until it has an output again."
+                        : $"goes on on {NameOf(wanted)}."), stylus);
+            }
+        }
+
+        private static string NameOf(IVoiceTarget? target) =>
+            target is Object known && known != null ? known.name : "an output that is gone";
     }
 }

@@ -76,4 +76,69 @@ namespace HaptoFlow
             isDisabled = null;
         }
     }
+
+    /// <summary>Notices that the audio engine no longer calls an output. Main thread.</summary>
+    internal struct CallWatch
+    {
+        private ulong knownCalls;
+        private FrameTime silence;
+        private bool hasTold;
+
+        public void Restart() => this = default;
+
+        /// <summary>True once for each silence, after a second of frames without a call.</summary>
+        /// <param name="calls">A count that changes with each call.</param>
+        /// <param name="areExpected">False while there may be none.</param>
+        public bool Misses(ulong calls, bool areExpected)
+        {
+            if (calls != knownCalls)
+            {
+                Restart();
+            }
+            knownCalls = calls;
+            if (!areExpected)
+            {
+                silence.Restart();
+                return false;
+            }
+            bool tells = silence.Add() && !hasTold;
+            hasTold |= tells;
+            return tells;
+        }
+    }
+
+    /// <summary>A second of running frames, in which the audio thread has time for several blocks. A frame counts as 0.1 s at
+    /// most: after a hitch or a suspended application the audio thread is given its time again. Main thread.</summary>
+    internal struct FrameTime
+    {
+        private const double PatienceSeconds = 1.0;
+        private const double LongestFrameSeconds = 0.1;
+        private double seconds;
+
+        public void Restart() => seconds = 0.0;
+
+        /// <summary>Adds this frame; true where the second is over, which begins again.</summary>
+        public bool Add()
+        {
+            seconds += Math.Min(Time.unscaledDeltaTime, LongestFrameSeconds);
+            bool isOver = seconds >= PatienceSeconds;
+            seconds = isOver ? 0.0 : seconds;
+            return isOver;
+        }
+    }
+
+    /// <summary>Counts the channels of an audio device. Unity has no such count.</summary>
+    internal static class SpeakerChannels
+    {
+        /// <summary>The number of channels of a speaker mode.</summary>
+        public static int Count(AudioSpeakerMode mode) => mode switch
+        {
+            AudioSpeakerMode.Mono => 1,
+            AudioSpeakerMode.Quad => 4,
+            AudioSpeakerMode.Surround => 5,
+            AudioSpeakerMode.Mode5point1 => 6,
+            AudioSpeakerMode.Mode7point1 => 8,
+            _ => 2,
+        };
+    }
 }

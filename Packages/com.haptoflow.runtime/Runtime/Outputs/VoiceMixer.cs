@@ -1,6 +1,8 @@
 #nullable enable
 using System;
+using System.Diagnostics;
 using System.Threading;
+using UnityEngine;
 
 namespace HaptoFlow
 {
@@ -117,6 +119,94 @@ namespace HaptoFlow
             {
                 return true;
             }
+        }
+    }
+
+    /// <summary>An output as the interface between a stylus's voice and the device. Main thread.</summary>
+    internal interface IVoiceTarget
+    {
+        /// <summary>Rate at which the output renders, 8000 to 192000 Hz.</summary>
+        int SampleRateHz { get; }
+
+        /// <summary>Gain, 0 to 1.</summary>
+        float Strength { get; }
+
+        /// <summary>True while the output plays a signal instead of textures: it begins and ends with the tip's
+        /// motion.</summary>
+        bool PlaysSignal { get; }
+
+        /// <summary>Renders the voice until it is closed and has faded. A voice has one output.</summary>
+        void Add(HapticVoice voice);
+    }
+
+    /// <summary>Level and render time of an output's last blocks: written by the audio thread, read by any
+    /// thread.</summary>
+    internal sealed class OutputMeter
+    {
+        private const float FallPerBlock = 0.9f;
+
+        private volatile float peak;
+        private volatile float milliseconds;
+        private volatile float worstMilliseconds;
+        private long beganTicks;
+        private volatile DeviceCheck.BlockRecorder? recorder;
+
+        /// <summary>Peak magnitude, which decays within some blocks.</summary>
+        public float Peak => peak;
+
+        /// <summary>Render time of the last block.</summary>
+        public float Milliseconds => milliseconds;
+
+        public float WorstMilliseconds => worstMilliseconds;
+
+        /// <summary>Records every block; null for none. Main thread.</summary>
+        public DeviceCheck.BlockRecorder? Recorder
+        {
+            set => recorder = value;
+        }
+
+        public void Begin()
+        {
+            recorder?.Begin();
+            beganTicks = Stopwatch.GetTimestamp();
+        }
+
+        public void End(ReadOnlySpan<float> samples, int channels, int channel)
+        {
+            milliseconds = (float)((Stopwatch.GetTimestamp() - beganTicks) * 1000.0 / Stopwatch.Frequency);
+            worstMilliseconds = Math.Max(worstMilliseconds, milliseconds);
+            recorder?.End(milliseconds);
+            float largest = 0f;
+            for (int index = Math.Max(0, channel); index < samples.Length; index += channel < 0 ? 1 : channels)
+            {
+                largest = Math.Max(largest, Math.Abs(samples[index]));
+            }
+            peak = Math.Max(largest, peak * FallPerBlock);
+        }
+    }
+
+    /// <summary>Whether an output is paused: while the application is, and while AudioListener.pause is set, unless the
+    /// output plays while paused. Main thread.</summary>
+    internal struct OutputPause
+    {
+        private bool application;
+
+        public bool IsPaused { get; private set; }
+
+        /// <summary>True where the application's pause began or ended the output's.</summary>
+        public bool PauseApplication(bool paused, bool playsWhilePaused)
+        {
+            application = paused;
+            return Update(playsWhilePaused);
+        }
+
+        /// <summary>Reads AudioListener.pause, which Unity does not report; true where the output's pause began or
+        /// ended.</summary>
+        public bool Update(bool playsWhilePaused)
+        {
+            bool before = IsPaused;
+            IsPaused = application || (AudioListener.pause && !playsWhilePaused);
+            return IsPaused != before;
         }
     }
 }

@@ -89,4 +89,24 @@ namespace HaptoFlow.Tests
 
         private void OnAudioFilterRead(float[] data, int channels) => Tap?.Record(data, channels);
     }
+
+    /// <summary>Steps the engine once after every frame in place of the worker, so that results do not depend on the
+    /// machine.</summary>
+    [DefaultExecutionOrder(2000)]
+    internal sealed class EngineStepper : MonoBehaviour
+    {
+        private void LateUpdate() => HapticSession.Existing?.Engine?.Step();
+    }
+
+    /// <summary>A constant signal on every channel, in place of other sources.</summary>
+    internal sealed class SteadySource : MonoBehaviour
+    {
+        private void OnAudioFilterRead(float[] data, int channels)
+        {
+            for (int index = 0; index < data.Length; ++index)
+            {
+                data[index] = 0.25f;
+            }
+        }
+    }
 }

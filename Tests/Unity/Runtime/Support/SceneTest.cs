@@ -1,5 +1,6 @@
 #nullable enable
 using System;
+using System.Collections;
 using System.Collections.Generic;
 using NUnit.Framework;
 using UnityEngine;
@@ -57,6 +58,23 @@ namespace HaptoFlow.Tests
             return gameObject;
         }
 
+        /// <summary>An asset that is destroyed after the test.</summary>
+        internal T Keep<T>(T asset)
+            where T : Object
+        {
+            made.Add(asset);
+            return asset;
+        }
+
+        internal HapticMaterial Feeling(string label, Action<MaterialDescription>? change = null)
+        {
+            HapticMaterial material = Keep(ScriptableObject.CreateInstance<HapticMaterial>());
+            material.name = label;
+            material.Description.Label = label;
+            change?.Invoke(material.Description);
+            return material;
+        }
+
         /// <summary>A tagged object with a collider.</summary>
         internal HapticSurface Tagged<TCollider>(string label, Action<TCollider>? shape = null)
             where TCollider : Collider
@@ -103,6 +121,23 @@ namespace HaptoFlow.Tests
 #if HAPTOFLOW_OUTSIDE_UNITY
             UnityShim.World.FrameRateHz = hertz;
 #endif
+        }
+
+        internal static IEnumerator Frames(int count)
+        {
+            for (int frame = 0; frame < count; ++frame)
+            {
+                yield return null;
+            }
+        }
+
+        /// <summary>Frames until a path has lasted so long.</summary>
+        internal static IEnumerator Until(PathMover mover, double seconds)
+        {
+            while (mover.Seconds < seconds)
+            {
+                yield return null;
+            }
         }
 
         internal static void FinishLoading() => HapticSession.Current.FinishLoading();

@@ -1,7 +1,9 @@
 #nullable enable
 using System;
 using System.Collections.Generic;
+using HaptoFlow.Numerics;
 using UnityEngine;
+using UnityEngine.SceneManagement;
 
 namespace HaptoFlow
 {
@@ -154,5 +156,117 @@ namespace HaptoFlow
             }
             return upTo;
         }
+    }
+
+    /// <summary>The material of one part of a collider, and the rule that assigns it.</summary>
+    internal readonly struct MappedPart
+    {
+        /// <param name="rule">Index of the rule; below 0 for the map's default.</param>
+        public MappedPart(HapticMaterialMap? map, int rule, HapticMaterial? material, HapticMaskMap? mask)
+        {
+            Map = map;
+            Rule = rule;
+            Material = material != null ? material : null;
+            Mask = mask != null ? mask : null;
+        }
+
+        /// <summary>Null where no map matches.</summary>
+        public HapticMaterialMap? Map { get; }
+
+        public int Rule { get; }
+
+        /// <summary>Null where the rule assigns none.</summary>
+        public HapticMaterial? Material { get; }
+
+        public HapticMaskMap? Mask { get; }
+
+        public bool CanBeFelt => Material is object || (Mask is object && Mask.NamesMaterials);
+
+        public bool IsSameAs(in MappedPart other) => ReferenceEquals(Map, other.Map) && Rule == other.Rule;
+
+        /// <summary>Names the rule, for people. Makes garbage.</summary>
+        public string Explain() =>
+            Map is null ? "no rule matches" : Map != null ? Map.Explain(Rule) : "a deleted map";
+    }
+
+    /// <summary>A place on a collider with the data that materials can vary by.</summary>
+    internal readonly struct TouchedPlace
+    {
+        private readonly Collider collider;
+        private readonly RaycastHit hit;
+        private readonly bool hasTriangle;
+
+        /// <param name="hit">The ray hit that found the place; null where no ray was needed.</param>
+        public TouchedPlace(Collider collider, Double3 localMetres, in RaycastHit? hit)
+        {
+            this.collider = collider;
+            LocalMetres = localMetres;
+            this.hit = hit ?? default;
+            hasTriangle = hit.HasValue && collider is MeshCollider mesh && !mesh.convex;
+        }
+
+        /// <summary>Position relative to the collider's origin, in its local axes, in metres.</summary>
+        public Double3 LocalMetres { get; }
+
+        /// <summary>Triangle index; below 0 where the physics engine provides none: everything but non-convex
+        /// meshes.</summary>
+        public int Triangle => hasTriangle ? hit.triangleIndex : -1;
+
+        /// <summary>False where the physics engine provides no coordinate: everything but readable, non-convex
+        /// meshes.</summary>
+        /// <param name="second">True for the mesh's second texture coordinates.</param>
+        public bool TryGetTextureCoordinate(bool second, out Vector2 coordinate)
+        {
+            coordinate = default;
+            if (!hasTriangle || !(((MeshCollider)collider).sharedMesh is { } mesh) || !mesh.isReadable)
+            {
+                return false;
+            }
+            coordinate = second ? hit.textureCoord2 : hit.textureCoord;
+            return !float.IsNaN(coordinate.x + coordinate.y) && !float.IsInfinity(coordinate.x + coordinate.y);
+        }
+    }
+
+    /// <summary>Caches the materials that the maps assign to colliders without a surface. Main thread; no garbage for a
+    /// known collider that has not changed.</summary>
+    internal static class MappedColliders
+    {
+        private static readonly ObjectCache<Collider, MappedCollider> Known = new ObjectCache<Collider, MappedCollider>();
+        private static readonly List<HapticMaterialMap> Maps = new List<HapticMaterialMap>();
+
+        /// <summary>Number of cached colliders.</summary>
+        public static int Count => Known.Count;
+
+        /// <summary>Null where no rule assigns a material to the collider.</summary>
+        public static MappedCollider? Resolve(Collider collider)
+        {
+            if (!MaterialMaps.Any)
+            {
+                return null;
+            }
+            if (!Known.TryGetValue(collider, out MappedCollider felt))
+            {
+                MaterialMaps.CollectFor(collider.gameObject.scene, Maps);
+                felt = new MappedCollider(collider, Maps) { MapsVersion = MaterialMaps.Version };
+                Known.Set(collider, felt);
+            }
+            else if (felt.MapsVersion != MaterialMaps.Version || !felt.IsUpToDate())
+            {
+                MaterialMaps.CollectFor(collider.gameObject.scene, Maps);
+                felt.Renew(Maps);
+                felt.MapsVersion = MaterialMaps.Version;
+            }
+            return felt.CanBeFelt ? felt : null;
+        }
+
+        [RuntimeInitializeOnLoadMethod(RuntimeInitializeLoadType.SubsystemRegistration)]
+        private static void Forget()
+        {
+            Known.Clear();
+            SceneManager.sceneUnloaded -= OnSceneUnloaded;
+            SceneManager.sceneUnloaded += OnSceneUnloaded;
+        }
+
+        private static void OnSceneUnloaded(Scene scene) => Known.Sweep();
     }
 }

@@ -1,6 +1,5 @@
 #nullable enable
 using System;
-using HaptoFlow.Numerics;
 
 namespace HaptoFlow.Contact
 {
@@ -87,40 +86,5 @@ namespace HaptoFlow.Contact
         public double LostSeconds { get; set; } = 0.100;
 
         public VelocitySettings Velocity { get; set; } = new VelocitySettings();
-
-        /// <exception cref="ArgumentOutOfRangeException">A setting is out of range; the message names it.</exception>
-        internal void Check()
-        {
-            Require(Positive(MaximumForceNewtons), nameof(MaximumForceNewtons), "above 0");
-            Require(Positive(DefaultStiffnessNewtonsPerMetre), nameof(DefaultStiffnessNewtonsPerMetre), "above 0");
-            Require(NotNegative(ReleaseDistanceMetres), nameof(ReleaseDistanceMetres), "0 or more");
-            Require(NotNegative(SwitchMarginMetres), nameof(SwitchMarginMetres), "0 or more");
-            Require(NotNegative(OpenMeshDepthMetres), nameof(OpenMeshDepthMetres), "0 or more");
-            Require(NotNegative(LostSeconds), nameof(LostSeconds), "0 or more");
-            Require(Positive(Velocity.WindowSeconds), nameof(Velocity.WindowSeconds), "above 0");
-            Require(Positive(Velocity.ApproachSeconds), nameof(Velocity.ApproachSeconds), "above 0");
-            Require(NotNegative(Velocity.HoldSeconds), nameof(Velocity.HoldSeconds), "0 or more");
-            Require(Positive(Velocity.StopSeconds) && Velocity.StopSeconds > Velocity.HoldSeconds,
-                nameof(Velocity.StopSeconds), "above " + nameof(Velocity.HoldSeconds));
-            Require(Positive(Velocity.MaximumGapSeconds), nameof(Velocity.MaximumGapSeconds), "above 0");
-            Require(Positive(Velocity.MinimumStepSeconds), nameof(Velocity.MinimumStepSeconds), "above 0");
-            Require(NotNegative(Velocity.MinimumMoveMetres), nameof(Velocity.MinimumMoveMetres), "0 or more");
-            Require(Positive(Velocity.MaximumSpeedMps), nameof(Velocity.MaximumSpeedMps), "above 0");
-            Require(Positive(Velocity.JumpGainMps), nameof(Velocity.JumpGainMps), "above 0");
-            Require(Positive(Velocity.JumpAccelerationMps2), nameof(Velocity.JumpAccelerationMps2), "above 0");
-            Require(Positive(Velocity.MinimumJumpSeconds), nameof(Velocity.MinimumJumpSeconds), "above 0");
-        }
-
-        private static bool Positive(double value) => value > 0.0 && Vectors.IsUsable(value);
-
-        private static bool NotNegative(double value) => value >= 0.0 && Vectors.IsUsable(value);
-
-        private static void Require(bool holds, string name, string expectation)
-        {
-            if (!holds)
-            {
-                throw new ArgumentOutOfRangeException(name, $"contact: {name} must be {expectation}");
-            }
-        }
     }
 }

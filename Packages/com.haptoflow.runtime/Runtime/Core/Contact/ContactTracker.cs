@@ -67,10 +67,9 @@ namespace HaptoFlow.Contact
         private ForceVerdict verdict;
         private ContactStatistics statistics;
 
-        /// <exception cref="ArgumentOutOfRangeException">A setting or the tip radius is out of range.</exception>
+        /// <exception cref="ArgumentOutOfRangeException">The tip radius is out of range.</exception>
         public ContactTracker(ContactSettings settings, double tipRadiusMetres)
         {
-            settings.Check();
             Settings = settings;
             history = new TipHistory(settings.Velocity);
             path = new TouchedPath(settings.Velocity, history);

@@ -28,26 +28,6 @@ namespace HaptoFlow.Contact
 
         /// <summary>Time after which a missing force counts as not measured.</summary>
         public double HoldSeconds { get; set; } = 0.050;
-
-        /// <exception cref="ArgumentOutOfRangeException">A setting is out of range; the message names it.</exception>
-        internal void Check()
-        {
-            Require(PressNewtons > 0.0 && Vectors.IsUsable(PressNewtons), nameof(PressNewtons), "above 0");
-            Require(ReleaseNewtons >= 0.0 && ReleaseNewtons < PressNewtons,
-                nameof(ReleaseNewtons), "0 or more and below " + nameof(PressNewtons));
-            Require(NearMetres > 0.0 && Vectors.IsUsable(NearMetres), nameof(NearMetres), "above 0");
-            Require(NearMarginMetres >= 0.0 && Vectors.IsUsable(NearMarginMetres), nameof(NearMarginMetres),
-                "0 or more");
-            Require(HoldSeconds >= 0.0 && Vectors.IsUsable(HoldSeconds), nameof(HoldSeconds), "0 or more");
-        }
-
-        private static void Require(bool holds, string name, string expectation)
-        {
-            if (!holds)
-            {
-                throw new ArgumentOutOfRangeException(name, $"force touch: {name} must be {expectation}");
-            }
-        }
     }
 
     /// <summary>State of a tip according to its force.</summary>
@@ -70,12 +50,7 @@ namespace HaptoFlow.Contact
     {
         private double measuredSeconds;
 
-        /// <exception cref="ArgumentOutOfRangeException">A setting is out of range.</exception>
-        public ForceTouch(ForceTouchSettings settings)
-        {
-            settings.Check();
-            Settings = settings;
-        }
+        public ForceTouch(ForceTouchSettings settings) => Settings = settings;
 
         public ForceTouchSettings Settings { get; }
 

@@ -1,6 +1,8 @@
 #nullable enable
+using System;
 using System.Runtime.InteropServices;
 using HaptoFlow.Native;
+using HaptoFlow.Numerics;
 
 namespace HaptoFlow
 {
@@ -93,6 +95,182 @@ namespace HaptoFlow
         {
             readonly get => touching != 0;
             set => touching = value ? 1u : 0u;
+        }
+    }
+
+    /// <summary>Labels with their weights: one material, or a blend of up to four. A part of the blittable
+    /// <see cref="ContactState"/>.</summary>
+    [Preserve, StructLayout(LayoutKind.Sequential)]
+    public struct LabelBlend : IEquatable<LabelBlend>
+    {
+        /// <summary>Maximum number of labels in a blend.</summary>
+        public const int Maximum = 4;
+
+        private int count;
+        private int label0;
+        private int label1;
+        private int label2;
+        private int label3;
+        private float weight0;
+        private float weight1;
+        private float weight2;
+        private float weight3;
+
+        /// <summary>One label alone.</summary>
+        /// <param name="label">Index into the model's labels.</param>
+        public static LabelBlend Of(int label)
+        {
+            var blend = default(LabelBlend);
+            blend.Add(label, 1.0f);
+            return blend;
+        }
+
+        /// <summary>Two labels.</summary>
+        /// <param name="share">Weight of the second label: 0 for the first alone, 1 for the second alone.</param>
+        public static LabelBlend Of(int first, int second, float share)
+        {
+            float weight = share >= 0.0f ? Math.Min(share, 1.0f) : 0.0f;
+            var blend = default(LabelBlend);
+            if (weight < 1.0f)
+            {
+                blend.Add(first, 1.0f - weight);
+            }
+            if (weight > 0.0f)
+            {
+                blend.Add(second, weight);
+            }
+            return blend;
+        }
+
+        /// <summary>Number of labels, 0 to <see cref="Maximum"/>. The engine replaces an empty blend by the model's
+        /// first label.</summary>
+        public readonly int Count => count;
+
+        /// <param name="label">Index into the model's labels.</param>
+        /// <param name="weight">0 to 1; weights need not sum to 1.</param>
+        /// <exception cref="InvalidOperationException">The blend is full.</exception>
+        public void Add(int label, float weight)
+        {
+            switch (count)
+            {
+                case 0:
+                    label0 = label;
+                    weight0 = weight;
+                    break;
+                case 1:
+                    label1 = label;
+                    weight1 = weight;
+                    break;
+                case 2:
+                    label2 = label;
+                    weight2 = weight;
+                    break;
+                case 3:
+                    label3 = label;
+                    weight3 = weight;
+                    break;
+                default:
+                    throw new InvalidOperationException("a blend has at most 4 labels");
+            }
+            ++count;
+        }
+
+        /// <summary>Index of a label, for entries 0 to <see cref="Count"/> - 1.</summary>
+        public int Label(int index) => index == 0 ? label0 : index == 1 ? label1 : index == 2 ? label2 : label3;
+
+        /// <summary>Weight of a label, for entries 0 to <see cref="Count"/> - 1.</summary>
+        public float Weight(int index) => index == 0 ? weight0 : index == 1 ? weight1 : index == 2 ? weight2 : weight3;
+
+        /// <inheritdoc/>
+        public bool Equals(LabelBlend other)
+        {
+            bool same = Count == other.Count;
+            for (int index = 0; same && index < Count; ++index)
+            {
+                same = Label(index) == other.Label(index) && Weight(index).Equals(other.Weight(index));
+            }
+            return same;
+        }
+
+        /// <inheritdoc/>
+        public override bool Equals(object? other) => other is LabelBlend blend && Equals(blend);
+
+        /// <inheritdoc/>
+        public override int GetHashCode() => HashCode.Combine(Count, label0, label1, weight0, weight1);
+    }
+
+    /// <summary>The effects of a surface. Effects that are not set cost a voice nothing.</summary>
+    [Flags]
+    public enum HapticEffects : uint
+    {
+        /// <summary>No value was set: the texture alone.</summary>
+        Unspecified = 0,
+
+        /// <summary>The vibration while the tip slides.</summary>
+        Texture = 0x1,
+
+        /// <summary>The impact of a landing: it grows with the approach speed and depends on the label.</summary>
+        Impact = 0x2,
+
+        /// <summary>The crossing of a rim, or to a label of another level.</summary>
+        Edge = 0x4,
+
+        /// <summary>No effect: the surface is touched but not felt.</summary>
+        Nothing = 0x80000000,
+    }
+
+    /// <summary>The stages of a voice in the order of processing, except for the last three.</summary>
+    public enum HapticEffect
+    {
+        /// <summary>The vibration while the tip slides.</summary>
+        Texture = 0,
+
+        /// <summary>The impact of a landing.</summary>
+        Impact = 1,
+
+        /// <summary>The crossing of a rim, or to a label of another level.</summary>
+        Edge = 2,
+
+        /// <summary>A delay of the whole signal, for studies and slow displays.</summary>
+        Delay = 3,
+
+        /// <summary>The inverse of the actuator's response.</summary>
+        Compensation = 4,
+
+        /// <summary>Lowers what has been strong for too long.</summary>
+        ExposureGuard = 5,
+
+        /// <summary>The spectral change by a material's tone or a surface's tilt; it follows the texture.</summary>
+        Tone = 6,
+
+        /// <summary>The sine of a study, instead of texture, impact and edge.</summary>
+        Signal = 7,
+
+        /// <summary>Louder and brighter for ears; it follows the compensation.</summary>
+        Listen = 8,
+    }
+
+    /// <summary>A point or a direction in the frame of a surface, as <see cref="ContactState"/> passes it to the
+    /// library.</summary>
+    [Preserve, StructLayout(LayoutKind.Sequential)]
+    public readonly struct PlaceVector
+    {
+        /// <summary>x coordinate in the surface's frame.</summary>
+        public readonly float X;
+
+        /// <summary>y coordinate in the surface's frame.</summary>
+        public readonly float Y;
+
+        /// <summary>z coordinate in the surface's frame.</summary>
+        public readonly float Z;
+
+        /// <param name="x">x coordinate in the surface's frame.</param>
+        /// <param name="y">y coordinate in the surface's frame.</param>
+        /// <param name="z">z coordinate in the surface's frame.</param>
+        public PlaceVector(float x, float y, float z) => (X, Y, Z) = (x, y, z);
+
+        internal PlaceVector(Double3 vector) : this((float)vector.X, (float)vector.Y, (float)vector.Z)
+        {
         }
     }
 }

@@ -4,8 +4,8 @@ using System.Collections.Generic;
 
 namespace HaptoFlow.Native
 {
-    /// <summary>Refuses a native library that belongs to another version of the package, or with a struct of another
-    /// size.</summary>
+    /// <summary>Refuses a native library that belongs to another version of the package, or to another build of the
+    /// same version with other structs.</summary>
     internal static unsafe class LibraryAgreement
     {
         /// <summary>The package's version, which the library has, too.</summary>
@@ -71,20 +71,13 @@ namespace HaptoFlow.Native
             isProven = true;
         }
 
-        /// <summary>0 where the library does not know the struct, or is too old to tell.</summary>
+        /// <summary>0 where the library does not know the struct.</summary>
         private static uint SizeInLibrary(string name)
         {
             uint bytes = 0;
-            try
+            fixed (byte* text = NativeCall.Utf8(name))
             {
-                fixed (byte* text = NativeCall.Utf8(name))
-                {
-                    return NativeMethods.StructSize(text, &bytes) == (int)HaptoFlowStatus.Ok ? bytes : 0;
-                }
-            }
-            catch (EntryPointNotFoundException)
-            {
-                return 0;
+                return NativeMethods.StructSize(text, &bytes) == (int)HaptoFlowStatus.Ok ? bytes : 0;
             }
         }
 

@@ -5,6 +5,10 @@ using UnityEngine.InputSystem.LowLevel;
 using UnityEngine.InputSystem.Utilities;
 using UnityEngine.InputSystem.XR;
 using UnityEngine.InputSystem.XR.Haptics;
+using UnityEngine.Scripting;
+
+// No scene references this assembly, which registers device routes when it is loaded.
+[assembly: AlwaysLinkAssembly]
 
 namespace HaptoFlow
 {

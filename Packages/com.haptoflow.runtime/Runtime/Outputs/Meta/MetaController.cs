@@ -1,6 +1,10 @@
 #nullable enable
 using HaptoFlow.Outputs;
 using UnityEngine;
+using UnityEngine.Scripting;
+
+// No scene references this assembly, which registers device routes when it is loaded.
+[assembly: AlwaysLinkAssembly]
 
 namespace HaptoFlow
 {

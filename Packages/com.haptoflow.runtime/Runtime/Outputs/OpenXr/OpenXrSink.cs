@@ -3,7 +3,11 @@ using System;
 using HaptoFlow.Outputs;
 using UnityEngine;
 using UnityEngine.InputSystem;
+using UnityEngine.Scripting;
 using UnityEngine.XR.OpenXR.Input;
+
+// No scene references this assembly, which registers device routes when it is loaded.
+[assembly: AlwaysLinkAssembly]
 
 namespace HaptoFlow
 {

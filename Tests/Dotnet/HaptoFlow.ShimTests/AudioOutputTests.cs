@@ -1,0 +1,115 @@
+using System;
+using System.Linq;
+using HaptoFlow.Tests;
+using NUnit.Framework;
+using UnityEngine;
+using UnityEngine.Audio;
+using UnityShim;
+
+namespace HaptoFlow.ShimTests
+{
+    /// <summary>The signal of an output, a sine that replaces the texture.</summary>
+    public sealed class SignalOutputTests : SceneTest
+    {
+        private HapticOutput output = null!;
+
+        [SetUp]
+        public void CreateAnOutput()
+        {
+            Output(out output);
+            Board();
+        }
+
+        [Test]
+        public void TheSineHasItsAmplitudeWhileTheTipMovesAndNoInferenceRuns()
+        {
+            output.SetSignal(200.0, 20.0);
+            HapticStylus stylus = Circling();
+            FinishLoading();
+            World.Frames(45);
+            AudioDevice.Forget();
+            World.Frames(45);
+            float[] samples = AudioDevice.Samples();
+            Assert.That(samples.Max(), Is.EqualTo(20.0 / HapticEngineOptions.DefaultFullScaleMps2).Within(1e-3));
+            double rms = Math.Sqrt(samples.Average(sample => (double)sample * sample));
+            Assert.That(rms, Is.EqualTo(samples.Max() / Math.Sqrt(2.0)).Within(1e-3), "a sine without interruption");
+            Assert.That(stylus.TryGetStatistics(out VoiceStatistics statistics), Is.True);
+            Assert.That(statistics.Inferences, Is.Zero);
+            Assert.That(stylus.TryGetSignalStatistics(out SignalStatistics signal), Is.True);
+            Assert.That(signal.Starts, Is.EqualTo(1ul));
+        }
+
+        [Test]
+        public void ASignalCanBeSetAndRemovedWhileAVoiceIsOpen()
+        {
+            HapticStylus stylus = Circling();
+            FinishLoading();
+            World.Frames(45);
+            output.SetSignal(200.0, 20.0);
+            World.Frames(45);
+            Assert.That(RunsOf(stylus), Is.GreaterThan(0ul));
+            output.SetSignal(0.0, 0.0);
+            World.Frames(5);
+            ulong before = RunsOf(stylus);
+            AudioDevice.Forget();
+            World.Frames(45);
+            Assert.That(RunsOf(stylus), Is.EqualTo(before));
+            Assert.That(AudioDevice.Samples().Max(), Is.GreaterThan(0.001f), "the texture is felt again");
+        }
+
+        [TestCase(0.0, 20.0)]
+        [TestCase(501.0, 20.0)]
+        [TestCase(double.NaN, 20.0)]
+        [TestCase(200.0, 61.0)]
+        [TestCase(200.0, -1.0)]
+        [TestCase(200.0, double.NaN)]
+        public void ASignalOutOfRangeIsRefused(double frequencyHz, double amplitudeMps2) => Assert.That(
+            () => output.SetSignal(frequencyHz, amplitudeMps2), Throws.TypeOf<ArgumentOutOfRangeException>());
+
+        private static ulong RunsOf(HapticStylus stylus)
+        {
+            Assert.That(stylus.TryGetEffectStatistics(HapticEffect.Signal, out EffectStatistics statistics), Is.True);
+            return statistics.Runs;
+        }
+    }
+
+    public sealed class MixerEffectTests : SceneTest
+    {
+        [Test]
+        public void TheMixerEffectGetsTheVoiceAndRendersIt()
+        {
+            FinishLoading();
+            Board();
+            AudioTap tap = Output(out HapticOutput output);
+            var mixer = new AudioMixer();
+            mixer.Exposed["Pen"] = -1f;
+            output.Route = OutputRoute.MixerEffect;
+            output.SetMixer(mixer, "Pen");
+            HapticStylus other = StylusAlong(_ => new Vector3(0f, 1f, 0f));
+            World.Frames(3);
+            // Voices of another scene that still fade have slots, too.
+            float slotOfOther = mixer.Exposed["Pen"];
+            HapticStylus stylus = StylusAlong(seconds => new Vector3(0.05f * (float)seconds, 0.001f, 0f));
+            World.Frames(30);
+            Assert.That(slotOfOther, Is.GreaterThanOrEqualTo(0f));
+            Assert.That(mixer.Exposed["Pen"], Is.GreaterThanOrEqualTo(0f).And.Not.EqualTo(slotOfOther), "the slot of the second voice");
+            Assert.That(tap.Peak(), Is.Zero);
+            Assert.That(stylus.TryGetStatistics(out VoiceStatistics statistics), Is.True);
+            Assert.That(statistics.RenderedFrames, Is.Zero);
+            Assert.That(other.TryGetStatistics(out _), Is.True);
+        }
+
+        [Test]
+        public void AMixerWithoutTheParameterIsLogged()
+        {
+            FinishLoading();
+            Output(out HapticOutput output);
+            output.Route = OutputRoute.MixerEffect;
+            output.SetMixer(new AudioMixer(), "Pen");
+            StylusAlong(_ => Vector3.up);
+            World.Frames(3);
+            int messageCount = Log.Count("\"Pen\"", LogType.Warning);
+            Assert.That(messageCount, Is.EqualTo(1));
+        }
+    }
+}
