@@ -102,41 +102,6 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void ACameraThatTheUserHasMovedStaysInPlace()
-        {
-            camera.transform.position = new Vector3(1f, 1f, 1f);
-            CreateMenu.CreateFirstScene(new MenuCommand(null));
-            Assert.That(camera.transform.position, Is.EqualTo(new Vector3(1f, 1f, 1f)));
-        }
-
-        [Test]
-        public void TheSceneCheckHasNoFindingsInAFirstScene()
-        {
-            Settings();
-            CreateMenu.CreateFirstScene(new MenuCommand(null));
-            Assert.That(SceneCheck.Run().Select(finding => finding.Text).Where(text => !text.Contains("audio device")),
-                Is.Empty);
-        }
-
-        [Test]
-        public void AFirstScenePlaysWithoutAnyScript()
-        {
-            Settings();
-            CreateMenu.CreateFirstScene(new MenuCommand(null));
-            HapticStylus stylus = All<HapticStylus>().Single();
-            EditorSession.Play();
-            HapticSession.Current.FinishLoading();
-            SimulatedInput.Reset();
-            SimulatedInput.MousePosition = camera.WorldToScreenPoint(Vector3.zero);
-            SimulatedInput.MouseButton = true;
-            World.Frames(60);
-            Assert.That(stylus.IsTouching, Is.True);
-            Assert.That(stylus.Contact.Material!.Label, Is.EqualTo("wood"));
-            SimulatedInput.Reset();
-            EditorSession.Stop();
-        }
-
-        [Test]
         public void ATaggedCubeHasThePipelinesMaterialUntilTheUserChoosesAnother()
         {
             var pipeline = ScriptableObject.CreateInstance<SimulatedPipeline>();
@@ -153,18 +118,6 @@ namespace HaptoFlow.EditorTests
             Assert.That(renderer.sharedMaterial, Is.SameAs(chosen));
             EditorSession.Stop();
             GraphicsSettings.defaultRenderPipeline = null;
-        }
-
-        [Test]
-        public void AnXrPenIsCreatedBelowTheTrackingSpaceOfTheCamera()
-        {
-            GameObject space = Make("Camera Offset", Make("XR Origin"));
-            camera.transform.SetParent(space.transform, false);
-            CreateMenu.CreateRightPen(new MenuCommand(null));
-            CreateMenu.CreateLeftPen(new MenuCommand(null));
-            Assert.That(All<XrPen>().Select(pen => pen.Hand), Is.EqualTo(new[] { PenHand.Right, PenHand.Left }));
-            Assert.That(All<XrPen>().Select(pen => pen.transform.parent), Is.All.SameAs(space.transform));
-            Assert.That(All<XrPen>().Select(pen => pen.Stylus!.Force), Is.EqualTo(All<XrPen>()));
         }
 
         [Test]

@@ -17,34 +17,6 @@ namespace HaptoFlow.EditorTests
     /// <summary>The page of components calls fields what the Inspector calls them, so that a reader finds them.</summary>
     public sealed class FieldNameTests : EditorTest
     {
-        // Words in italics that are no fields of the section's own Inspector.
-        private static readonly string[] Elsewhere = { "Hand", "Mask", "Preview", "Tip Force" };
-
-        private static IEnumerable<TestCaseData> Sections()
-        {
-            string[] parts = Regex.Split(
-                File.ReadAllText(RepositoryFiles.In("Documentation~", "components.md")), "^## ", RegexOptions.Multiline);
-            foreach (Type type in HelpTests.Assemblies.SelectMany(each => each.GetTypes()).Where(each => !each.IsAbstract))
-            {
-                string? page = type.GetCustomAttribute<HelpPageAttribute>(false)?.Page;
-                string? text = parts.FirstOrDefault(part => page == HelpPages.Components + HelpTests.AnchorOf(part.Split('\n')[0]));
-                if (text != null)
-                {
-                    yield return new TestCaseData(type, text).SetName("{m}(" + type.Name + ")");
-                }
-            }
-        }
-
-        [TestCaseSource(nameof(Sections))]
-        public void EveryFieldNamedOnThePageIsShownUnderThatName(Type type, string text)
-        {
-            HashSet<string> shown = ShownBy(type);
-            IEnumerable<string> named = Regex.Matches(text, @"(?<![*\w])\*([A-Z][^*\n]*(?:\n[^*\n]+)?)\*(?!\*)")
-                .Select(match => Regex.Replace(match.Groups[1].Value, @"\s+", " ")).Distinct();
-            Assert.That(named.Where(name => !shown.Contains(name)), Is.Empty,
-                "shown: " + string.Join(", ", shown.OrderBy(each => each)));
-        }
-
         /// <summary>A tooltip that an Inspector wrote itself would stand twice, and soon in other words.</summary>
         [TestCaseSource(nameof(Inspected))]
         public void EveryFieldIsShownWithTheTooltipThatIsWrittenOnIt(Type type)
@@ -63,26 +35,6 @@ namespace HaptoFlow.EditorTests
                 typeof(HapticStylus), typeof(HapticSurface), typeof(HapticMaterial), typeof(HapticOutput), typeof(AutoOutput),
                 typeof(HapticMaterialMap), typeof(HapticMaskMap), typeof(HaptoFlowSettings),
             }.Select(type => new TestCaseData(type).SetName("{m}(" + type.Name + ")"));
-
-        private HashSet<string> ShownBy(Type type)
-        {
-            // The shim cannot draw every kind of field; the default Inspector shows each by its name in words.
-            var shown = UnityEditor.Editor.CreateEditor(New(type)).GetType() == typeof(UnityEditor.Editor)
-                ? new HashSet<string>(FieldsOf(type))
-                : new HashSet<string>(InEveryState(type).Select(item => item.Label));
-            // Buttons are shown in some states only.
-            foreach (Type drawer in typeof(DocumentationMenu).Assembly.GetTypes()
-                .Where(each => !each.ContainsGenericParameters))
-            {
-                const BindingFlags constants = BindingFlags.Static | BindingFlags.NonPublic | BindingFlags.Public;
-                shown.UnionWith(drawer.GetFields(constants).Select(field => field.GetValue(null)).OfType<GUIContent>()
-                    .Select(content => content.text));
-            }
-            shown.UnionWith(HelpTests.Assemblies.Append(typeof(HapticEngine).Assembly).SelectMany(each => each.GetTypes())
-                .Where(each => each.IsEnum).SelectMany(Enum.GetNames).Select(InWords));
-            shown.UnionWith(Elsewhere);
-            return shown;
-        }
 
         /// <summary>What an Inspector draws for every value of every choice, because choices show and hide fields.
         /// Lists have an element.</summary>
@@ -118,13 +70,6 @@ namespace HaptoFlow.EditorTests
                 (IsDrawnInside(InnerOf(field)) ? TooltipsOf(InnerOf(field)) : Array.Empty<string>())
                 .Append(field.GetCustomAttribute<TooltipAttribute>()?.tooltip)).OfType<string>());
 
-        /// <summary>The serialised fields of a type, of its bases and of the serialisable types in it, in words.</summary>
-        private static IEnumerable<string> FieldsOf(Type? type) => type == null
-            ? Array.Empty<string>()
-            : FieldsOf(type.BaseType).Concat(SerialisedFieldsOf(type)
-            .SelectMany(field => IsDrawnInside(InnerOf(field)) ? FieldsOf(InnerOf(field)).Append(NameOf(field))
-                : new[] { NameOf(field) }));
-
         private static IEnumerable<FieldInfo> SerialisedFieldsOf(Type type) => type
             .GetFields(BindingFlags.Instance | BindingFlags.NonPublic | BindingFlags.DeclaredOnly)
             .Where(field => field.GetCustomAttribute<SerializeField>() != null);
@@ -137,10 +82,5 @@ namespace HaptoFlow.EditorTests
         /// and objects name each other in circles.</summary>
         private static bool IsDrawnInside(Type type) =>
             HelpTests.Assemblies.Contains(type.Assembly) && !type.IsEnum && !typeof(UnityEngine.Object).IsAssignableFrom(type);
-
-        private static string NameOf(FieldInfo field) =>
-            char.ToUpperInvariant(field.Name[0]) + InWords(field.Name.Substring(1));
-
-        private static string InWords(string name) => Regex.Replace(name, "(?<=[a-z])(?=[A-Z])", " ");
     }
 }

@@ -54,7 +54,6 @@ namespace HaptoFlow.EditorTests
 
         [TestCase(HapticQuality.Standard, "published")]
         [TestCase(HapticQuality.Draft, "published-1-unguided")]
-        [TestCase(HapticQuality.Sketch, "published-1-unguided")]
         public void AStrokeOverTheFirstSceneSoundsFromItsNetworkAndEndsInSilence(HapticQuality quality, string tier)
         {
             HaptoFlowSettings settings = Settings();

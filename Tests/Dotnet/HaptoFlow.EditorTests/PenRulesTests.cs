@@ -32,7 +32,6 @@ namespace HaptoFlow.EditorTests
 
         [TestCase(true, false)]
         [TestCase(false, true)]
-        [TestCase(true, true)]
         public void AProjectWithoutTheProfileIsToldWhereToGetIt(bool meta, bool openXr)
         {
             XrPen pen = XrPen.Create(null, PenHand.Right);
@@ -99,15 +98,6 @@ namespace HaptoFlow.EditorTests
             Assert.That(PenRules.Check(new SceneContents(), MxInkSupport.Of(true, true, project)), Is.Empty);
         }
 
-        [TestCase("Right Hand", HapticHand.Right)]
-        [TestCase("Left Hand", HapticHand.Left)]
-        public void APenInNoHandIsNamedAndGetsOne(string caption, HapticHand hand)
-        {
-            ScenesStylus.Force = ScenesStylus.gameObject.AddComponent<Scale>();
-            Repair(Only("its field Hand is None"), caption);
-            Assert.That(ScenesStylus.Hand, Is.EqualTo(hand));
-        }
-
         [Test]
         public void APenThatKnowsItsHandHasNoFinding()
         {
@@ -124,15 +114,6 @@ namespace HaptoFlow.EditorTests
         [OpenXRFeature(OpenxrExtensionStrings = MxInkFeatures.Extension)]
         private sealed class ForeignProfile : OpenXRInteractionFeature
         {
-        }
-
-        private sealed class Scale : TipForceSource
-        {
-            public override bool TryRead(out float forceNewtons)
-            {
-                forceNewtons = 1f;
-                return true;
-            }
         }
     }
 }

@@ -27,7 +27,7 @@ namespace HaptoFlow.EditorTests
             HeldDevices.Reset();
         }
 
-        [Test]
+        [Test, Pairwise]
         public void WhatCheckSceneSaysIsWhatPlays(
             [Values] bool inHand, [Values("none", "all", "channel", "all off", "channel off")] string audio,
             [Values("none", "on", "off")] string device, [Values] bool isNamed, [Values] bool isConnected)

@@ -25,18 +25,6 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void ADrawnStraightLineHasTheVelocityOfThePointer()
-        {
-            Stroke stroke = DrawnStroke.Of(Drawn(0.8, time => (0.01 + 0.09 * time, 0.07 - 0.05 * time)).Points);
-            StrokeState[] touched = stroke.States.Where(state => state.Touching).ToArray();
-            Assert.That(touched.Length, Is.InRange(55, 58), "0.8 s at 72 Hz");
-            Assert.That(touched.Select(state => state.VelocityXMps), Is.All.EqualTo(0.09).Within(1e-3));
-            Assert.That(touched.Select(state => state.VelocityYMps), Is.All.EqualTo(-0.05).Within(1e-3));
-            Assert.That(touched.Select(state => state.ForceNewtons), Is.All.EqualTo(1.0).Within(1e-6));
-            Assert.That(touched[^1].TouchCounter, Is.EqualTo(1u));
-        }
-
-        [Test]
         public void ADrawnCurveHasItsSpeedWithinAFewPercent()
         {
             Stroke stroke = DrawnStroke.Of(Drawn(1.5, time =>
@@ -59,22 +47,6 @@ namespace HaptoFlow.PreviewTests
             Assert.That(resting.SpeedMps, Is.Zero);
             Assert.That(resting.XMetres, Is.EqualTo(0.03).Within(1e-6));
             Assert.That(stroke.At(PresetStrokes.LeadSeconds + 0.53).SpeedMps, Is.GreaterThan(0.2));
-        }
-
-        [Test]
-        public void ASecondTouchIsAddedAfterAPause()
-        {
-            DrawnStroke first = Drawn(0.3, time => (0.02 + 0.1 * time, 0.02));
-            var second = new DrawnStroke();
-            second.Begin(500.0, 0.08, 0.06, 2.0, first.Points);
-            second.Move(500.1, 0.09, 0.06, 2.0);
-            second.Move(500.2, 0.10, 0.06, 2.0);
-            Stroke stroke = DrawnStroke.Of(second.Points);
-            Assert.That(stroke.States[^1].TouchCounter, Is.EqualTo(2u));
-            StrokeState[] later = stroke.States.Where(state => state.Touching && state.TouchCounter == 2).ToArray();
-            Assert.That(later[0].Continues, Is.False, "no line is drawn between touches");
-            Assert.That(later.Select(state => state.ForceNewtons), Is.All.EqualTo(2.0).Within(1e-6));
-            Assert.That(later[0].XMetres, Is.EqualTo(0.08).Within(0.002));
         }
 
         [Test]

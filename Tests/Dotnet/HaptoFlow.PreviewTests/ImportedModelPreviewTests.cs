@@ -5,6 +5,7 @@ using HaptoFlow.Editor;
 using HaptoFlow.Preview;
 using HaptoFlow.Tests.Support;
 using NUnit.Framework;
+using UnityShim;
 
 namespace HaptoFlow.PreviewTests
 {
@@ -31,6 +32,10 @@ namespace HaptoFlow.PreviewTests
                 Assert.That(Samples.SequenceEqual(before ?? Array.Empty<float>()), Is.False, tier);
                 before = Samples;
             }
+            EditorScreen.Enter("Sliders", true);
+            WindowHost.Draw(Window);
+            string[] shown = WindowHost.Draw(Window).Select(item => item.Label).ToArray();
+            Assert.That(shown, Has.Member("Feature Scale").And.Some.StartsWith("This model has no sliders"));
         }
     }
 }

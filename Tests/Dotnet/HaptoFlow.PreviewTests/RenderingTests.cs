@@ -114,17 +114,6 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void AKnownSoundIsNotRenderedAgain()
-        {
-            AnalysedSound first = Do(Request(new LabelMix("wood"))).Sounds[0];
-            int made = worker.EnginesCreated;
-            PreviewRequest again = Request(new LabelMix("wood"));
-            again.Active = 1;
-            Assert.That(Do(again).Sounds[0], Is.SameAs(first));
-            Assert.That(worker.EnginesCreated, Is.EqualTo(made));
-        }
-
-        [Test]
         public void SketchesShareAnEngineAndOtherRequestsGetAFreshOne()
         {
             PreviewRequest sketch = Request(new LabelMix("wood"));
@@ -161,29 +150,12 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void ADamagedModelGivesAProblemAndNoSounds()
-        {
-            PreviewResult result = Do(new PreviewRequest(ModelFiles.Damaged(), Slide, new[] { new LabelMix("wood") }));
-            Assert.That(result.Problem, Does.Contain("checksum"));
-            Assert.That(result.Sounds, Is.Empty);
-            Assert.That(result.Qualities, Is.Empty);
-        }
-
-        [Test]
         public void AnUnknownLabelIsReportedWithTheKnownOnes()
         {
             PreviewResult result = Do(Request(new LabelMix("granite")));
             Assert.That(result.Problem, Does.Contain("\"granite\"").And.Contain("wood, plywood"));
             Assert.That(result.Qualities, Has.Count.EqualTo(ModelFiles.HeaderWith(json => json).Tiers.Count),
                 "the header can be read");
-        }
-
-        [Test]
-        public void AnUnknownTierIsReported()
-        {
-            PreviewRequest request = Request(new LabelMix("wood"));
-            request.Tier = "superb";
-            Assert.That(Do(request).Problem, Does.Contain("superb"));
         }
 
         [Test]

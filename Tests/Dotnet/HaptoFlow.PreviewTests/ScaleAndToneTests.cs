@@ -50,29 +50,12 @@ namespace HaptoFlow.PreviewTests
         }
 
         [TestCase(6f)]
-        [TestCase(-6f)]
         public void ToneTiltsTheSpectrumByItsDecibelsPerOctave(float tone)
         {
             PreviewSound[] sounds = Render(Mix("sandpaper"), Mix("sandpaper", 1f, tone));
             double Raised(double hertz) =>
                 10.0 * Math.Log10(BandPower(sounds[1], hertz) / BandPower(sounds[0], hertz));
             Assert.That(Raised(300.0) - Raised(75.0), Is.EqualTo(2.0 * tone).Within(1.5));
-        }
-
-        [Test]
-        public void FeatureScaleOneAndToneZeroDoNotChangeASample()
-        {
-            ModelHeader header = ModelHeader.Read(ModelFiles.Default);
-            var names = new LabelNames(header.Labels.Select(label => label.Name));
-            using var engines = new PreviewEngines();
-            HapticEngine engine = engines.Engine(ModelFiles.Default, HapticQuality.Draft, 1, true);
-            var silent = new ContactState
-            {
-                Material = Mix("corduroy").ToBlend(names, -1),
-                Effects = HapticEffects.Texture,
-            };
-            float[] expected = StrokeRenderer.Render(engine, Slide, silent, CancellationToken.None);
-            Assert.That(Render(Mix("corduroy"))[0].Samples.SequenceEqual(expected), Is.True);
         }
 
         [Test]
@@ -93,10 +76,6 @@ namespace HaptoFlow.PreviewTests
         [TestCase(2f, 3f, "corduroy (x2, +3 dB/oct)")]
         public void TheTitleNamesFeatureScaleAndToneUnlessTheyAreDefaults(float scale, float tone, string title) =>
             Assert.That(Mix("corduroy", scale, tone).Title, Is.EqualTo(title));
-
-        [Test]
-        public void TheTitleOfABlendEndsWithFeatureScaleAndTone() => Assert.That(
-            new LabelMix("wood", "cork", 0.4f, "", null, 0.5f).Title, Is.EqualTo("wood 60 % + cork 40 % (x0.5)"));
 
         /// <summary>Mean power in a third of an octave.</summary>
         private static double BandPower(PreviewSound sound, double hertz)

@@ -34,34 +34,13 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void TheVelocityOfEveryPresetIsTheDerivativeOfItsPosition(
+        public void TheVelocityOfEveryPresetIsTheDerivativeOfThePlaceAlongItsAxes(
             [ValueSource(nameof(Presets))] StrokePreset preset, [Values(0.0, 130.0)] double degrees)
         {
             Stroke stroke = PresetStrokes.Make(preset, new StrokeSettings(0.05, 1.0, degrees, 2.0));
-            int compared = 0;
-            for (int index = 1; index < stroke.States.Count - 1; ++index)
-            {
-                StrokeState before = stroke.States[index - 1];
-                StrokeState now = stroke.States[index];
-                StrokeState after = stroke.States[index + 1];
-                // Time without contact and wraps at the edge do not count as motion.
-                if (!before.Touching || !now.Continues || !after.Continues)
-                {
-                    continue;
-                }
-                double seconds = after.TimeSeconds - before.TimeSeconds;
-                Assert.That(now.VelocityXMps, Is.EqualTo((after.XMetres - before.XMetres) / seconds).Within(1e-3));
-                Assert.That(now.VelocityYMps, Is.EqualTo((after.YMetres - before.YMetres) / seconds).Within(1e-3));
-                ++compared;
-            }
-            Assert.That(compared, Is.GreaterThan(20));
-        }
-
-        [Test]
-        public void TheVelocityOfEveryPresetIsTheDerivativeOfThePlaceAlongItsAxes(
-            [ValueSource(nameof(Presets))] StrokePreset preset)
-        {
-            Stroke stroke = PresetStrokes.Make(preset, new StrokeSettings(0.05, 1.0, 130.0, 2.0));
+            ContactState air = stroke.States[0].ContactOn(default);
+            Assert.That((air.Touching, air.FirstVelocityMps, air.SecondVelocityMps, air.ForceNewtons),
+                Is.EqualTo((false, 0f, 0f, 0f)));
             int compared = 0;
             for (int index = 1; index < stroke.States.Count - 1; ++index)
             {
@@ -180,14 +159,6 @@ namespace HaptoFlow.PreviewTests
         [Test]
         public void ADrawnStrokeCannotBeMadeFromSettings() => Assert.That(
             () => PresetStrokes.Make(StrokePreset.Drawn, Usual), Throws.ArgumentException);
-
-        [Test]
-        public void SpeedAndForceAreZeroWithoutContact()
-        {
-            ContactState air = PresetStrokes.Make(StrokePreset.Slide, Usual).States[0].ContactOn(default);
-            Assert.That(air.Touching, Is.False);
-            Assert.That((air.FirstVelocityMps, air.SecondVelocityMps, air.ForceNewtons), Is.EqualTo((0f, 0f, 0f)));
-        }
 
         [Test]
         public void TheStateAtATimeIsTheLatestUpdate()

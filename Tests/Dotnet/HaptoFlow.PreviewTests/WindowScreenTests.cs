@@ -126,54 +126,11 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void ResetAndAnotherLabelResetFeatureScaleAndTone()
-        {
-            Enter("Sliders", true);
-            Enter("Feature Scale", 2f);
-            Enter("Tone [dB/oct]", 3f);
-            WindowHost.Reload(Window);
-            Assert.That((State.First.FeatureScale, State.First.ToneDbPerOctave), Is.EqualTo((2f, 3f)));
-            Undo.IncrementCurrentGroup();
-            Press("Reset");
-            Assert.That((State.First.FeatureScale, State.First.ToneDbPerOctave), Is.EqualTo((1f, 0f)));
-            Undo.PerformUndo();
-            Assert.That((State.First.FeatureScale, State.First.ToneDbPerOctave), Is.EqualTo((2f, 3f)));
-            State.Change("Label", state => state.First.Choose("cork"));
-            Assert.That(State.First.IsAtRest, Is.True);
-        }
-
-        [Test]
-        public void AModelWithoutSlidersHasFeatureScaleAndTone()
-        {
-            const string path = "Assets/HaptoFlowScaleTests.haptoflow";
-            const string beside = "Assets/HaptoFlowScaleTests.sliders.json";
-            File.WriteAllBytes(path, DefaultFile());
-            File.WriteAllText(beside, SliderFiles.For(DefaultFile(), "0badcafe"));
-            try
-            {
-                AssetDatabase.ImportAsset(path);
-                State.Model = AssetDatabase.LoadAssetAtPath<HapticModelAsset>(path);
-                SliderCatalog.Forget();
-                Enter("Sliders", true);
-                Assert.That(Screen().Select(item => item.Label), Does.Not.Contain("Coarseness"));
-                Enter("Feature Scale", 2f);
-                Assert.That(State.First.FeatureScale, Is.EqualTo(2f));
-                Press("Reset");
-                Assert.That(State.First.FeatureScale, Is.EqualTo(1f));
-            }
-            finally
-            {
-                SliderCatalog.Forget();
-                AssetDatabase.DeleteAsset(path);
-                AssetDatabase.DeleteAsset(beside);
-            }
-        }
-
-        [Test]
-        public void ASavedMaterialKeepsFeatureScaleAndTone()
+        public void AChangedMaterialIsSavedWithFeatureScaleAndToneAndPreviewedFromThenOn()
         {
             WindowHost.AnswerToSave = name => "Assets/" + name;
             Enter("Sliders", true);
+            Assert.That(Screen().Single(item => item.Label == "Save as Haptic Material\u2026").Enabled, Is.False);
             Enter("Hardness", -0.5f);
             Enter("Feature Scale", 2f);
             Enter("Tone [dB/oct]", 3f);
@@ -181,54 +138,25 @@ namespace HaptoFlow.PreviewTests
             float[] moved = Samples;
             Press("Save as Haptic Material\u2026");
             WindowHost.Update();
-            MaterialDescription saved =
-                AssetDatabase.LoadAssetAtPath<HapticMaterial>("Assets/wood, moved.asset").Description;
-            Assert.That((saved.FeatureScale, saved.ToneDbPerOctave), Is.EqualTo((2f, 3f)));
-            Assert.That((State.First.FeatureScale, State.First.Moves.Length), Is.EqualTo((2f, 0)));
+            Assert.That(WindowHost.Notification, Is.EqualTo("Saved wood, moved"));
+            var saved = AssetDatabase.LoadAssetAtPath<HapticMaterial>("Assets/wood, moved.asset");
+            Assert.That((saved.IsLearnt, saved.Description.FeatureScale, saved.Description.ToneDbPerOctave),
+                Is.EqualTo((true, 2f, 3f)));
+            Assert.That((State.First.Learnt, State.First.FeatureScale, State.First.Moves.Length),
+                Is.EqualTo((saved, 2f, 0)));
             Window.Finish();
             Assert.That(Samples.SequenceEqual(moved), Is.True);
             WindowHost.AnswerToSave = null;
         }
 
         [Test]
-        public void OnlyAChangedLabelCanBeSaved()
-        {
-            WindowHost.AnswerToSave = name => "Assets/" + name;
-            Window.Finish();
-            Enter("Sliders", true);
-            Assert.That(Screen().Single(item => item.Label == "Save as Haptic Material\u2026").Enabled, Is.False);
-            Enter("Feature Scale", 0.5f);
-            Press("Save as Haptic Material\u2026");
-            WindowHost.Update();
-            Assert.That(WindowHost.Notification, Is.EqualTo("Saved wood"));
-            var saved = AssetDatabase.LoadAssetAtPath<HapticMaterial>("Assets/wood.asset");
-            Assert.That(saved.Description.FeatureScale, Is.EqualTo(0.5f));
-            WindowHost.AnswerToSave = null;
-        }
-
-        [Test]
-        public void AChangedMaterialIsSavedAndPreviewedFromThenOn()
-        {
-            WindowHost.AnswerToSave = name => "Assets/" + name;
-            Enter("Sliders", true);
-            Enter("Hardness", -0.5f);
-            Window.Finish();
-            float[] moved = Samples;
-            Press("Save as Haptic Material\u2026");
-            WindowHost.Update();
-            var saved = AssetDatabase.LoadAssetAtPath<HapticMaterial>("Assets/wood, moved.asset");
-            Assert.That(saved.IsLearnt, Is.True);
-            Assert.That((State.First.Learnt, State.First.Moves.Length), Is.EqualTo((saved, 0)));
-            Window.Finish();
-            Assert.That(Samples, Is.EqualTo(moved));
-            WindowHost.AnswerToSave = null;
-        }
-
-        [Test]
         public void SecondMaterialAndShareAppearAtTheNextLayout()
         {
+            Window.Finish();
+            Assert.That(Screen().Single(item => item.Label == "B").Enabled, Is.False);
             Enter("Compare", true);
             Assert.That(Screen().Select(item => item.Label), Does.Contain("Material B").And.Not.Contain("Share"));
+            Assert.That(Screen().Single(item => item.Label == "B").Enabled, Is.True);
             State.First.SecondLabel = "cork";
             Assert.That(Screen().Count(item => item.Label == "Share"), Is.EqualTo(1));
             Enter("Compare", false);
@@ -274,23 +202,8 @@ namespace HaptoFlow.PreviewTests
             Enter("Quality", 0);
             Assert.That(State.Tier, Is.EqualTo("sketch"));
             Assert.That(Screen().Single(item => item.Label == "Quality").Value, Is.EqualTo("sketch"));
-        }
-
-        [Test]
-        public void AQualityThatTheModelLacksIsReplacedByItsDefault()
-        {
-            Window.Finish();
             State.Tier = "exquisite";
-            Assert.That(Screen().Single(item => item.Label == "Quality").Value, Is.EqualTo("standard"));
-        }
-
-        [Test]
-        public void TheButtonsAAndBAreDisabledWithoutASecondMaterial()
-        {
-            Window.Finish();
-            Assert.That(Screen().Single(item => item.Label == "B").Enabled, Is.False);
-            State.Compares = true;
-            Assert.That(Screen().Single(item => item.Label == "B").Enabled, Is.True);
+            Assert.That(Screen().Single(item => item.Label == "Quality").Value, Is.EqualTo("standard"), "the default");
         }
 
         [Test]
@@ -304,27 +217,23 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void ChartsAreDrawnInTheSkinOfTheEditor()
+        public void ChartsAreDrawnInTheSkinAndThePixelsOfTheEditor()
         {
             Window.Finish();
             Assert.That(CardColour(), Is.EqualTo(Palette.Dark.Card.ToColor()));
             EditorSession.DarkSkin = false;
             Assert.That(CardColour(), Is.EqualTo(Palette.Light.Card.ToColor()));
-        }
-
-        [Test]
-        public void AHairlineIsOnePixelOfADenseScreen()
-        {
-            Window.Finish();
             WindowHost.PixelsPerPoint = 2f;
             Screen();
             float thinnest = ScreenPaint.All.Where(each => each.Call == "DrawRect").Min(each => each.Place.height);
-            Assert.That(thinnest, Is.EqualTo(0.5f));
+            Assert.That(thinnest, Is.EqualTo(0.5f), "a hairline is one pixel");
         }
 
         [Test]
-        public void KeysAreIgnoredWhileTextIsEdited()
+        public void KeysOfOthersAndOfTextAreIgnored()
         {
+            Assert.That(Key(KeyCode.E), Is.False);
+            Assert.That(Key(KeyCode.A, EventModifiers.Alt), Is.False);
             EditorGUIUtility.editingTextField = true;
             Assert.That(Key(KeyCode.Space), Is.False);
             Assert.That(Key(KeyCode.RightArrow), Is.False);

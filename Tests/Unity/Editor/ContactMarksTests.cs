@@ -12,21 +12,6 @@ namespace HaptoFlow.EditorTests
         private static readonly Double3 Point = new Double3(1.0, 2.0, 3.0);
 
         [Test]
-        public void TheNormalStartsAtThePointAndIsTwentyMillimetresLong()
-        {
-            MarkLine normal = Shaft(MarkKind.Normal, Contact());
-            Assert.That(Distance(normal.From, Point), Is.Zero);
-            Assert.That(Distance(normal.To, Point + Double3.Up * 0.02), Is.LessThan(1e-12));
-        }
-
-        [Test]
-        public void TheVelocityArrowIsTheDistanceOfATenthOfASecond()
-        {
-            MarkLine velocity = Shaft(MarkKind.Velocity, Contact());
-            Assert.That(Distance(velocity.To, Point + new Double3(0.03, 0.0, 0.04)), Is.LessThan(1e-12));
-        }
-
-        [Test]
         public void TheArrowHeadLiesInTheSurfaceOnBothSidesOfTheShaft()
         {
             MarkLine[] arrow = Lines(MarkKind.Velocity, Contact()).ToArray();

@@ -79,14 +79,6 @@ namespace HaptoFlow.EditorTests
             Assert.That(summary.Labels, Is.Empty);
         }
 
-        [Test]
-        public void ADamagedFileShowsItsProblemOnly()
-        {
-            ModelSummary summary = ModelSummary.Of(HapticModelAsset.Create(ModelBytes.Truncated(Model().File, 5000)));
-            Assert.That(summary.Problem, Does.Contain("5000"));
-            Assert.That(summary.Tiers, Is.Empty);
-        }
-
         private static ModelSummary Summary(string accuracyJson, string costJson) =>
             ModelSummary.Of(HapticModelAsset.Create(ModelBytes.WithFigures(Model().File, accuracyJson, costJson)));
 

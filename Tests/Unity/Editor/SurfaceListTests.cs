@@ -9,17 +9,6 @@ namespace HaptoFlow.EditorTests
     public sealed class SurfaceListTests : EditorTest
     {
         [Test]
-        public void WithoutASelectionTheSceneIsListed()
-        {
-            Tagged("Table", "wood");
-            Box("Lamp");
-            SurfaceList list = SurfaceList.Of(new GameObject[0]);
-            Assert.That(list.OfSelection, Is.False);
-            Assert.That(list.Felt.Select(line => line.Text), Is.EqualTo(new[] { "Table: wood" }));
-            Assert.That(list.NotFelt.Select(line => line.Text), Is.EqualTo(new[] { "Lamp" }));
-        }
-
-        [Test]
         public void OnlyCollidersBelowTheSelectionAreListed()
         {
             Box("Elsewhere");

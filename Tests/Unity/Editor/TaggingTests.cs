@@ -15,34 +15,17 @@ namespace HaptoFlow.EditorTests
         private static LabelMatcher Matcher => new LabelMatcher(LabelCatalog.Current.Names);
 
         [Test]
-        public void ObjectsAreTaggedByTheirNames()
-        {
-            GameObject table = Box("Oak_Table");
-            GameObject door = Box("Steel Door");
-            GameObjectMenu.TagSelected(new[] { table, door }, Matcher);
-            Assert.That(LabelOf(table), Is.EqualTo("wood"));
-            Assert.That(LabelOf(door), Is.EqualTo("metal"));
-        }
-
-        [Test]
-        public void OneUndoRemovesAllTags()
+        public void ObjectsAreTaggedByTheirNamesAndOneUndoRemovesAllTags()
         {
             GameObject table = Box("Oak_Table");
             GameObject door = Box("Steel Door");
             Undo.IncrementCurrentGroup();
             GameObjectMenu.TagSelected(new[] { table, door }, Matcher);
+            Assert.That((LabelOf(table), LabelOf(door)), Is.EqualTo(("wood", "metal")));
             Undo.PerformUndo();
             Assert.That(table != null && door != null, Is.True);
             Assert.That(table!.TryGetComponent(out HapticSurface _), Is.False);
             Assert.That(door!.TryGetComponent(out HapticSurface _), Is.False);
-        }
-
-        [Test]
-        public void TaggedObjectsAreNotChanged()
-        {
-            HapticSurface surface = Tagged("Oak_Table", "glass");
-            GameObjectMenu.TagSelected(new[] { surface.gameObject }, Matcher);
-            Assert.That(surface.Material.Label, Is.EqualTo("glass"));
         }
 
         [Test]
@@ -87,31 +70,6 @@ namespace HaptoFlow.EditorTests
             GameObject house = Make("Wooden House");
             GameObject thing = Box("Thing", house);
             Assert.That(Plan(thing).Unmatched, Is.EqualTo(new[] { thing }));
-        }
-
-        [Test]
-        public void CollidersThatCannotBeFeltAreNotTagged()
-        {
-            GameObject zone = Box("Wood Zone");
-            zone.GetComponent<BoxCollider>().isTrigger = true;
-            Make("Wooden Group");
-            Assert.That(Plan(zone).Proposals, Is.Empty);
-        }
-
-        [Test]
-        public void AStylusFromTheMenuHasATipAndCanBeUndone()
-        {
-            Undo.IncrementCurrentGroup();
-            GameObject hand = Make("Hand");
-            CreateMenu.CreateStylus(new MenuCommand(hand));
-            HapticStylus stylus = Object.FindObjectsByType<HapticStylus>(
-                FindObjectsInactive.Include, FindObjectsSortMode.None).Single();
-            Assert.That(stylus.transform.parent, Is.EqualTo(hand.transform));
-            Assert.That(stylus.Tip!.parent, Is.EqualTo(stylus.transform));
-            Assert.That(Selection.activeObject, Is.EqualTo(stylus.gameObject));
-            Undo.PerformUndo();
-            Assert.That(Object.FindObjectsByType<HapticStylus>(
-                FindObjectsInactive.Include, FindObjectsSortMode.None), Is.Empty);
         }
 
         private static TagPlan Plan(GameObject root) =>

@@ -66,6 +66,9 @@ namespace HaptoFlow.PreviewTests
             Assert.That(touched.Select(state => state.ForceNewtons), Is.All.EqualTo(1.5).Within(1e-5));
             Window.Finish();
             Assert.That(Samples.Max(), Is.GreaterThan(0.001f));
+#if HAPTOFLOW_OUTSIDE_UNITY
+            Assert.That(Window.Player!.IsPlaying, Is.True, "as soon as it is rendered");
+#endif
         }
 
         [Test]

@@ -34,6 +34,7 @@ namespace HaptoFlow.PreviewTests
             Assert.That(Read(box.GetComponent<HapticSurface>()), Is.EqualTo(Mix));
             Assert.That(light.TryGetComponent(out HapticSurface _), Is.False);
             Assert.That(message, Does.StartWith("Applied rubber 75 % + jute 25 % to Box; not to Light"));
+            Assert.That(SceneMaterial.Apply(Mix, null, new Object[0]), Does.StartWith("Select objects of the scene"));
         }
 
         [Test]
@@ -70,19 +71,6 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void ApplyingToAnEmptySelectionIsReported() => Assert.That(
-            SceneMaterial.Apply(Mix, null, new Object[0]), Does.StartWith("Select objects of the scene"));
-
-        [Test]
-        public void TheSharedMaterialOfASurfaceIsTaken()
-        {
-            HapticSurface table = Surface("Table");
-            table.Material.Label = "wood";
-            Share(table, Asset("leather"));
-            Assert.That(Read(table), Is.EqualTo(new LabelMix("leather")));
-        }
-
-        [Test]
         public void FeatureScaleAndToneAreCopiedFromOneSurfaceToAnother()
         {
             HapticSurface table = Surface("Table");
@@ -101,29 +89,6 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void FeatureScaleAndToneOfAnAssetAreTaken()
-        {
-            HapticMaterial asset = Asset("leather");
-            asset.Description.FeatureScale = 0.5f;
-            asset.Description.ToneDbPerOctave = -6f;
-            TexturePreviewWindow.Open(asset);
-            Assert.That((State.First.FeatureScale, State.First.ToneDbPerOctave), Is.EqualTo((0.5f, -6f)));
-            TexturePreviewWindow.Open(Asset("cork"));
-            Assert.That((State.First.FeatureScale, State.First.ToneDbPerOctave), Is.EqualTo((1f, 0f)));
-        }
-
-        [Test]
-        public void ApplyingFeatureScaleAndToneToAnAssetCanBeUndone()
-        {
-            HapticMaterial asset = Asset("leather");
-            Undo.IncrementCurrentGroup();
-            SceneMaterial.Apply(new LabelMix("cork", "", 0f, "", null, 4f, -12f), null, new Object[] { asset });
-            Assert.That((asset.Description.FeatureScale, asset.Description.ToneDbPerOctave), Is.EqualTo((4f, -12f)));
-            Undo.PerformUndo();
-            Assert.That((asset.Description.FeatureScale, asset.Description.ToneDbPerOctave), Is.EqualTo((1f, 0f)));
-        }
-
-        [Test]
         public void AChildHasTheMaterialOfItsParentsSurface()
         {
             HapticSurface table = Surface("Table");
@@ -134,29 +99,6 @@ namespace HaptoFlow.PreviewTests
             Assert.That(mix, Is.EqualTo(new LabelMix("stone")));
             Assert.That(SceneMaterial.TryRead(Make("Lamp"), out _, out _), Is.False);
             Assert.That(SceneMaterial.TryRead(null, out _, out _), Is.False);
-        }
-
-        [Test]
-        public void TheWindowOpensWithTheMaterialOfASurface()
-        {
-            HapticSurface table = Surface("Table");
-            table.Material.Label = "wood";
-            SceneMaterial.Apply(Mix, null, new Object[] { table.gameObject });
-            TexturePreviewWindow.Open(table);
-            Window.Finish();
-            Assert.That(Window.Player!.PlayedSound!.Sound.Material, Is.EqualTo(Mix));
-            Undo.PerformUndo();
-            Assert.That(State.First.Label, Is.EqualTo("wood"));
-        }
-
-        [Test]
-        public void TheActiveMaterialIsTheOneThatIsReplaced()
-        {
-            State.Compares = true;
-            State.Active = 1;
-            TexturePreviewWindow.Open(Asset("cork"));
-            Assert.That(State.First.Label, Is.EqualTo("wood"));
-            Assert.That(State.Second.Label, Is.EqualTo("cork"));
         }
 
         private HapticSurface Surface(string name)

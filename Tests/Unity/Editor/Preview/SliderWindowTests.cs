@@ -32,24 +32,6 @@ namespace HaptoFlow.PreviewTests
             Is.EqualTo(new[] { "coarseness", "hardness", "regularity", "stickiness", "level" }));
 
         [Test]
-        public void EverySliderChangesTheSoundWithUndo()
-        {
-            Window.Finish();
-            float[] before = Samples;
-            foreach (string name in new[] { "coarseness", "hardness", "regularity", "stickiness", "level" })
-            {
-                Undo.IncrementCurrentGroup();
-                State.Change(name, changed => changed.First.Moves = Moves(name, -0.8f));
-                Window.Finish();
-                Assert.That(Window.Session!.Problem, Is.Null, name);
-                Assert.That(Samples, Is.Not.EqualTo(before), name);
-                Undo.PerformUndo();
-                Window.Finish();
-                Assert.That(Samples, Is.EqualTo(before), name);
-            }
-        }
-
-        [Test]
         public void AMaterialFileOfALabelSoundsLikeTheLabel()
         {
             HapticMaterial material = Keep(HapticMaterial.Create(Text("glass"), "fur"));
