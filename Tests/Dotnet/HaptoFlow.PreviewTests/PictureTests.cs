@@ -1,7 +1,9 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
+using System.Text.RegularExpressions;
 using System.Threading;
+using HaptoFlow.Model;
 using HaptoFlow.Preview;
 using HaptoFlow.Tests.Support;
 using NUnit.Framework;
@@ -183,5 +185,67 @@ namespace HaptoFlow.PreviewTests
             }
             Assert.That(layout.Controls.Height, Is.GreaterThanOrEqualTo(458.0), "the controls need this height");
         }
+    }
+
+    public sealed class QualityRowTests
+    {
+        private static readonly Dictionary<string, TierTiming> Untimed = new Dictionary<string, TierTiming>();
+
+        [Test]
+        public void ARowHasTheAccuracyOfTheHeaderAndTheTimeOfThisMachine()
+        {
+            ModelHeader header = MeasuredModel.Header();
+            IReadOnlyList<QualityRow> rows = QualityRow.Of(header, MeasuredModel.Timings());
+            Assert.That(rows.Select(row => row.Name), Is.EqualTo(header.Tiers.Select(tier => tier.Name)));
+            Assert.That(rows[0].LevelErrorDecibels, Is.EqualTo(-0.42));
+            Assert.That(rows[0].GoodnessOfFit, Is.EqualTo(0.962));
+            Assert.That(rows[0].SpectralDistanceDecibels, Is.EqualTo(3.18));
+            QualityRow standard = rows.Single(row => row.Name == "standard");
+            Assert.That(standard.IsDefault, Is.True);
+            Assert.That(standard.Timing!.MedianMs, Is.EqualTo(0.47));
+        }
+
+        [Test]
+        public void ValuesMissingInTheHeaderAreNull()
+        {
+            ModelHeader header = ModelFiles.HeaderWith(json => MeasuredModel.Figures.Replace(json, "\"accuracy\": {}"));
+            QualityRow row = QualityRow.Of(header, Untimed)[0];
+            Assert.That(row.HasAccuracy, Is.False);
+            Assert.That((row.LevelErrorDecibels, row.GoodnessOfFit, row.Timing),
+                Is.EqualTo(((double?)null, (double?)null, (TierTiming?)null)));
+        }
+
+        [Test]
+        public void PercentilesAreByNearestRank()
+        {
+            TierTiming timing = TierTiming.Of(Enumerable.Range(1, 10).Select(value => 11.0 - value).ToArray());
+            Assert.That((timing.Count, timing.MedianMs, timing.Percentile90Ms), Is.EqualTo((10, 5.0, 9.0)));
+        }
+    }
+
+    /// <summary>A header with invented accuracy, and invented times.</summary>
+    internal static class MeasuredModel
+    {
+        /// <summary>Matches the accuracy of a tier in a header.</summary>
+        public static readonly Regex Figures = new Regex("\"accuracy\":\\s*\\{[^}]*\\}");
+
+        private static readonly string[] Accuracies =
+        {
+            "{\"level_error_db\": -0.42, \"gfc_recording\": 0.962, \"lsd_db\": 3.18}",
+            "{\"level_error_db\": 0.11, \"gfc_recording\": 0.981, \"lsd_db\": 2.27}",
+            "{\"level_error_db\": 0.05, \"gfc_recording\": 0.987, \"lsd_db\": 1.94}",
+        };
+
+        public static ModelHeader Header() => ModelFiles.HeaderWith(json =>
+        {
+            int tier = 0;
+            return Figures.Replace(json, _ => "\"accuracy\": " + Accuracies[tier++]);
+        });
+
+        public static Dictionary<string, TierTiming> Timings() => new Dictionary<string, TierTiming>
+        {
+            ["draft"] = TierTiming.Of(new[] { 0.21, 0.22, 0.29 }),
+            ["standard"] = TierTiming.Of(new[] { 0.45, 0.47, 0.58 }),
+        };
     }
 }
