@@ -2,6 +2,7 @@ using System;
 using System.Linq;
 using System.Numerics;
 using System.Threading;
+using HaptoFlow.Editor;
 using HaptoFlow.Preview;
 using NUnit.Framework;
 

@@ -73,11 +73,11 @@ namespace HaptoFlow.PreviewTests
             Assert.That(much.LevelOffsetDecibels, Is.EqualTo(24.0));
         }
 
-        [TestCase("\"version\":1", "\"version\":2", "'version'")]
-        [TestCase("haptoflow-sliders", "haptoflow-material", "'format'")]
-        [TestCase("\"direction\":[", "\"direction\":[0,", "'sliders[0].direction'")]
-        [TestCase("\"lowest\":[", "\"lowest\":[0,", "'lowest'")]
-        [TestCase("\"mean\"", "\"means\"", "'mean' is missing")]
+        [TestCase("\"version\":1", "\"version\":2", "version is not 1: update HaptoFlow")]
+        [TestCase("haptoflow-sliders", "haptoflow-material", "format is not \"haptoflow-sliders\"")]
+        [TestCase("\"direction\":[", "\"direction\":[0,", "sliders[0].direction is not a list of")]
+        [TestCase("\"lowest\":[", "\"lowest\":[0,", "lowest is not a list of")]
+        [TestCase("\"mean\"", "\"means\"", "has no key \"mean\"")]
         public void AnInvalidFileIsRefusedWithTheNameOfItsKey(string part, string instead, string message)
         {
             string text = SliderFiles.For(ModelFiles.Default);

@@ -132,7 +132,7 @@ namespace HaptoFlow.PreviewTests
                 Assert.That(SliderCatalog.Of(model).Sliders!.Sliders, Has.Count.EqualTo(3));
                 File.WriteAllText(beside, "{}");
                 SliderCatalog.Forget();
-                Assert.That(SliderCatalog.Of(model).Problem, Does.Contain("cannot be read: 'format' is missing"));
+                Assert.That(SliderCatalog.Of(model).Problem, Does.Contain("cannot be read: the document has no key \"format\""));
             }
             finally
             {
