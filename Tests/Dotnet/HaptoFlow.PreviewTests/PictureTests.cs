@@ -1,8 +1,10 @@
 using System;
 using System.Collections.Generic;
+using System.IO;
 using System.Linq;
 using System.Text.RegularExpressions;
 using System.Threading;
+using HaptoFlow.EditorTests;
 using HaptoFlow.Model;
 using HaptoFlow.Preview;
 using HaptoFlow.Tests.Support;
@@ -208,7 +210,7 @@ namespace HaptoFlow.PreviewTests
         [Test]
         public void ValuesMissingInTheHeaderAreNull()
         {
-            ModelHeader header = ModelFiles.HeaderWith(json => MeasuredModel.Figures.Replace(json, "\"accuracy\": {}"));
+            ModelHeader header = MeasuredModel.HeaderWith(json => MeasuredModel.Figures.Replace(json, "\"accuracy\": {}"));
             QualityRow row = QualityRow.Of(header, Untimed)[0];
             Assert.That(row.HasAccuracy, Is.False);
             Assert.That((row.LevelErrorDecibels, row.GoodnessOfFit, row.Timing),
@@ -236,16 +238,25 @@ namespace HaptoFlow.PreviewTests
             "{\"level_error_db\": 0.05, \"gfc_recording\": 0.987, \"lsd_db\": 1.94}",
         };
 
-        public static ModelHeader Header() => ModelFiles.HeaderWith(json =>
+        public static ModelHeader Header() => HeaderWith(json =>
         {
             int tier = 0;
             return Figures.Replace(json, _ => "\"accuracy\": " + Accuracies[tier++]);
         });
+
+        /// <summary>The header of the default model after a change of its text.</summary>
+        public static ModelHeader HeaderWith(Func<string, string> change) =>
+            ModelHeader.Read(ModelBytes.WithHeader(ModelFiles.Default, change));
 
         public static Dictionary<string, TierTiming> Timings() => new Dictionary<string, TierTiming>
         {
             ["draft"] = TierTiming.Of(new[] { 0.21, 0.22, 0.29 }),
             ["standard"] = TierTiming.Of(new[] { 0.45, 0.47, 0.58 }),
         };
+    }
+
+    internal static class ModelFiles
+    {
+        public static byte[] Default { get; } = File.ReadAllBytes(RepositoryFiles.DefaultModel);
     }
 }

@@ -118,8 +118,9 @@ namespace HaptoFlow.PreviewTests
         {
             const string path = "Assets/HaptoFlowSliderTests.haptoflow";
             const string beside = "Assets/HaptoFlowSliderTests.sliders.json";
+            string shipped = File.ReadAllText(FileUtil.GetPhysicalPath(SliderCatalog.DefaultPath));
             File.WriteAllBytes(path, DefaultFile());
-            File.WriteAllText(beside, SliderFiles.For(DefaultFile(), "0badcafe"));
+            File.WriteAllText(beside, shipped.Replace(ModelHeader.Read(DefaultFile()).Space, "0badcafe"));
             try
             {
                 AssetDatabase.ImportAsset(path);
@@ -127,9 +128,9 @@ namespace HaptoFlow.PreviewTests
                 SliderCatalog.Forget();
                 Assert.That(SliderCatalog.Of(model).Sliders, Is.Null);
                 Assert.That(SliderCatalog.Of(model).Problem, Does.Contain("0badcafe").And.Contain(beside));
-                File.WriteAllText(beside, SliderFiles.For(DefaultFile()));
+                File.WriteAllText(beside, shipped);
                 SliderCatalog.Forget();
-                Assert.That(SliderCatalog.Of(model).Sliders!.Sliders, Has.Count.EqualTo(3));
+                Assert.That(SliderCatalog.Of(model).Sliders!.Sliders, Has.Count.EqualTo(5));
                 File.WriteAllText(beside, "{}");
                 SliderCatalog.Forget();
                 Assert.That(SliderCatalog.Of(model).Problem, Does.Contain("cannot be read: the document has no key \"format\""));

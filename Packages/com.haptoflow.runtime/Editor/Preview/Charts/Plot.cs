@@ -221,4 +221,31 @@ namespace HaptoFlow.Preview
             return (value < 0.0 && !zero ? "\u2212" : signed && !zero ? "+" : "") + size;
         }
     }
+
+    /// <summary>The background of a group of charts, with a title.</summary>
+    internal static class Card
+    {
+        public const double Gap = 8.0;
+        public const double TitleSize = 12.0;
+
+        private const double Radius = 5.0;
+
+        /// <param name="unit">Stands after the title; empty for none.</param>
+        /// <param name="margin">From the left edge to the title.</param>
+        /// <returns>The height of the middle of the title.</returns>
+        public static double Draw(
+            ICanvas canvas, Palette palette, Box card, string title, string unit = "", double margin = 12.0)
+        {
+            double y = card.Top + 17.0;
+            double left = card.Left + margin;
+            canvas.FillRectangle(card, palette.Card, Radius);
+            canvas.DrawText(title, left, y, TitleSize, palette.Ink, bold: true);
+            if (unit.Length > 0)
+            {
+                canvas.DrawText(unit, left + canvas.MeasureText(title, TitleSize, true) + 12.0, y, Plot.NumberSize,
+                    palette.Soft);
+            }
+            return y;
+        }
+    }
 }

@@ -9,9 +9,7 @@ namespace HaptoFlow.Preview
     {
         public static void Draw(ICanvas canvas, Palette palette, Box box, Stroke stroke)
         {
-            canvas.FillRectangle(box, palette.Card, 5.0);
-            double y = box.Top + 17.0;
-            canvas.DrawText("Stroke", box.Left + 12.0, y, 12.0, palette.Ink, bold: true);
+            double y = Card.Draw(canvas, palette, box, "Stroke");
             canvas.DrawText("draw here with mouse or pen", box.Right - 12.0, y, Plot.NumberSize, palette.Soft,
                 TextAlign.Right);
             PatchPicture.Draw(canvas, palette, PreviewLayout.Patch(box), stroke, "Draw a stroke");
