@@ -210,16 +210,9 @@ namespace HaptoFlow.EditorTests
                 .Select(place => Describe(file, place));
             IEnumerable<string> made = default(UnityEngine.SceneManagement.Scene).GetRootGameObjects().Select(Describe);
             Assert.That(made, Is.EqualTo(written));
-        }
-
-        [TestCaseSource(nameof(Samples))]
-        public void TheMenuSetsTheAmbientLightOfTheSamplesSceneFile(string sample)
-        {
-            Menus[sample]();
-            PrefabObject written = new PrefabFile(SampleFiles.Scene(sample)).Objects
-                .Single(each => each.Type == "RenderSettings");
-            Assert.That(((int)RenderSettings.ambientMode).ToString(), Is.EqualTo(written["m_AmbientMode"]));
-            Assert.That(Numbers(RenderSettings.ambientLight), Is.EqualTo(Numbers(written["m_AmbientSkyColor"])));
+            PrefabObject render = file.Objects.Single(each => each.Type == "RenderSettings");
+            Assert.That(((int)RenderSettings.ambientMode).ToString(), Is.EqualTo(render["m_AmbientMode"]));
+            Assert.That(Numbers(RenderSettings.ambientLight), Is.EqualTo(Numbers(render["m_AmbientSkyColor"])));
         }
 
         [Test]

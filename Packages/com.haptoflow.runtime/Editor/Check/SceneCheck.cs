@@ -91,7 +91,8 @@ namespace HaptoFlow.Editor
             return Styluses.Count == 0 || Styluses.Any(stylus => (stylus.Layers.value & layer) != 0);
         }
 
-        private static IReadOnlyList<T> All<T>()
+        /// <summary>The enabled ones of the open scenes, sorted by name.</summary>
+        public static IReadOnlyList<T> All<T>()
             where T : Behaviour => AllOfThem<T>().Where(each => each.isActiveAndEnabled).ToArray();
 
         private static IReadOnlyList<T> AllOfThem<T>()

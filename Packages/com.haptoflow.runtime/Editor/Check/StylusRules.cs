@@ -82,12 +82,8 @@ namespace HaptoFlow.Editor
 
         internal static IEnumerable<Finding> Check(SceneContents scene, MxInkSupport mxInk)
         {
-            XrPen[] pens = Object
-                .FindObjectsByType<XrPen>(FindObjectsInactive.Exclude, FindObjectsSortMode.None)
-                .Where(pen => pen.enabled)
-                .OrderBy(pen => pen.name, StringComparer.Ordinal)
-                .ToArray();
-            if (mxInk.IsLacking && pens.Length > 0)
+            IReadOnlyList<XrPen> pens = SceneContents.All<XrPen>();
+            if (mxInk.IsLacking && pens.Count > 0)
             {
                 yield return new Finding(MessageType.Info,
                     $"{string.Join(", ", pens.Select(pen => pen.name))}: the project has no interaction profile of MX " +
@@ -131,10 +127,7 @@ namespace HaptoFlow.Editor
                         new[] { stylus });
                 }
             }
-            HapticAlignment[] all = Object.FindObjectsByType<HapticAlignment>(
-                FindObjectsInactive.Exclude, FindObjectsSortMode.None);
-            foreach (HapticAlignment alignment in all.Where(each => each.enabled)
-                .OrderBy(each => each.name, StringComparer.Ordinal))
+            foreach (HapticAlignment alignment in SceneContents.All<HapticAlignment>())
             {
                 Vector3 scale = alignment.transform.lossyScale;
                 string? problem = ThreePointFit.WhyMarksUnusable(

@@ -122,7 +122,7 @@ namespace HaptoFlow.Editor
             }
             if (mask.Texture.isReadable)
             {
-                yield return new Repair("Bake", () => Bake(mask));
+                yield return new Repair("Bake", () => Bake(mask, mask.Texture!));
                 yield break;
             }
             foreach (Repair repair in Readability.RepairsOf(new[] { mask.Texture }))
@@ -131,21 +131,9 @@ namespace HaptoFlow.Editor
             }
         }
 
-        /// <summary>Bakes the mask, as one step of undo.</summary>
-        /// <exception cref="InvalidOperationException">There is no texture, or it is not readable. The mask does not
-        /// change.</exception>
-        public static void Bake(HapticMaskMap mask)
+        /// <summary>Bakes a readable texture into the mask, as one step of undo.</summary>
+        private static void Bake(HapticMaskMap mask, Texture2D texture)
         {
-            Texture2D? texture = mask.Texture;
-            if (texture == null)
-            {
-                throw new InvalidOperationException($"{mask.name} has no texture to bake");
-            }
-            if (!texture.isReadable)
-            {
-                throw new InvalidOperationException($"the texture {texture.name} is not readable: switch on " +
-                    "Read/Write in its import settings");
-            }
             int halvings = 0;
             while (Math.Max(texture.width, texture.height) >> halvings > mask.MaximumSize)
             {

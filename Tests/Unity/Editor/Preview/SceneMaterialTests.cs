@@ -163,22 +163,6 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void AnObjectWithoutARuleHasTheDefaultOfTheMap()
-        {
-            map.DefaultMaterial = Material("glass");
-            Assert.That(Take(Box("Lamp")), Is.EqualTo("Took glass from Lamp (default of \"Rooms\")"));
-        }
-
-        [Test]
-        public void ALearntMaterialOfARuleIsTaken()
-        {
-            HapticMaterial learnt = Keep(HapticMaterial.Create(MaterialText.OfLabel(DefaultFile(), "glass"), "fur"));
-            map.Insert(0, HapticMaterialRule.ForName("Pane", learnt));
-            Assert.That(Take(Box("Pane")), Does.StartWith("Took glass from Pane (rule 1"));
-            Assert.That(State.First.Learnt, Is.SameAs(learnt));
-        }
-
-        [Test]
         public void TheFirstPartWithAMaterialIsTakenAndNamed()
         {
             var mesh = Keep(new Mesh
@@ -226,21 +210,6 @@ namespace HaptoFlow.PreviewTests
             Assert.That(Take(table), Does.StartWith("Took stone from Table (rule 1"));
             table.tag = "Untagged";
             Assert.That(Take(table), Is.EqualTo("Took cork from Table (its Haptic Surface is disabled)"));
-        }
-
-        [Test]
-        public void ChildrenOfASurfaceThatExcludesThemFollowTheRules()
-        {
-            GameObject table = Make("Table");
-            HapticSurface surface = table.AddComponent<HapticSurface>();
-            surface.Material.Label = "cork";
-            GameObject leg = Box("Leg");
-            leg.transform.SetParent(table.transform, false);
-            Assert.That(Take(leg), Is.EqualTo("Took cork from Leg"));
-            surface.IncludeChildren = false;
-            Assert.That(Take(leg), Is.EqualTo("Leg has no haptic material (it has no Haptic Surface, and no rule matches)"));
-            leg.tag = "Finish";
-            Assert.That(Take(leg), Does.StartWith("Took stone from Leg (rule 1"));
         }
 
         [Test]
