@@ -12,6 +12,7 @@ using UnityEditor.IMGUI.Controls;
 using UnityEngine;
 using UnityEngine.TestTools;
 using UnityShim;
+using Object = UnityEngine.Object;
 using SerializedFields = UnityShim.SerializedFields;
 
 namespace HaptoFlow.EditorTests

@@ -5,7 +5,6 @@ using System.Linq;
 using HaptoFlow.Alignment;
 using UnityEditor;
 using UnityEngine;
-using Object = UnityEngine.Object;
 
 namespace HaptoFlow.Editor
 {

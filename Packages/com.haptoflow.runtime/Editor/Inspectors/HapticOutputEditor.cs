@@ -3,6 +3,7 @@ using System;
 using System.Globalization;
 using UnityEditor;
 using UnityEngine;
+using Object = UnityEngine.Object;
 
 namespace HaptoFlow.Editor
 {
