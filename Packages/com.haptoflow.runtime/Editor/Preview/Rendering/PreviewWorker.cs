@@ -18,9 +18,6 @@ namespace HaptoFlow.Preview
         private byte[]? timedFile;
         private int timedMeasurement;
 
-        /// <summary>Number of engines created so far.</summary>
-        public int EnginesCreated => engines.Created;
-
         /// <summary>Makes the result of a request. A missing library, a damaged model or an unknown label is reported
         /// as the result's problem.</summary>
         /// <exception cref="OperationCanceledException">The token was cancelled.</exception>
