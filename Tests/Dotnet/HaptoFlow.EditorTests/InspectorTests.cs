@@ -3,7 +3,6 @@ using System.Collections.Generic;
 using System.IO;
 using System.Linq;
 using System.Reflection;
-using System.Text.RegularExpressions;
 using HaptoFlow.Editor;
 using HaptoFlow.Tests.Support;
 using NUnit.Framework;

@@ -20,6 +20,7 @@ namespace UnityEditor
 
         public static int indentLevel { get; set; }
         public static bool showMixedValue { get; set; }
+        public static bool actionKey => Event.current.control;
 
         public static void BeginDisabledGroup(bool disabled)
         {

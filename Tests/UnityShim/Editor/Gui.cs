@@ -136,13 +136,10 @@ namespace UnityEngine
 
 namespace UnityEditor
 {
-    public sealed partial class EditorGUI
-    {
-        public static bool actionKey => Event.current.control;
-    }
-
     public sealed partial class EditorGUILayout
     {
+        private static readonly Rect Line = new Rect(0f, 0f, 400f, 18f);
+
         public static float Slider(GUIContent label, float value, float leftValue, float rightValue,
             params GUILayoutOption[] options) => Mathf.Clamp(EditorScreen.Field(label, value), leftValue, rightValue);
 
@@ -159,8 +156,6 @@ namespace UnityEditor
 
         public static int IntField(GUIContent label, int value, params GUILayoutOption[] options) =>
             EditorScreen.Field(label, value);
-
-        private static readonly Rect Line = new Rect(0f, 0f, 400f, 18f);
 
         public static void LabelField(string label, params GUILayoutOption[] options) =>
             EditorScreen.Add(DrawnKind.Label, label);
@@ -259,22 +254,6 @@ namespace UnityEditor
 
         public static string SaveFilePanel(string title, string directory, string defaultName, string extension) =>
             WindowHost.AnswerToSave?.Invoke(defaultName + "." + extension) ?? "";
-    }
-
-    public partial class EditorWindow
-    {
-        public static bool HasOpenInstances<T>()
-            where T : EditorWindow => Open.Exists(window => window is T);
-
-        public void ShowNotification(GUIContent notification) => WindowHost.Notification = notification.text;
-
-        /// <summary>Draws one pass with this event.</summary>
-        public bool SendEvent(Event e)
-        {
-            Event.current = e;
-            WindowHost.Draw(this);
-            return e.type == EventType.Used;
-        }
     }
 
     public sealed partial class ObjectNames

@@ -40,6 +40,19 @@ namespace UnityEditor
         public void Repaint()
         {
         }
+
+        public static bool HasOpenInstances<T>()
+            where T : EditorWindow => Open.Exists(window => window is T);
+
+        public void ShowNotification(GUIContent notification) => WindowHost.Notification = notification.text;
+
+        /// <summary>Draws one pass with this event.</summary>
+        public bool SendEvent(Event e)
+        {
+            Event.current = e;
+            WindowHost.Draw(this);
+            return e.type == EventType.Used;
+        }
     }
 
     [AttributeUsage(AttributeTargets.Method, AllowMultiple = true)]
@@ -190,7 +203,7 @@ namespace UnityEditor
     /// <summary>Records groups of changes that can be undone. Redo is left out, because no test needs it.</summary>
     public partial class Undo
     {
-        private static readonly List<Step> Steps = new List<Step>();
+        private static readonly List<(int Group, Action Revert)> Steps = new List<(int, Action)>();
         private static int group;
 
         public delegate void UndoRedoCallback();
@@ -242,7 +255,7 @@ namespace UnityEditor
             {
                 if (Steps[index].Group > groupIndex)
                 {
-                    Steps[index] = new Step(groupIndex, Steps[index].Revert);
+                    Steps[index] = (groupIndex, Steps[index].Revert);
                 }
             }
             group = Math.Max(group, groupIndex);
@@ -254,9 +267,9 @@ namespace UnityEditor
             if (Steps.Count > 0)
             {
                 int last = Steps.Max(step => step.Group);
-                foreach (Step step in Steps.Where(each => each.Group == last).Reverse())
+                foreach ((_, Action revert) in Steps.Where(each => each.Group == last).Reverse())
                 {
-                    step.Revert();
+                    revert();
                 }
                 Steps.RemoveAll(step => step.Group == last);
                 undoRedoPerformed?.Invoke();
@@ -264,24 +277,9 @@ namespace UnityEditor
             ++group;
         }
 
-        internal static void Reset()
-        {
-            Steps.Clear();
-        }
+        internal static void Reset() => Steps.Clear();
 
-        private static void Push(Action revert) => Steps.Add(new Step(group, revert));
-
-        private readonly struct Step
-        {
-            public readonly int Group;
-            public readonly Action Revert;
-
-            public Step(int group, Action revert)
-            {
-                Group = group;
-                Revert = revert;
-            }
-        }
+        private static void Push(Action revert) => Steps.Add((group, revert));
     }
 }
 
