@@ -11,7 +11,6 @@ namespace HaptoFlow.Editor
     /// <summary>Checks the open scenes and the project. Changes nothing by itself.</summary>
     internal static class SceneCheck
     {
-        /// <summary>All findings, the most severe first.</summary>
         public static IReadOnlyList<Finding> Run() => Run(new SceneContents());
 
         /// <summary>All findings in contents that were already collected, the most severe first.</summary>
@@ -44,7 +43,6 @@ namespace HaptoFlow.Editor
     internal sealed record Finding(
         MessageType Severity, string Text, IReadOnlyList<Object>? About = null, params Repair[] Repairs)
     {
-        /// <summary>The objects with the problem; empty when it concerns the project.</summary>
         public IReadOnlyList<Object> Objects => About ?? Array.Empty<Object>();
     }
 
@@ -79,7 +77,6 @@ namespace HaptoFlow.Editor
         /// <summary>The colliders that can be felt, on the layers of any stylus; without one, on all layers.</summary>
         public IReadOnlyList<Collider> Colliders { get; }
 
-        /// <summary>The material maps in use.</summary>
         public SceneMaps Maps { get; }
 
         /// <summary>What each of <see cref="Colliders"/> feels like, and why.</summary>

@@ -89,7 +89,6 @@ namespace HaptoFlow.Editor
     /// <summary>Bakes the texture of a mask map into its compact copy.</summary>
     internal static class MaskBake
     {
-        /// <summary>The problem of a mask; null without one.</summary>
         public static string? ProblemOf(HapticMaskMap mask)
         {
             Texture2D? texture = mask.Texture;

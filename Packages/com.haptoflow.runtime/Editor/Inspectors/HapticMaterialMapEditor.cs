@@ -116,7 +116,6 @@ namespace HaptoFlow.Editor
         private static MaterialRuleSubject SubjectOf(SerializedProperty property) =>
             (MaterialRuleSubject)property.FindPropertyRelative("subject").enumValueIndex;
 
-        /// <summary>The title, for example "Rule 3".</summary>
         private static string Title(SerializedProperty property)
         {
             string path = property.propertyPath;

@@ -155,7 +155,6 @@ namespace HaptoFlow.Editor
             _ => "unknown reason " + (int)voice.Silence,
         };
 
-        /// <summary>Describes why a stylus has no voice.</summary>
         public static string OfMissingVoice(HapticStylus stylus)
         {
             HapticOutput? output = stylus.Output;

@@ -29,7 +29,6 @@ namespace HaptoFlow.Editor
             }
         }
 
-        /// <summary>Draws the rows.</summary>
         public void Draw()
         {
             EditorGUILayout.LabelField("Now", EditorStyles.boldLabel);
@@ -53,12 +52,10 @@ namespace HaptoFlow.Editor
         public InspectorRows(Rect position, SerializedProperty property) => (this.property, row) = (
             property, new Rect(position.x, position.y, position.width, EditorGUIUtility.singleLineHeight));
 
-        /// <summary>The height of a number of rows.</summary>
         public static float Height(int rows) =>
             rows * (EditorGUIUtility.singleLineHeight + EditorGUIUtility.standardVerticalSpacing) -
             EditorGUIUtility.standardVerticalSpacing;
 
-        /// <summary>The place of the next row.</summary>
         public Rect Next()
         {
             Rect place = row;

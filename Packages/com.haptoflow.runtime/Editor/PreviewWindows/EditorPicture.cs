@@ -57,7 +57,6 @@ namespace HaptoFlow.Editor
             Handles.color = before;
         }
 
-        /// <summary>Destroys the textures.</summary>
         public void Release()
         {
             used.Clear();

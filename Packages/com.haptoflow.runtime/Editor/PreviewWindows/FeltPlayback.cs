@@ -7,7 +7,6 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>Where a preview is felt.</summary>
     internal enum FeltDevice
     {
         None = 0,
@@ -30,7 +29,6 @@ namespace HaptoFlow.Editor
         private int routes;
         private double nextSearchSeconds;
 
-        /// <summary>The device to play on.</summary>
         public FeltDevice Device
         {
             get => device;
@@ -76,7 +74,6 @@ namespace HaptoFlow.Editor
         /// <param name="startSample">Start position; a position past the end counts as 0.</param>
         public void Play(PreviewSound sound, int startSample, bool loops) => wave.Play(sound, startSample, loops);
 
-        /// <summary>Stops the device now.</summary>
         public void Stop()
         {
             wave.Stop();

@@ -16,7 +16,6 @@ namespace HaptoFlow.Editor
 
         public PatchInput(TexturePreviewState state) => this.state = state;
 
-        /// <summary>Raised when the pointer is released.</summary>
         public event Action? Ended;
 
         /// <summary>Handles an event. With Shift, a touch is added to the stroke; otherwise a new stroke starts. A

@@ -45,7 +45,6 @@ namespace HaptoFlow.Editor
         // Where the editor cannot play clips, a device still can.
         public override bool IsPlaying => base.IsPlaying || (!Speaker.IsAvailable && felt.IsPlaying);
 
-        /// <summary>Gain of playback.</summary>
         public override float Gain => state.Raises && Peak > 0f ? Mathf.Max(1f, RaisedPeak / Peak) : 1f;
 
         protected override IReadOnlyList<AnalysedSound> Sounds => session.Shown?.Sounds ?? Array.Empty<AnalysedSound>();

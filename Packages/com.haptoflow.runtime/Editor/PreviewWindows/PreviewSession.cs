@@ -33,7 +33,6 @@ namespace HaptoFlow.Editor
         /// <summary>The latest result; null until the first is finished.</summary>
         public PreviewResult? Shown { get; private set; }
 
-        /// <summary>True while a preview is being made.</summary>
         public bool IsBusy => task.IsBusy;
 
         /// <summary>True if the result belongs to the present state and is not a sketch.</summary>
@@ -103,7 +102,6 @@ namespace HaptoFlow.Editor
             return true;
         }
 
-        /// <summary>Blocks until every submitted request is finished.</summary>
         public void Finish()
         {
             while (task.IsBusy)

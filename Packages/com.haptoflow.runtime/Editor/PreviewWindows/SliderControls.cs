@@ -134,10 +134,8 @@ namespace HaptoFlow.Editor
         private SliderCatalog(byte[] modelFile, SliderSet? sliders, string? problem) =>
             (this.modelFile, Sliders, Problem) = (modelFile, sliders, problem);
 
-        /// <summary>The sliders; null when the model has none.</summary>
         public SliderSet? Sliders { get; }
 
-        /// <summary>Why there are no sliders; null when there are.</summary>
         public string? Problem { get; }
 
         /// <summary>The sliders of a model.</summary>

@@ -22,7 +22,6 @@ namespace HaptoFlow.Editor
         private bool waits;
         private bool wasPlaying;
 
-        /// <summary>The chosen sound; null if there is none.</summary>
         public AnalysedSound? PlayedSound => Index < Sounds.Count ? Sounds[Index] : null;
 
         public virtual bool IsPlaying => Speaker.IsPlaying;
@@ -30,7 +29,6 @@ namespace HaptoFlow.Editor
         /// <summary>Position of playback; null while nothing plays.</summary>
         public double? PlayedSeconds => IsPlaying ? PositionSamples / (double)PreviewSound.RateHz : (double?)null;
 
-        /// <summary>Gain of all sounds.</summary>
         public abstract float Gain { get; }
 
         protected PreviewSpeaker Speaker { get; } = new PreviewSpeaker();
@@ -38,7 +36,6 @@ namespace HaptoFlow.Editor
         /// <summary>The sounds that are shown; none until they are rendered.</summary>
         protected abstract IReadOnlyList<AnalysedSound> Sounds { get; }
 
-        /// <summary>Index of the chosen sound.</summary>
         protected abstract int Index { get; }
 
         /// <summary>Whether playback is normalised, and whether it is repeated.</summary>
@@ -127,7 +124,6 @@ namespace HaptoFlow.Editor
             position = Find(player, "GetPreviewClipSamplePosition", typeof(int));
         }
 
-        /// <summary>True if this editor has the methods.</summary>
         public bool IsAvailable => play != null && stop != null && isPlaying != null && position != null;
 
         /// <summary>True while the sound that was started last plays.</summary>

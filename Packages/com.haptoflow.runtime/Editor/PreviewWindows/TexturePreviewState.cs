@@ -23,7 +23,6 @@ namespace HaptoFlow.Editor
         [field: SerializeField]
         public MaterialChoice Second { get; private set; } = new MaterialChoice();
 
-        /// <summary>True to show the second material beside the first.</summary>
         [field: SerializeField]
         public bool Compares { get; set; } = true;
 
@@ -58,7 +57,6 @@ namespace HaptoFlow.Editor
         [field: SerializeField]
         public bool HasEdge { get; set; } = true;
 
-        /// <summary>The device whose output is previewed.</summary>
         [field: SerializeField]
         public PreviewDevice Device { get; set; }
 
@@ -74,7 +72,6 @@ namespace HaptoFlow.Editor
         [field: SerializeField]
         public string Tier { get; set; } = "";
 
-        /// <summary>Key of the noise generator.</summary>
         [field: SerializeField]
         public int Seed { get; set; } = 1;
 
@@ -82,7 +79,6 @@ namespace HaptoFlow.Editor
         [field: SerializeField]
         public bool Raises { get; set; } = true;
 
-        /// <summary>True if the sliders are unfolded.</summary>
         [field: SerializeField]
         public bool ShowsSliders { get; set; }
 
@@ -91,7 +87,6 @@ namespace HaptoFlow.Editor
         /// <summary>True if a device's output is shown in place of the second material.</summary>
         public bool ShowsDevice => Device != PreviewDevice.Actuator;
 
-        /// <summary>True if the second material is shown.</summary>
         public bool ShowsSecond => Compares && !ShowsDevice;
 
         /// <summary>Index of the sound that is played, among those that are shown.</summary>
@@ -140,7 +135,6 @@ namespace HaptoFlow.Editor
         [SerializeField]
         private float toneDbPerOctave;
 
-        /// <summary>Empty until a label is chosen.</summary>
         [field: SerializeField]
         public string Label { get; set; } = "";
 
@@ -148,7 +142,6 @@ namespace HaptoFlow.Editor
         [field: SerializeField]
         public string SecondLabel { get; set; } = "";
 
-        /// <summary>Share of the second label in the blend, 0 to 1.</summary>
         [field: SerializeField]
         public float Share { get; set; } = 0.5f;
 
@@ -156,7 +149,6 @@ namespace HaptoFlow.Editor
         [field: SerializeField]
         public float[] Moves { get; set; } = Array.Empty<float>();
 
-        /// <summary>Feature scale, limited to 0.25 to 4.</summary>
         public float FeatureScale
         {
             get => featureScale;
@@ -202,7 +194,6 @@ namespace HaptoFlow.Editor
             ResetSliders();
         }
 
-        /// <summary>Resets every slider.</summary>
         public void ResetSliders()
         {
             Moves = Array.Empty<float>();

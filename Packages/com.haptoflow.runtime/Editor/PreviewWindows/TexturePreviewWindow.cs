@@ -26,7 +26,6 @@ namespace HaptoFlow.Editor
         /// <summary>Null while the window is closed.</summary>
         internal PreviewPlayer? Player { get; private set; }
 
-        /// <summary>Clock for drawn strokes.</summary>
         internal Func<double> ClockSeconds { get; set; } = () => EditorApplication.timeSinceStartup;
 
         [MenuItem("Window/HaptoFlow/Texture Preview", false, 2100)]

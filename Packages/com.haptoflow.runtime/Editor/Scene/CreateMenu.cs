@@ -51,19 +51,15 @@ namespace HaptoFlow.Editor
             Undo.CollapseUndoOperations(group);
         }
 
-        /// <summary>Creates a wooden cube of one metre.</summary>
         [MenuItem("GameObject/HaptoFlow/Tagged Cube", false, Priority - 2)]
         internal static void CreateTaggedCube(MenuCommand command) => Add(TaggedCube("Tagged Cube"), command);
 
-        /// <summary>Creates a stylus under the mouse or a graphics pen.</summary>
         [MenuItem("GameObject/HaptoFlow/Mouse Pen", false, Priority - 1)]
         internal static void CreateMousePen(MenuCommand command) => Add(MousePen.Create(null).gameObject, command);
 
-        /// <summary>Creates a stylus on MX Ink or a controller in the right hand.</summary>
         [MenuItem("GameObject/HaptoFlow/XR Pen (Right Hand)", false, Priority - 1)]
         internal static void CreateRightPen(MenuCommand command) => CreateXrPen(command, PenHand.Right);
 
-        /// <summary>Creates a stylus on MX Ink or a controller in the left hand.</summary>
         [MenuItem("GameObject/HaptoFlow/XR Pen (Left Hand)", false, Priority - 1)]
         internal static void CreateLeftPen(MenuCommand command) => CreateXrPen(command, PenHand.Left);
 

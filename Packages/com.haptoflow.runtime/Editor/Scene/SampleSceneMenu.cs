@@ -23,11 +23,9 @@ namespace HaptoFlow.Editor
         private static readonly Color Ambient = new Color(0.5f, 0.52f, 0.56f);
         private static readonly Color Background = new Color(0.12f, 0.13f, 0.15f, 0f);
 
-        /// <summary>A table with objects of eight labels.</summary>
         [MenuItem("Window/HaptoFlow/Sample Scenes/Stylus Tracing", false, 2104)]
         internal static void MakeStylusTracing() => Make<TracingScene>("Tracing Scene", AboveTable, 45f);
 
-        /// <summary>A wall with a tile for each label.</summary>
         [MenuItem("Window/HaptoFlow/Sample Scenes/Texture Gallery", false, 2105)]
         internal static void MakeTextureGallery() => Make<GalleryScene>("Gallery Scene", BeforeWall, 0f);
 
@@ -43,7 +41,6 @@ namespace HaptoFlow.Editor
             }
         }
 
-        /// <summary>Three plates, and the device check.</summary>
         [MenuItem("Window/HaptoFlow/Sample Scenes/Device Check", false, 2107)]
         internal static void MakeDeviceCheck() => Make<DeviceCheckScene>("Device Check", AboveTable, 45f);
 

@@ -26,7 +26,6 @@ namespace HaptoFlow.Editor
             project = settings != null && settings.MaterialMap != null ? settings.MaterialMap : null;
         }
 
-        /// <summary>The maps of the open scenes and that of the project.</summary>
         public IReadOnlyList<HapticMaterialMap> All => scopes.Select(scope => scope.Map!).Append(project!)
             .Where(map => map != null).Distinct().ToArray();
 

@@ -79,7 +79,6 @@ namespace HaptoFlow.Editor
         }
     }
 
-    /// <summary>A line of the overlay.</summary>
     internal sealed record SurfaceLine(Collider Collider, string Text);
 
     /// <summary>Lists what colliders feel like and by which rule, and which colliders are not felt: those of the

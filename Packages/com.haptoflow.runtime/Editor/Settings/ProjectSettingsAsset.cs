@@ -38,7 +38,6 @@ namespace HaptoFlow.Editor
             searched = false;
         }
 
-        /// <summary>Whether player builds include the settings.</summary>
         public static bool ReachesPlayers(HaptoFlowSettings settings) =>
             IsPreloaded(settings) || IsInResources(AssetDatabase.GetAssetPath(settings));
 

@@ -43,7 +43,6 @@ namespace HaptoFlow.Preview
     /// <summary>The colours of the charts, one palette for each skin of the editor.</summary>
     internal sealed class Palette
     {
-        /// <summary>For the editor's dark skin.</summary>
         public static readonly Palette Dark = new Palette
         {
             Window = Colour.Of(0x383838),
@@ -59,7 +58,6 @@ namespace HaptoFlow.Preview
             Patch = Colour.Of(0x33373d),
         };
 
-        /// <summary>For the editor's light skin.</summary>
         public static readonly Palette Light = new Palette
         {
             Window = Colour.Of(0xc8c8c8),
@@ -79,34 +77,27 @@ namespace HaptoFlow.Preview
         {
         }
 
-        /// <summary>Background of the editor's windows.</summary>
         public Colour Window { get; private set; }
 
-        /// <summary>Background of a group of charts.</summary>
         public Colour Card { get; private set; }
 
-        /// <summary>Background of a plot area.</summary>
         public Colour Plot { get; private set; }
 
         public Colour Grid { get; private set; }
 
-        /// <summary>Primary text.</summary>
         public Colour Ink { get; private set; }
 
         /// <summary>Secondary text: axis numbers and remarks.</summary>
         public Colour Soft { get; private set; }
 
-        /// <summary>Curves of material A.</summary>
         public Colour First { get; private set; }
 
-        /// <summary>Curves of material B.</summary>
         public Colour Second { get; private set; }
 
         public Colour Speed { get; private set; }
 
         public Colour Force { get; private set; }
 
-        /// <summary>Background of the patch on which strokes are drawn.</summary>
         public Colour Patch { get; private set; }
     }
 

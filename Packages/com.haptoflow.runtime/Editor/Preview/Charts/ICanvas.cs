@@ -35,7 +35,6 @@ namespace HaptoFlow.Preview
         void DrawText(string text, double x, double y, double size, Colour colour,
             TextAlign align = TextAlign.Left, bool bold = false);
 
-        /// <summary>Width of one line of text, in points.</summary>
         double MeasureText(string text, double size, bool bold = false);
 
         /// <summary>Stretches an image over a box, with linear interpolation.</summary>

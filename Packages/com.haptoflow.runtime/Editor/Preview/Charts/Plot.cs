@@ -9,7 +9,6 @@ namespace HaptoFlow.Preview
     /// <summary>The plot area of a chart: converts values to points, and draws the grid and the axis numbers.</summary>
     internal sealed class Plot
     {
-        /// <summary>Font size of axis numbers, in points.</summary>
         public const double NumberSize = 10.0;
 
         // Between two axis numbers, in points.
@@ -61,7 +60,6 @@ namespace HaptoFlow.Preview
             canvas.DrawText(text, x, limited, NumberSize, colour, align);
         }
 
-        /// <summary>Draws vertical grid lines.</summary>
         public void Columns(IEnumerable<double> values)
         {
             foreach (double value in values)
@@ -115,22 +113,18 @@ namespace HaptoFlow.Preview
             plot.ColumnTexts(columns, value => AxisNumbers.Text(Math.Pow(10.0, value), 0), unit);
         }
 
-        /// <summary>A plot over frequency in Hz, rising.</summary>
         public static CurveChart OverFrequency(ICanvas canvas, Palette palette, Box frame,
             IReadOnlyList<double> frequenciesHz, (double Low, double High) vertical) =>
             new CurveChart(canvas, palette, frame, (frequenciesHz[0], frequenciesHz[frequenciesHz.Count - 1]), vertical,
                 Frequencies, "Hz");
 
-        /// <summary>A plot over speed in mm/s, rising.</summary>
         public static CurveChart OverSpeed(ICanvas canvas, Palette palette, Box frame,
             IReadOnlyList<double> speedsMps, (double Low, double High) vertical) =>
             new CurveChart(canvas, palette, frame,
                 (1000.0 * speedsMps[0], 1000.0 * speedsMps[speedsMps.Count - 1]), vertical, Speeds, "mm/s");
 
-        /// <summary>Horizontal grid lines with their numbers.</summary>
         public void Rows(IEnumerable<double> values, Func<double, string> text) => plot.Rows(values, text);
 
-        /// <summary>Shades a range of the horizontal axis.</summary>
         public void Shade(double low, double high, Colour colour)
         {
             double left = Math.Max(plot.Frame.Left, plot.X(Math.Log10(low)));
@@ -138,7 +132,6 @@ namespace HaptoFlow.Preview
             canvas.FillRectangle(new Box(left, plot.Frame.Top, Math.Max(0.0, right - left), plot.Frame.Height), colour);
         }
 
-        /// <summary>A line through values at places of the horizontal axis.</summary>
         public void Line(IEnumerable<(double Across, double Value)> values, Colour colour, bool isDashed = false)
         {
             (double, double)[] points = values.Select(Point).ToArray();
@@ -156,7 +149,6 @@ namespace HaptoFlow.Preview
             }
         }
 
-        /// <summary>A disc at each value.</summary>
         public void Points(IEnumerable<(double Across, double Value)> values, Colour colour)
         {
             foreach ((double x, double y) in values.Select(Point))

@@ -169,12 +169,10 @@ namespace HaptoFlow.Preview
             Percentile90Ms = Percentile(sortedMs, 0.9);
         }
 
-        /// <summary>Number of measurements.</summary>
         public int Count { get; }
 
         public double MedianMs { get; }
 
-        /// <summary>90th percentile.</summary>
         public double Percentile90Ms { get; }
 
         /// <summary>Generates segments one after the other on the calling thread, the first ones without timing to warm

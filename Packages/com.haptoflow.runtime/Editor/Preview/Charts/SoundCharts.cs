@@ -77,7 +77,6 @@ namespace HaptoFlow.Preview
     /// <summary>Draws power spectral density over time and frequency as colours.</summary>
     internal static class SpectrogramChart
     {
-        /// <summary>Level difference between black and the brightest colour.</summary>
         public const double RangeDecibels = 60.0;
 
         private const int ImageRows = 256;
@@ -140,7 +139,6 @@ namespace HaptoFlow.Preview
     /// <summary>Draws the mean power spectral density from 20 to 1000 Hz over a logarithmic frequency axis.</summary>
     internal static class SpectrumChart
     {
-        /// <summary>Height of the level axis.</summary>
         public const double RangeDecibels = 70.0;
 
         private static readonly double[] GridHz = { 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0 };

@@ -50,7 +50,6 @@ namespace HaptoFlow.Preview
         public void Draw(ICanvas canvas, Palette palette, Box box, int active) =>
             DrawSpectra(canvas, palette, DrawUpper(canvas, palette, box, active));
 
-        /// <summary>The plot area of a waveform within the panel.</summary>
         public static Box Waveform(Box box, int index, int count)
         {
             Box column = Column(box, index, count);
@@ -58,7 +57,6 @@ namespace HaptoFlow.Preview
             return new Box(column.Left + AxisWidth, column.Top + HeaderHeight, column.Width - AxisWidth, height);
         }
 
-        /// <summary>The plot area of a spectrogram within the panel.</summary>
         public static Box SpectrogramBox(Box box, int index, int count)
         {
             Box waveform = Waveform(box, index, count);

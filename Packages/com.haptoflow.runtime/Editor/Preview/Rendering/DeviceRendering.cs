@@ -5,13 +5,10 @@ using HaptoFlow.Outputs;
 
 namespace HaptoFlow.Preview
 {
-    /// <summary>The device whose output is previewed.</summary>
     internal enum PreviewDevice
     {
-        /// <summary>An actuator that plays the waveform itself.</summary>
         Actuator = 0,
 
-        /// <summary>A controller that plays frames of amplitude and frequency.</summary>
         Controller = 1,
 
         /// <summary>A motor that vibrates at one frequency with a variable amplitude.</summary>

@@ -8,7 +8,6 @@ namespace HaptoFlow.Preview
     [Serializable]
     internal struct DrawnPoint
     {
-        /// <summary>Time since the first point.</summary>
         public float TimeSeconds;
 
         /// <summary>Distance from the patch's lower left corner.</summary>
@@ -19,7 +18,6 @@ namespace HaptoFlow.Preview
 
         public float ForceNewtons;
 
-        /// <summary>True for the first point of a touch.</summary>
         public bool Lands;
     }
 

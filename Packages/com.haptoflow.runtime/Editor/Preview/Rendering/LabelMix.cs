@@ -34,25 +34,18 @@ namespace HaptoFlow.Preview
             ToneDbPerOctave = toneDbPerOctave;
         }
 
-        /// <summary>A label, or the name of the learnt material.</summary>
         public string First { get; }
 
-        /// <summary>A label; empty for none.</summary>
         public string Second { get; }
 
-        /// <summary>Share of the second, 0 to 1.</summary>
         public float Share { get; }
 
-        /// <summary>The text of the learnt material's file; empty for a label.</summary>
         public string Learnt { get; }
 
-        /// <summary>Positions of the sliders; empty if they are all 0.</summary>
         public IReadOnlyList<float> Moves => moves ?? AtRest;
 
-        /// <summary>Feature scale, 0.25 to 4.</summary>
         public float FeatureScale { get; }
 
-        /// <summary>Tone: tilt of the spectrum about 150 Hz, -12 to 12.</summary>
         public float ToneDbPerOctave { get; }
 
         /// <summary>True if the first material is not one of the model's labels and must be registered with the engine.
@@ -73,7 +66,6 @@ namespace HaptoFlow.Preview
             }
         }
 
-        /// <summary>Empty if both have their defaults.</summary>
         private string ScaleAndTone
         {
             get

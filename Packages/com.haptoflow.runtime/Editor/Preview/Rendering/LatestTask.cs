@@ -19,7 +19,6 @@ namespace HaptoFlow.Preview
         /// <param name="work">Runs in the background, never twice at the same time.</param>
         public LatestTask(Func<TRequest, CancellationToken, TResult> work) => this.work = work;
 
-        /// <summary>True while a request runs or waits.</summary>
         public bool IsBusy => running != null || waiting != null;
 
         /// <summary>Starts a request, or keeps it until the running one is finished.</summary>

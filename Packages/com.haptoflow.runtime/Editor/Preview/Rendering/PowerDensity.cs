@@ -115,7 +115,6 @@ namespace HaptoFlow.Preview
 
         public int Length { get; }
 
-        /// <summary>Transforms in place.</summary>
         public void Transform(double[] real, double[] imaginary)
         {
             for (int index = 0; index < Length; ++index)

@@ -6,13 +6,11 @@ namespace HaptoFlow.Preview
     /// <summary>Makes strokes from settings.</summary>
     internal static class PresetStrokes
     {
-        /// <summary>Time before the first touch-down.</summary>
         public const double LeadSeconds = 0.1;
 
         /// <summary>Time after the last lift-off, for the fade.</summary>
         public const double TailSeconds = 0.2;
 
-        /// <summary>Height of the rims of <see cref="StrokePreset.Rims"/>.</summary>
         public const float RimHeightMetres = 0.001f;
 
         private const double RimPeriodSeconds = 0.25;

@@ -84,7 +84,6 @@ namespace HaptoFlow.Preview
             return new HapticGenerator(Runtime, opened, tier);
         }
 
-        /// <summary>The material embedding of the model's first label.</summary>
         public float[] Embedding(byte[] modelFile) => Model(modelFile).Embedding(0);
 
         /// <summary>The model, which is kept as long as it is asked for.</summary>
@@ -100,7 +99,6 @@ namespace HaptoFlow.Preview
             return model;
         }
 
-        /// <summary>Frees native memory.</summary>
         public void Dispose()
         {
             CloseModel();

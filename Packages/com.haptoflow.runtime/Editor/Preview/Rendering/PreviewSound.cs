@@ -7,7 +7,6 @@ namespace HaptoFlow.Preview
     /// <summary>The vibration of a stroke on a material, as samples. Immutable by convention; any thread.</summary>
     internal sealed class PreviewSound
     {
-        /// <summary>Sample rate, in Hz.</summary>
         public const int RateHz = 48000;
 
         /// <summary>Full scale: acceleration of a sample of 1, in m/s^2.</summary>
@@ -37,7 +36,6 @@ namespace HaptoFlow.Preview
             RmsMps2 = FullScaleMps2 * Math.Sqrt(squares / Math.Max(1, touched));
         }
 
-        /// <summary>Title of the material or of the device, for display.</summary>
         public string Title { get; }
 
         public LabelMix Material { get; }
@@ -54,7 +52,6 @@ namespace HaptoFlow.Preview
 
         public double PeakMps2 => FullScaleMps2 * Peak;
 
-        /// <summary>RMS while the tip touches.</summary>
         public double RmsMps2 { get; }
     }
 

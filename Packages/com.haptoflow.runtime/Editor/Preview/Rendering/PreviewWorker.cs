@@ -89,7 +89,6 @@ namespace HaptoFlow.Preview
             return new[] { sounds[0], AnalysedSound.Of(played, token) };
         }
 
-        /// <summary>Drops the sounds that this result does not show.</summary>
         private void KeepOnly(IReadOnlyList<AnalysedSound> shown) =>
             kept.RemoveAll(each => !shown.Contains(each.Sound));
 
@@ -129,22 +128,18 @@ namespace HaptoFlow.Preview
     /// <param name="Materials">One, or two to compare.</param>
     internal sealed record PreviewRequest(byte[] ModelFile, Stroke Stroke, IReadOnlyList<LabelMix> Materials)
     {
-        /// <summary>The model's sliders; null if it has none.</summary>
         public SliderSet? Sliders { get; set; }
 
-        /// <summary>Index of the sound that is played.</summary>
         public int Active { get; set; }
 
         /// <summary>Name of a tier of the model, one of <see cref="PreviewQualities.Tiers"/>.</summary>
         public string Tier { get; set; } = "standard";
 
-        /// <summary>Effects of the surface.</summary>
         public HapticEffects Effects { get; set; } = HapticEffects.Texture;
 
         /// <summary>If this is not an actuator, its sound is shown beside the first material's.</summary>
         public PreviewDevice Device { get; set; }
 
-        /// <summary>Key of the noise generator.</summary>
         public ulong Seed { get; set; } = 1;
 
         /// <summary>True while a control is dragged: a used engine may render, whose noise differs from a fresh one's.
@@ -163,7 +158,6 @@ namespace HaptoFlow.Preview
     internal sealed record PreviewResult(PreviewRequest Request, IReadOnlyList<AnalysedSound> Sounds,
         IReadOnlyList<QualityRow> Qualities, string? Problem)
     {
-        /// <summary>Draws the sounds.</summary>
         public SoundPanel Panel { get; } = new SoundPanel(Sounds);
     }
 
@@ -175,7 +169,6 @@ namespace HaptoFlow.Preview
             HapticQuality.Sketch, HapticQuality.Draft, HapticQuality.Standard,
         };
 
-        /// <summary>Their names, in the order of the model.</summary>
         public static string[] Tiers(ModelHeader header) => header.Tiers.Select(tier => tier.Name)
             .Where(name => Fixed.Any(quality => Plays(header, quality, name))).ToArray();
 

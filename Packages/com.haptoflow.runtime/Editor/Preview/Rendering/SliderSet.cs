@@ -20,7 +20,6 @@ namespace HaptoFlow.Preview
             Highest = (float)SliderSet.Number(json["highest"], 0.0, 10.0);
         }
 
-        /// <summary>For example "coarseness".</summary>
         public string Name { get; }
 
         /// <summary>Added to the embedding at a position of 1.</summary>
@@ -101,7 +100,6 @@ namespace HaptoFlow.Preview
             ? list.AsArray().Select(each => Number(each, -1e6, 1e6)).ToArray()
             : throw list.Expected(FormattableString.Invariant($"a list of {count} numbers"));
 
-        /// <summary>True if every slider is at 0.</summary>
         public static bool IsAtRest(IReadOnlyList<float> values) => values.All(value => value.Equals(0f));
 
         /// <summary>Applies the sliders to a material. The embedding stays within the range of the model's labels, or

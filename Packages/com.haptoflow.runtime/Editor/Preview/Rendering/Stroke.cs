@@ -12,7 +12,6 @@ namespace HaptoFlow.Preview
         public const double PatchWidthMetres = 0.12;
         public const double PatchHeightMetres = 0.08;
 
-        /// <summary>Contact states per second.</summary>
         public const double UpdateRateHz = HapticEngineOptions.DefaultUpdateRateHz;
 
         private readonly StrokeState[] states;
@@ -87,10 +86,8 @@ namespace HaptoFlow.Preview
         public double ForceNewtons;
         public bool Touching;
 
-        /// <summary>Normal speed at the touch-down.</summary>
         public double LandingSpeedMps;
 
-        /// <summary>Increases by one at each rim.</summary>
         public uint EdgeCounter;
 
         /// <summary>Time since the start of the stroke. Set by the stroke.</summary>
@@ -128,7 +125,6 @@ namespace HaptoFlow.Preview
         }
     }
 
-    /// <summary>Predefined strokes.</summary>
     internal enum StrokePreset
     {
         /// <summary>Constant speed and direction. A path that leaves the patch enters at the opposite edge.</summary>
@@ -137,26 +133,21 @@ namespace HaptoFlow.Preview
         /// <summary>Back and forth: full speed in the middle, zero at the turning points.</summary>
         BackAndForth = 1,
 
-        /// <summary>A spiral outwards at constant speed, in all directions.</summary>
         Spiral = 2,
 
-        /// <summary>From rest to full speed in one direction.</summary>
         Accelerating = 3,
 
         /// <summary>Constant speed with a force that rises from zero.</summary>
         Pressing = 4,
 
-        /// <summary>Short touches during a motion of constant speed.</summary>
         Taps = 5,
 
-        /// <summary>The stroke drawn on the patch.</summary>
         Drawn = 6,
 
         /// <summary>Constant speed over a row of blocks, with a rim every 250 ms.</summary>
         Rims = 7,
     }
 
-    /// <summary>The parameters of a predefined stroke.</summary>
     internal readonly struct StrokeSettings
     {
         /// <summary>Approach speed of a gentle touch-down, in m/s.</summary>
@@ -172,7 +163,6 @@ namespace HaptoFlow.Preview
             LandingSpeedMps = landingSpeedMps;
         }
 
-        /// <summary>Tangential speed, above 0.</summary>
         public double SpeedMps { get; }
 
         public double ForceNewtons { get; }
@@ -183,7 +173,6 @@ namespace HaptoFlow.Preview
         /// <summary>Time from the first touch-down to the last lift-off.</summary>
         public double ContactSeconds { get; }
 
-        /// <summary>Normal speed at every touch-down.</summary>
         public double LandingSpeedMps { get; }
     }
 }
