@@ -166,7 +166,6 @@ namespace HaptoFlow.PreviewTests
         }
 
         public double PixelsPerPoint { get; }
-
         public Box Whole { get; }
 
         public int PixelWidth => bitmap.Width;

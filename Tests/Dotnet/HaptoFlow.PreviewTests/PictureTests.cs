@@ -98,15 +98,6 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void OneMaterialIsDrawnOverTheWholeWidth([Values(1.0, 1.5, 2.0)] double pixelsPerPoint)
-        {
-            using SkiaCanvas canvas = Charts(Palette.Dark, new PreviewLayout(1200.0, 800.0).Charts, pixelsPerPoint,
-                Sounds(StrokePreset.Accelerating, new LabelMix("metal mesh")));
-            Save($"charts-one-{100 * pixelsPerPoint:0}", canvas);
-            Assert.That(SoundPanel.Waveform(canvas.Whole, 0, 1).Width, Is.GreaterThan(700.0));
-        }
-
-        [Test]
         public void TheSmallestWindowIsLegible([Values] bool dark)
         {
             using SkiaCanvas canvas = Charts(dark ? Palette.Dark : Palette.Light, new PreviewLayout(0.0, 0.0).Charts,
@@ -158,17 +149,6 @@ namespace HaptoFlow.PreviewTests
             using SkiaCanvas canvas = Stroke(Palette.Light, DrawnStroke.Of(Array.Empty<DrawnPoint>()), 2.0);
             Save("stroke-empty", canvas);
             Assert.That(canvas.Texts.Select(each => each.Text), Does.Contain("Draw a stroke"));
-        }
-
-        [Test]
-        public void ToMetresInvertsToPoints()
-        {
-            Box patch = PreviewLayout.Patch(new Box(0.0, 0.0, 312.0, 340.0));
-            Assert.That(patch.Width / patch.Height, Is.EqualTo(1.5).Within(1e-9), "both axes have the same scale");
-            (double x, double y) = PatchPicture.ToPoints(patch, 0.03, 0.07);
-            (double xMetres, double yMetres) = PatchPicture.ToMetres(patch, x, y);
-            Assert.That((xMetres, yMetres), Is.EqualTo((0.03, 0.07)).Within(1e-12));
-            Assert.That(PatchPicture.ToMetres(patch, patch.Left, patch.Bottom), Is.EqualTo((0.0, 0.0)));
         }
 
         [TestCase(1080.0, 932.0)]

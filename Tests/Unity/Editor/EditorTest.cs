@@ -128,9 +128,7 @@ namespace HaptoFlow.EditorTests
     public abstract class SceneCheckTest : EditorTest
     {
         internal HaptoFlowSettings ProjectSettings { get; private set; } = null!;
-
         internal HapticStylus ScenesStylus { get; private set; } = null!;
-
         internal HapticOutput ScenesOutput { get; private set; } = null!;
 
         [SetUp]

@@ -240,7 +240,6 @@ namespace UnityEditor.AssetImporters
         }
 
         public int version { get; private set; }
-
         public string[] fileExtensions { get; private set; }
     }
 
@@ -252,7 +251,6 @@ namespace UnityEditor.AssetImporters
         internal AssetImportContext(string path) => assetPath = path;
 
         public string assetPath { get; internal set; }
-
         public Object? mainObject { get; private set; }
 
         public void AddObjectToAsset(string identifier, Object obj) => objects.Add(identifier, obj);

@@ -69,7 +69,6 @@ namespace UnityEditor
         }
 
         public bool enabled { get; set; }
-
         public string path { get; set; }
     }
 

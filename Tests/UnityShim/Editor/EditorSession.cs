@@ -288,9 +288,7 @@ namespace UnityEditor
         }
 
         public string settingsPath { get; }
-
         public SettingsScope scope { get; }
-
         public Action<string>? guiHandler { get; set; }
 
         public virtual void OnGUI(string searchContext) => guiHandler?.Invoke(searchContext);

@@ -127,7 +127,6 @@ namespace UnityEngine
     public partial class GUIUtility
     {
         public static int hotControl { get; set; }
-
         public static int keyboardControl { get; set; }
 
         public static int GetControlID(int hint, FocusType focusType, Rect rect) => hint | 1;

@@ -107,7 +107,6 @@ namespace UnityEngine
         }
 
         public static GUIStyle none { get; } = new GUIStyle();
-
         public string name { get; set; } = "";
         public bool wordWrap { get; set; }
         public bool richText { get; set; }
@@ -220,7 +219,6 @@ namespace UnityEngine
     public sealed partial class Event
     {
         public static Event current { get; set; } = new Event();
-
         public EventType type { get; set; } = EventType.Ignore;
         public KeyCode keyCode { get; set; }
         public EventModifiers modifiers { get; set; }

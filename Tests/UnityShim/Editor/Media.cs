@@ -170,7 +170,6 @@ namespace UnityEngine
             new List<(Vector3 Position, Quaternion Rotation, Vector3 Size, Color Color)>();
 
         public static Color color { get; set; } = Color.white;
-
         public static Matrix4x4 matrix { get; set; }
 
         public static void DrawCube(Vector3 center, Vector3 size) =>

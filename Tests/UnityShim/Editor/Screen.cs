@@ -29,13 +29,9 @@ namespace UnityShim
         }
 
         public DrawnKind Kind { get; }
-
         public string Label { get; }
-
         public string Value { get; }
-
         public string Tooltip { get; }
-
         public bool Enabled { get; }
 
         public override string ToString() => $"{Kind}: {Label}{(Value.Length > 0 ? " = " + Value : "")}";
@@ -156,7 +152,6 @@ namespace UnityShim
         public string Call { get; }
 
         public Rect Place { get; }
-
         public Color Color { get; }
 
         /// <summary>Empty for shapes and images.</summary>

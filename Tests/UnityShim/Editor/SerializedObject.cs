@@ -112,7 +112,6 @@ namespace UnityEditor
         }
 
         public SerializedObject serializedObject { get; }
-
         public string propertyPath { get; }
 
         public string name => field.Name;

@@ -14,9 +14,7 @@ namespace UnityEditor
         private static readonly List<EditorWindow> Open = new List<EditorWindow>();
 
         public GUIContent titleContent { get; set; } = new GUIContent();
-
         public Vector2 minSize { get; set; }
-
         public Rect position { get; set; } = new Rect(0f, 0f, 800f, 600f);
 
         public static T GetWindow<T>()

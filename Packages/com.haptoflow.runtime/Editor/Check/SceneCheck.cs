@@ -62,11 +62,8 @@ namespace HaptoFlow.Editor
         }
 
         public IReadOnlyList<HapticStylus> Styluses { get; }
-
         public IReadOnlyList<HapticSurface> Surfaces { get; }
-
         public IReadOnlyList<HapticOutput> Outputs { get; }
-
         public IReadOnlyList<HapticOutput> SwitchedOffOutputs { get; }
 
         /// <summary>The outputs that play in a hand, switched on or off, without those made automatically.</summary>

@@ -35,9 +35,7 @@ namespace HaptoFlow.Editor
         }
 
         public HapticStylus Stylus { get; }
-
         public HapticHand Hand { get; }
-
         public bool IsNamed { get; }
 
         /// <summary>The enabled audio output; null without one.</summary>

@@ -34,9 +34,7 @@ namespace HaptoFlow.Editor
         public string? Mismatch { get; }
 
         public string Title { get; } = "";
-
         public string Description { get; } = "";
-
         public IReadOnlyList<SummaryRow> Rows { get; } = new SummaryRow[0];
 
         /// <param name="text">The text of a material file.</param>

@@ -29,9 +29,7 @@ namespace HaptoFlow.Editor
         public string? Problem { get; }
 
         public string Title { get; } = "";
-
         public string Description { get; } = "";
-
         public IReadOnlyList<SummaryRow> Origin { get; } = new SummaryRow[0];
 
         /// <summary>The tiers in the order of the file, the most accurate last.</summary>

@@ -270,9 +270,7 @@ namespace HaptoFlow.Editor
         }
 
         public PreviewLayout Layout { get; }
-
         public double PixelsPerPoint { get; }
-
         public Palette Palette { get; }
 
         /// <summary>The view of a window now. Call this in OnGUI.</summary>

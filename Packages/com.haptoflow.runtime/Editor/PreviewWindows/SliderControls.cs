@@ -135,7 +135,6 @@ namespace HaptoFlow.Editor
             (this.modelFile, Sliders, Problem) = (modelFile, sliders, problem);
 
         public SliderSet? Sliders { get; }
-
         public string? Problem { get; }
 
         /// <summary>The sliders of a model.</summary>

@@ -30,7 +30,6 @@ namespace HaptoFlow.Editor
         public double? PlayedSeconds => IsPlaying ? PositionSamples / (double)PreviewSound.RateHz : (double?)null;
 
         public abstract float Gain { get; }
-
         protected PreviewSpeaker Speaker { get; } = new PreviewSpeaker();
 
         /// <summary>The sounds that are shown; none until they are rendered.</summary>

@@ -95,9 +95,7 @@ namespace HaptoFlow.Editor
         }
 
         public bool OfSelection { get; }
-
         public IReadOnlyList<SurfaceLine> Felt { get; }
-
         public IReadOnlyList<SurfaceLine> NotFelt { get; }
 
         /// <summary>Lists the colliders of the selected objects, or of the open scenes.</summary>

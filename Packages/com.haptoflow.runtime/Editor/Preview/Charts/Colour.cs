@@ -10,11 +10,8 @@ namespace HaptoFlow.Preview
             (Red, Green, Blue, Opacity) = (red, green, blue, opacity);
 
         public byte Red { get; }
-
         public byte Green { get; }
-
         public byte Blue { get; }
-
         public byte Opacity { get; }
 
         /// <param name="rgb">0xRRGGBB, opaque.</param>
@@ -78,26 +75,18 @@ namespace HaptoFlow.Preview
         }
 
         public Colour Window { get; private set; }
-
         public Colour Card { get; private set; }
-
         public Colour Plot { get; private set; }
-
         public Colour Grid { get; private set; }
-
         public Colour Ink { get; private set; }
 
         /// <summary>Secondary text: axis numbers and remarks.</summary>
         public Colour Soft { get; private set; }
 
         public Colour First { get; private set; }
-
         public Colour Second { get; private set; }
-
         public Colour Speed { get; private set; }
-
         public Colour Force { get; private set; }
-
         public Colour Patch { get; private set; }
     }
 

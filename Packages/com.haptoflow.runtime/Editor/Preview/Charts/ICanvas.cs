@@ -98,11 +98,8 @@ namespace HaptoFlow.Preview
             (Left, Top, Width, Height) = (left, top, width, height);
 
         public double Left { get; }
-
         public double Top { get; }
-
         public double Width { get; }
-
         public double Height { get; }
 
         public double Right => Left + Width;

@@ -129,7 +129,6 @@ namespace HaptoFlow.Preview
         }
 
         public string Name { get; }
-
         public bool IsDefault { get; }
 
         /// <summary>Null until it was measured.</summary>
@@ -170,9 +169,7 @@ namespace HaptoFlow.Preview
         }
 
         public int Count { get; }
-
         public double MedianMs { get; }
-
         public double Percentile90Ms { get; }
 
         /// <summary>Generates segments one after the other on the calling thread, the first ones without timing to warm

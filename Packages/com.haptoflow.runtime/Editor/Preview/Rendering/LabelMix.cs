@@ -35,17 +35,13 @@ namespace HaptoFlow.Preview
         }
 
         public string First { get; }
-
         public string Second { get; }
-
         public float Share { get; }
-
         public string Learnt { get; }
 
         public IReadOnlyList<float> Moves => moves ?? AtRest;
 
         public float FeatureScale { get; }
-
         public float ToneDbPerOctave { get; }
 
         /// <summary>True if the first material is not one of the model's labels and must be registered with the engine.

@@ -37,9 +37,7 @@ namespace HaptoFlow.Preview
         }
 
         public string Title { get; }
-
         public LabelMix Material { get; }
-
         public Stroke Stroke { get; }
 
         /// <summary>One channel in units of <see cref="FullScaleMps2"/>, -1 to 1.</summary>

@@ -129,7 +129,6 @@ namespace HaptoFlow.Preview
     internal sealed record PreviewRequest(byte[] ModelFile, Stroke Stroke, IReadOnlyList<LabelMix> Materials)
     {
         public SliderSet? Sliders { get; set; }
-
         public int Active { get; set; }
 
         /// <summary>Name of a tier of the model, one of <see cref="PreviewQualities.Tiers"/>.</summary>

@@ -29,7 +29,6 @@ namespace HaptoFlow.Preview
         public double LevelDecibels { get; }
 
         public float Lowest { get; }
-
         public float Highest { get; }
     }
 

@@ -164,7 +164,6 @@ namespace HaptoFlow.Preview
         }
 
         public double SpeedMps { get; }
-
         public double ForceNewtons { get; }
 
         /// <summary>0 is the surface's first axis, to the right; 90 is the second, upwards.</summary>
