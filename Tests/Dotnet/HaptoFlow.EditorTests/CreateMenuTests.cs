@@ -58,11 +58,13 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void AFirstSceneUsesTheOutputThatTheSceneHas()
+        public void AFirstSceneUsesTheOutputAndTheCameraThatTheSceneHas()
         {
             HapticOutput output = Output();
+            camera.transform.position = new Vector3(1f, 1f, 1f);
             CreateMenu.CreateFirstScene(new MenuCommand(null));
             Assert.That(All<HapticOutput>(), Is.EqualTo(new[] { output }));
+            Assert.That(camera.transform.position, Is.EqualTo(new Vector3(1f, 1f, 1f)), "the user has moved it");
         }
 
         [Test]

@@ -104,6 +104,11 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
+        public void PublishedPagesTakeThePlaceOfThoseInThePackage() => Assert.That(
+            HelpPages.AddressOfPage("components.html#haptic-surface", "https://pages.example/"),
+            Is.EqualTo("https://pages.example/components.html#haptic-surface"));
+
+        [Test]
         public void TheMenuOpensTheFirstPage()
         {
             string pages = InstalledPages("menu");
