@@ -167,9 +167,6 @@ namespace HaptoFlow.EditorTests
         }
 
         private static int Count() => All<Transform>().Length;
-
-        private static T[] All<T>()
-            where T : Object => Object.FindObjectsByType<T>(FindObjectsInactive.Include, FindObjectsSortMode.None);
     }
 
     public sealed class DeviceCheckMenuTests : EditorTest
@@ -180,14 +177,11 @@ namespace HaptoFlow.EditorTests
             Undo.IncrementCurrentGroup();
             DeviceCheckMenu.Add();
             DeviceCheckMenu.Add();
-            Assert.That(All(), Has.Length.EqualTo(1));
-            Assert.That(Selection.activeGameObject, Is.SameAs(All().Single().gameObject));
+            Assert.That(All<DeviceCheckRun>(), Has.Length.EqualTo(1));
+            Assert.That(Selection.activeGameObject, Is.SameAs(All<DeviceCheckRun>().Single().gameObject));
             Undo.PerformUndo();
-            Assert.That(All(), Is.Empty);
+            Assert.That(All<DeviceCheckRun>(), Is.Empty);
         }
-
-        private static DeviceCheckRun[] All() => Object.FindObjectsByType<DeviceCheckRun>(
-            FindObjectsInactive.Include, FindObjectsSortMode.None);
     }
 
     /// <summary>The menu Window > HaptoFlow > Sample Scenes makes the scenes that the samples have as files.</summary>
@@ -224,8 +218,7 @@ namespace HaptoFlow.EditorTests
             IEnumerable<string> guids = Regex.Matches(
                 File.ReadAllText(SampleFiles.Scene("Workshop")), @"fileID: 4900000, guid: (\w+)")
                 .Select(match => match.Groups[1].Value);
-            var panel = Object.FindObjectsByType<AddMaterialPanel>(
-                FindObjectsInactive.Include, FindObjectsSortMode.None).Single();
+            var panel = All<AddMaterialPanel>().Single();
             var beside = (TextAsset[])PrivateField(panel, "beside")!;
             TextAsset[] recordings = beside.Prepend((TextAsset)PrivateField(panel, "recording")!).ToArray();
             Assert.That(recordings.Select(each => GuidOf(each)), Is.EqualTo(guids));
@@ -243,8 +236,7 @@ namespace HaptoFlow.EditorTests
             SampleSceneMenu.MakeTextureGallery();
             Assert.That(before == null, Is.True);
             Assert.That(EditorSession.SceneIsDirty, Is.True);
-            Assert.That(Selection.activeGameObject, Is.SameAs(Object.FindObjectsByType<GalleryScene>(
-                FindObjectsInactive.Include, FindObjectsSortMode.None).Single().gameObject));
+            Assert.That(Selection.activeGameObject, Is.SameAs(All<GalleryScene>().Single().gameObject));
         }
 
         [Test]

@@ -11,7 +11,7 @@ using Object = UnityEngine.Object;
 namespace HaptoFlow.EditorTests
 {
     /// <summary>The clicks of the page first-vibration.md, and what plays then.</summary>
-    public sealed class FirstVibrationTests : EditorTest
+    public sealed class FirstVibrationTests : PlayedTest
     {
         private const float Audible = 0.001f;
 
@@ -26,33 +26,20 @@ namespace HaptoFlow.EditorTests
         [SetUp]
         public void OpenANewScene()
         {
-            HapticSession.OptionsOverride = new HapticEngineOptions { WithoutWorker = true, FixedLeadMs = 8.0, Seed = 3 };
-            HeldDevices.Reset();
-            SimulatedInput.Reset();
-            GameObject owner = Make("Main Camera");
-            owner.tag = "MainCamera";
-            owner.transform.position = new Vector3(0f, 1f, -10f);
-            camera = owner.AddComponent<Camera>();
-            owner.AddComponent<AudioListener>();
-            Undo.IncrementCurrentGroup();
+            camera = MainCamera();
             drawnIn = "Right";
+            Undo.IncrementCurrentGroup();
         }
 
         [TearDown]
         public void LeaveTheScene()
         {
-            if (Application.isPlaying)
-            {
-                EditorSession.Stop();
-            }
+            StopPlaying();
             foreach (GameObject each in opened?.Owners.Where(each => each != null) ?? Enumerable.Empty<GameObject>())
             {
                 Object.DestroyImmediate(each);
             }
             opened = null;
-            HapticSession.OptionsOverride = null;
-            HeldDevices.Reset();
-            SimulatedInput.Reset();
         }
 
         [TestCase(true)]
@@ -185,7 +172,7 @@ namespace HaptoFlow.EditorTests
         {
             Transform plate = Begin();
             SimulatedInput.MouseButton = true;
-            SteppedFrames.Play(90, frame => SimulatedInput.MousePosition = camera.WorldToScreenPoint(Top(plate, frame)));
+            Frames(90, frame => SimulatedInput.MousePosition = camera.WorldToScreenPoint(Top(plate, frame)));
             SimulatedInput.MouseButton = false;
         }
 
@@ -194,7 +181,7 @@ namespace HaptoFlow.EditorTests
             Transform plate = Begin();
             SetTracked(drawnIn, true);
             SimulatedInput.SetControl($"<XRController>{{{drawnIn}Hand}}/pointerRotation", Quaternion.identity);
-            SteppedFrames.Play(90, frame => SimulatedInput.SetControl(
+            Frames(90, frame => SimulatedInput.SetControl(
                 $"<XRController>{{{drawnIn}Hand}}/pointerPosition", Top(plate, frame) + 0.001f * Vector3.up));
         }
 
@@ -216,9 +203,6 @@ namespace HaptoFlow.EditorTests
 
         private static float Peak(int channel) => Enumerable.Range(0, AudioDevice.RecordedFrames)
             .Max(frame => Math.Abs(AudioDevice.Sample(frame, channel)));
-
-        private static T[] All<T>()
-            where T : Object => Object.FindObjectsByType<T>(FindObjectsInactive.Include, FindObjectsSortMode.None);
 
         /// <summary>Stands for the component of that name in Meta's SDK.</summary>
         private sealed class OVRCameraRig : MonoBehaviour

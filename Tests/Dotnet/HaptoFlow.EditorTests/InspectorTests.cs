@@ -135,10 +135,8 @@ namespace HaptoFlow.EditorTests
             Draw(surface);
             var window = EditorWindow.GetWindow<TexturePreviewWindow>();
             Assert.That(window.State.First.Label, Is.EqualTo("glass"));
-            HapticMaterial material = ScriptableObject.CreateInstance<HapticMaterial>();
-            material.Description.Label = "cork";
             EditorScreen.Press("Preview");
-            Draw(material);
+            Draw(Material("cork"));
             Assert.That(window.State.First.Label, Is.EqualTo("cork"));
             WindowHost.Close(window);
         }

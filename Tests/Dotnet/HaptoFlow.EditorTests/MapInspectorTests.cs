@@ -85,10 +85,7 @@ namespace HaptoFlow.EditorTests
         [Test]
         public void ASurfaceShowsTheRuleThatAppliesWithoutIt()
         {
-            HapticMaterial stone = ScriptableObject.CreateInstance<HapticMaterial>();
-            stone.name = "stone";
-            stone.Description.Label = "stone";
-            HapticMaterialMap map = Map(HapticMaterialRule.ForTag("Finish", stone));
+            HapticMaterialMap map = Map(HapticMaterialRule.ForTag("Finish", Material("stone")));
             map.name = "Rooms";
             Settings().MaterialMap = map;
             ProjectSettingsAsset.Forget();

@@ -169,24 +169,10 @@ namespace HaptoFlow.EditorTests
     }
 
     /// <summary>What Check Scene says before playing is what plays, in every combination of outputs.</summary>
-    public sealed class StylusPlacesPlayTests : EditorTest
+    public sealed class StylusPlacesPlayTests : PlayedTest
     {
         [OneTimeSetUp]
         public void LoadOptionalAssemblies() => OptionalAssemblies.Load();
-
-        [SetUp]
-        public void StepTheEngine()
-        {
-            HeldDevices.Reset();
-            HapticSession.OptionsOverride = new HapticEngineOptions { WithoutWorker = true, FixedLeadMs = 8.0, Seed = 3 };
-        }
-
-        [TearDown]
-        public void Forget()
-        {
-            HapticSession.OptionsOverride = null;
-            HeldDevices.Reset();
-        }
 
         [Test, Pairwise]
         public void WhatCheckSceneSaysIsWhatPlays(
@@ -217,12 +203,10 @@ namespace HaptoFlow.EditorTests
             World.Frames(5);
 
             bool playsInHand = said.UsesHand && isConnected;
-            HapticOutput? sounding = Object.FindObjectsByType<HapticOutput>(
-                FindObjectsInactive.Include, FindObjectsSortMode.None).SingleOrDefault(HasVoice);
+            HapticOutput? sounding = All<HapticOutput>().SingleOrDefault(HasVoice);
             Assert.That(sounding != null && sounding.IsMade, Is.EqualTo(said.GetsMadeOutput && !playsInHand), "made");
             Assert.That(sounding == output && output != null, Is.EqualTo(said.Audio != null && !playsInHand), "audio");
-            AutoOutput[] inHands = Object.FindObjectsByType<AutoOutput>(
-                FindObjectsInactive.Include, FindObjectsSortMode.None);
+            AutoOutput[] inHands = All<AutoOutput>();
             Assert.That(inHands.Any(each => each.IsMade), Is.EqualTo(said.UsesHand), "chosen");
             Assert.That(inHands.Any(each => !each.IsMade && each.isActiveAndEnabled), Is.EqualTo(said.Devices.Count > 0));
             Assert.That(stylus.TryGetStatistics(out _), Is.EqualTo(!said.IsSilent), "silent");

@@ -9,16 +9,8 @@ using UnityShim;
 namespace HaptoFlow.EditorTests
 {
     /// <summary>Play mode in an editor with domain reload off, and reloads of scripts.</summary>
-    public sealed class PlayModeTests : EditorTest
+    public sealed class PlayModeTests : PlayedTest
     {
-        [SetUp]
-        public void StepTheEngine() =>
-            HapticSession.OptionsOverride =
-                new HapticEngineOptions { WithoutWorker = true, FixedLeadMs = 8.0, Seed = 3 };
-
-        [TearDown]
-        public void ForgetOptions() => HapticSession.OptionsOverride = null;
-
         [Test]
         public void PlayModeUsesTheProjectsSettings()
         {
@@ -96,13 +88,8 @@ namespace HaptoFlow.EditorTests
             output.Processing.ExposureGuard = true;
             output.ApplyProcessing();
             // The tip descends onto the table at 0.3 m/s.
-            for (int frame = 0; frame < 90; ++frame)
-            {
-                float height = Mathf.Max(0.001f, 0.1f - 0.3f / 90f * frame);
-                stylus.transform.position = new Vector3(0f, height, 0f);
-                World.Frame();
-                HapticSession.Current.Engine!.Step();
-            }
+            Frames(90, frame => stylus.transform.position =
+                new Vector3(0f, Mathf.Max(0.001f, 0.1f - 0.3f / 90f * frame), 0f));
             Drawn[] drawn = InspectorTests.Draw(stylus).ToArray();
             Assert.That(Value(drawn, "Impact"), Does.Match("^1 impacts, [0-9]+[.][0-9] us a block$"));
             Assert.That(Value(drawn, "Exposure Guard"), Does.Match("^[0-9]+[.][0-9] us a block$"));
@@ -138,10 +125,8 @@ namespace HaptoFlow.EditorTests
             HapticStylus stylus = PlayTouching(out _);
             HapticMaterialMap map = ScriptableObject.CreateInstance<HapticMaterialMap>();
             map.name = "Rooms";
-            HapticMaterial stone = ScriptableObject.CreateInstance<HapticMaterial>();
-            stone.Description.Label = "stone";
             map.Add(HapticMaterialRule.ForTag("Finish", null));
-            map.Add(HapticMaterialRule.ForName("Tab*", stone));
+            map.Add(HapticMaterialRule.ForName("Tab*", Material("stone")));
             HaptoFlowSettings.Active.MaterialMap = map;
             stylus.Contact.Surface!.enabled = false;
             World.Frames(2);
@@ -237,12 +222,7 @@ namespace HaptoFlow.EditorTests
             stylus.transform.position = new Vector3(-0.2f, 0.001f, 0f);
             EditorSession.Play();
             HapticSession.Current.FinishLoading();
-            for (int frame = 0; frame < 45; ++frame)
-            {
-                stylus.transform.position += new Vector3(0.15f / 90f, 0f, 0f);
-                World.Frame();
-                HapticSession.Current.Engine!.Step();
-            }
+            Frames(45, _ => stylus.transform.position += new Vector3(0.15f / 90f, 0f, 0f));
             Assert.That(stylus.IsTouching, Is.True);
             return stylus;
         }

@@ -254,12 +254,6 @@ namespace HaptoFlow.PreviewTests
             Updates(seconds);
         }
 
-        private void Press(string caption)
-        {
-            EditorScreen.Press(caption);
-            WindowHost.Draw(Window);
-        }
-
         private string[] Remarks() => WindowHost.Draw(Window).Select(item => item.Label).ToArray();
 
         private void Updates(double seconds)

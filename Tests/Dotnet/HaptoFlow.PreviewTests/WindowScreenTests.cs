@@ -15,17 +15,9 @@ namespace HaptoFlow.PreviewTests
     /// <summary>Tests of the Texture Preview window that need the shim: drawing, controls, clean-up.</summary>
     public sealed class WindowScreenTests : PreviewWindowTest
     {
-        private IReadOnlyList<Drawn> Screen() => WindowHost.Draw(Window);
-
         private void Enter(string label, object value)
         {
             EditorScreen.Enter(label, value);
-            Screen();
-        }
-
-        private void Press(string label)
-        {
-            EditorScreen.Press(label);
             Screen();
         }
 
@@ -326,12 +318,6 @@ namespace HaptoFlow.PreviewTests
     /// <summary>Tests of the Texture Preview window that need the shim: playback and export.</summary>
     public sealed class WindowSoundTests : PreviewWindowTest
     {
-        private void Press(string caption)
-        {
-            EditorScreen.Press(caption);
-            WindowHost.Draw(Window);
-        }
-
         [SetUp]
         public void Reset() => WindowHost.AnswerToSave = null;
 

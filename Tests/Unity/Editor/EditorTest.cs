@@ -120,6 +120,18 @@ namespace HaptoFlow.EditorTests
             return stylus;
         }
 
+        /// <summary>All objects of a kind, disabled ones too.</summary>
+        internal static T[] All<T>()
+            where T : Object => Object.FindObjectsByType<T>(FindObjectsInactive.Include, FindObjectsSortMode.None);
+
+        internal static HapticMaterial Material(string label)
+        {
+            HapticMaterial material = ScriptableObject.CreateInstance<HapticMaterial>();
+            material.name = label;
+            material.Description.Label = label;
+            return material;
+        }
+
         internal HapticOutput Output() => Make("Output").AddComponent<HapticOutput>();
     }
 

@@ -174,14 +174,6 @@ namespace HaptoFlow.EditorTests
             return found[0];
         }
 
-        private static HapticMaterial Material(string label)
-        {
-            HapticMaterial material = ScriptableObject.CreateInstance<HapticMaterial>();
-            material.name = label;
-            material.Description.Label = label;
-            return material;
-        }
-
         private static HapticMaskMap Mask()
         {
             HapticMaskMap mask = ScriptableObject.CreateInstance<HapticMaskMap>();

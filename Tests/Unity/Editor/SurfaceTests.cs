@@ -136,14 +136,6 @@ namespace HaptoFlow.EditorTests
             SurfaceList list = SurfaceList.Of(new[] { owner });
             return list.Felt.Concat(list.NotFelt).Single().Text;
         }
-
-        private static HapticMaterial Material(string label)
-        {
-            HapticMaterial material = ScriptableObject.CreateInstance<HapticMaterial>();
-            material.name = label;
-            material.Description.Label = label;
-            return material;
-        }
     }
 
     public sealed class SurfaceSeedKeeperTests : EditorTest

@@ -93,6 +93,16 @@ namespace HaptoFlow.PreviewTests
         internal bool Key(KeyCode key, EventModifiers modifiers = EventModifiers.None) =>
             Window.SendEvent(new Event { type = EventType.KeyDown, keyCode = key, modifiers = modifiers });
 
+#if HAPTOFLOW_OUTSIDE_UNITY
+        internal IReadOnlyList<UnityShim.Drawn> Screen() => UnityShim.WindowHost.Draw(Window);
+
+        internal void Press(string caption)
+        {
+            UnityShim.EditorScreen.Press(caption);
+            Screen();
+        }
+#endif
+
         /// <summary>Path of a new file in the project's Temp folder.</summary>
         internal static string TemporaryFile()
         {
