@@ -65,6 +65,9 @@ namespace UnityEngine
 
         public static Color white => new Color(1f, 1f, 1f);
         public static Color black => new Color(0f, 0f, 0f);
+
+        public static Color operator +(Color a, Color b) => new Color(a.r + b.r, a.g + b.g, a.b + b.b, a.a + b.a);
+        public static Color operator *(float b, Color a) => new Color(b * a.r, b * a.g, b * a.b, b * a.a);
     }
 
     public partial class Texture : Object
