@@ -50,7 +50,7 @@ namespace HaptoFlow.PreviewTests
         public void AMaterialOutsideTheRangeOfTheLabelsStaysWhereItIs()
         {
             double[] axis = Json["axes"][0].AsArray().Select(each => each.AsNumber()).ToArray();
-            double[] far = Label("wood").Embedding.Select((number, index) => index < axis.Length ? number + 5.0 * axis[index] : number).ToArray();
+            double[] far = Label("wood").Embedding.Select((number, index) => index < axis.Length ? number + 20.0 * axis[index] : number).ToArray();
             double place = Sliders.Coordinate(far, 0);
             Assert.That(place, Is.GreaterThan(Json["highest"][0].AsNumber()));
             Assert.That(Sliders.Coordinate(Sliders.Moved(far, new float[3]), 0), Is.EqualTo(place).Within(1e-9));
@@ -77,6 +77,7 @@ namespace HaptoFlow.PreviewTests
         [TestCase("haptoflow-sliders", "haptoflow-material", "format is not \"haptoflow-sliders\"")]
         [TestCase("\"direction\": [", "\"direction\": [0,", "sliders[0].direction is not a list of")]
         [TestCase("\"lowest\": [", "\"lowest\": [0,", "lowest is not a list of")]
+        [TestCase("0.211864", "1e7", "sliders[0].direction[0] is not a number from -1000000 to 1000000")]
         [TestCase("\"mean\"", "\"means\"", "has no key \"mean\"")]
         public void AnInvalidFileIsRefusedWithTheNameOfItsKey(string part, string instead, string message)
         {
