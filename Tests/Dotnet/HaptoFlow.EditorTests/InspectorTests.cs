@@ -136,7 +136,7 @@ namespace HaptoFlow.EditorTests
             var window = EditorWindow.GetWindow<TexturePreviewWindow>();
             Assert.That(window.State.First.Label, Is.EqualTo("glass"));
             EditorScreen.Press("Preview");
-            Draw(Material("cork"));
+            Draw(Feeling("cork"));
             Assert.That(window.State.First.Label, Is.EqualTo("cork"));
             WindowHost.Close(window);
         }

@@ -85,7 +85,7 @@ namespace HaptoFlow.EditorTests
         [Test]
         public void ASurfaceShowsTheRuleThatAppliesWithoutIt()
         {
-            HapticMaterialMap map = Map(HapticMaterialRule.ForTag("Finish", Material("stone")));
+            HapticMaterialMap map = Map(HapticMaterialRule.ForTag("Finish", Feeling("stone")));
             map.name = "Rooms";
             Settings().MaterialMap = map;
             ProjectSettingsAsset.Forget();

@@ -126,7 +126,7 @@ namespace HaptoFlow.EditorTests
             HapticMaterialMap map = ScriptableObject.CreateInstance<HapticMaterialMap>();
             map.name = "Rooms";
             map.Add(HapticMaterialRule.ForTag("Finish", null));
-            map.Add(HapticMaterialRule.ForName("Tab*", Material("stone")));
+            map.Add(HapticMaterialRule.ForName("Tab*", Feeling("stone")));
             HaptoFlowSettings.Active.MaterialMap = map;
             stylus.Contact.Surface!.enabled = false;
             World.Frames(2);

@@ -124,7 +124,7 @@ namespace HaptoFlow.EditorTests
         internal static T[] All<T>()
             where T : Object => Object.FindObjectsByType<T>(FindObjectsInactive.Include, FindObjectsSortMode.None);
 
-        internal static HapticMaterial Material(string label)
+        internal static HapticMaterial Feeling(string label)
         {
             HapticMaterial material = ScriptableObject.CreateInstance<HapticMaterial>();
             material.name = label;

@@ -24,7 +24,7 @@ namespace HaptoFlow.EditorTests
         [Test]
         public void EveryColliderIsListedWithItsMaterialAndRule()
         {
-            map.Add(HapticMaterialRule.ForTag("Finish", Material("stone")));
+            map.Add(HapticMaterialRule.ForTag("Finish", Feeling("stone")));
             map.Add(HapticMaterialRule.ForName("Cloud*", null));
             Box("Step 1").tag = "Finish";
             Box("Step 2").tag = "Finish";
@@ -43,7 +43,7 @@ namespace HaptoFlow.EditorTests
         [Test]
         public void OnlyCollidersThatNoRuleMatchesAreProposedForTagging()
         {
-            map.Add(HapticMaterialRule.ForName("*Door", Material("wood")));
+            map.Add(HapticMaterialRule.ForName("*Door", Feeling("wood")));
             Box("Steel Door");
             Assert.That(Texts(), Has.None.Contains("is not tagged"));
             Box("Steel Shelf");
@@ -53,8 +53,8 @@ namespace HaptoFlow.EditorTests
         [Test]
         public void ARuleThatAnEarlierOneCoversIsFoundAndRemovedWithOneUndo()
         {
-            map.Add(HapticMaterialRule.ForName("Rug*", Material("fur")));
-            map.Add(HapticMaterialRule.ForName("rug (*)", Material("wood")));
+            map.Add(HapticMaterialRule.ForName("Rug*", Feeling("fur")));
+            map.Add(HapticMaterialRule.ForName("rug (*)", Feeling("wood")));
             Finding finding = With("Rule 2 of Rooms never matches: rule 1 (name \"Rug*\")");
             Undo.IncrementCurrentGroup();
             finding.Repairs.Single().Act();
@@ -67,12 +67,12 @@ namespace HaptoFlow.EditorTests
         [Test]
         public void RulesThatOnlyOverlapAreNoFinding()
         {
-            map.Add(HapticMaterialRule.ForName("*Rug", Material("fur")));
-            map.Add(HapticMaterialRule.ForName("Rug*", Material("wood")));
-            map.Add(HapticMaterialRule.ForTag("Finish", Material("stone")));
-            map.Add(HapticMaterialRule.ForLayer(4, Material("glass")));
-            map.Add(HapticMaterialRule.ForSubmesh(null, 1, Material("glass")));
-            map.Add(HapticMaterialRule.ForSubmesh(null, 0, Material("glass")));
+            map.Add(HapticMaterialRule.ForName("*Rug", Feeling("fur")));
+            map.Add(HapticMaterialRule.ForName("Rug*", Feeling("wood")));
+            map.Add(HapticMaterialRule.ForTag("Finish", Feeling("stone")));
+            map.Add(HapticMaterialRule.ForLayer(4, Feeling("glass")));
+            map.Add(HapticMaterialRule.ForSubmesh(null, 1, Feeling("glass")));
+            map.Add(HapticMaterialRule.ForSubmesh(null, 0, Feeling("glass")));
             Assert.That(Texts(), Has.None.Contains("never matches"));
             map.Insert(0, HapticMaterialRule.ForName("*", null));
             Assert.That(Texts(), Has.Exactly(6).Contains("never matches"));
@@ -81,28 +81,28 @@ namespace HaptoFlow.EditorTests
         [Test]
         public void TagsAndLayersThatTheProjectDoesNotHaveAreFound()
         {
-            map.Add(HapticMaterialRule.ForTag("No Such Tag", Material("stone")));
-            map.Add(HapticMaterialRule.ForLayer(29, Material("stone")));
-            map.Add(HapticMaterialRule.ForTag("", Material("stone")));
+            map.Add(HapticMaterialRule.ForTag("No Such Tag", Feeling("stone")));
+            map.Add(HapticMaterialRule.ForLayer(29, Feeling("stone")));
+            map.Add(HapticMaterialRule.ForTag("", Feeling("stone")));
             With("Rule 1 of Rooms matches a tag that the project does not have");
             With("Rule 2 of Rooms matches a layer that has no name in the project");
             With("Rule 3 of Rooms has an empty condition");
-            map.Add(HapticMaterialRule.ForSubmesh(Halves("Vase").sharedMesh, 2, Material("stone")));
+            map.Add(HapticMaterialRule.ForSubmesh(Halves("Vase").sharedMesh, 2, Feeling("stone")));
             With("Rule 4 of Rooms matches submesh 2 of a mesh whose last submesh is 1");
         }
 
         [Test]
         public void AMaterialOfARuleWithAnUnknownLabelIsFound()
         {
-            map.Add(HapticMaterialRule.ForTag("Finish", Material("ston")));
+            map.Add(HapticMaterialRule.ForTag("Finish", Feeling("ston")));
             With("ston: the model has no label \"ston\"");
         }
 
         [Test]
         public void SubmeshesThatCannotBeToldApartAreFound()
         {
-            map.Add(HapticMaterialRule.ForSubmesh(null, 0, Material("wood")));
-            map.Add(HapticMaterialRule.ForSubmesh(null, 1, Material("glass")));
+            map.Add(HapticMaterialRule.ForSubmesh(null, 0, Feeling("wood")));
+            map.Add(HapticMaterialRule.ForSubmesh(null, 1, Feeling("glass")));
             MeshCollider vase = Halves("Vase");
             Assert.That(Texts(), Has.Exactly(1).EqualTo(
                 "Vase: felt as wood; glass (rule 1 of \"Rooms\": submesh 0; rule 2 of \"Rooms\": submesh 1)."));
@@ -119,7 +119,7 @@ namespace HaptoFlow.EditorTests
         {
             HapticMaskMap mask = Mask();
             mask.SetPixels(1, 1, new[] { new Color32(255, 0, 0, 0) }, true);
-            map.Add(HapticMaterialRule.ForName("Masked*", Material("wood")));
+            map.Add(HapticMaterialRule.ForName("Masked*", Feeling("wood")));
             map.Rules[0].Mask = mask;
             Box("Masked Box");
             With("Masked Box: the mask Mask has no effect, because only a mesh collider");
@@ -138,7 +138,7 @@ namespace HaptoFlow.EditorTests
         public void AMaskIsBakedWithOneUndoAndIsAFindingAgainWhenItsTextureChanges()
         {
             HapticMaskMap mask = Mask();
-            map.Add(HapticMaterialRule.ForName("Masked*", Material("wood")));
+            map.Add(HapticMaterialRule.ForName("Masked*", Feeling("wood")));
             map.Rules[0].Mask = mask;
             Halves("Masked").sharedMesh!.uv = new Vector2[6];
             With("Mask has no texture to bake");

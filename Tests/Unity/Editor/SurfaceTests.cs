@@ -72,7 +72,7 @@ namespace HaptoFlow.EditorTests
             map = CreateMap();
             Settings().MaterialMap = map;
             ProjectSettingsAsset.Forget();
-            map.Add(HapticMaterialRule.ForTag("Finish", Material("stone")));
+            map.Add(HapticMaterialRule.ForTag("Finish", Feeling("stone")));
             map.Add(HapticMaterialRule.ForName("Ghost*", null));
         }
 
@@ -99,7 +99,7 @@ namespace HaptoFlow.EditorTests
         {
             HapticMaterialMap ofScene = ScriptableObject.CreateInstance<HapticMaterialMap>();
             ofScene.name = "Cellar";
-            ofScene.DefaultMaterial = Material("glass");
+            ofScene.DefaultMaterial = Feeling("glass");
             HapticMaterialMapScope scope = Make("Scope").AddComponent<HapticMaterialMapScope>();
             scope.Map = ofScene;
             GameObject step = Box("Step");
