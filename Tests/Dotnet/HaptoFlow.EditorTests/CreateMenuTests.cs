@@ -1,10 +1,18 @@
+using System;
+using System.Collections.Generic;
+using System.Globalization;
+using System.IO;
 using System.Linq;
+using System.Text.RegularExpressions;
 using HaptoFlow.Editor;
+using HaptoFlow.SampleScenes;
+using HaptoFlow.Tests.Support;
 using NUnit.Framework;
 using UnityEditor;
 using UnityEngine;
 using UnityEngine.Rendering;
 using UnityShim;
+using Object = UnityEngine.Object;
 
 namespace HaptoFlow.EditorTests
 {
@@ -50,11 +58,13 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void AFirstSceneUsesTheOutputThatTheSceneHas()
+        public void AFirstSceneUsesTheOutputAndTheCameraThatTheSceneHas()
         {
             HapticOutput output = Output();
+            camera.transform.position = new Vector3(1f, 1f, 1f);
             CreateMenu.CreateFirstScene(new MenuCommand(null));
             Assert.That(All<HapticOutput>(), Is.EqualTo(new[] { output }));
+            Assert.That(camera.transform.position, Is.EqualTo(new Vector3(1f, 1f, 1f)), "the user has moved it");
         }
 
         [Test]
@@ -102,41 +112,6 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void ACameraThatTheUserHasMovedStaysInPlace()
-        {
-            camera.transform.position = new Vector3(1f, 1f, 1f);
-            CreateMenu.CreateFirstScene(new MenuCommand(null));
-            Assert.That(camera.transform.position, Is.EqualTo(new Vector3(1f, 1f, 1f)));
-        }
-
-        [Test]
-        public void TheSceneCheckHasNoFindingsInAFirstScene()
-        {
-            Settings();
-            CreateMenu.CreateFirstScene(new MenuCommand(null));
-            Assert.That(SceneCheck.Run().Select(finding => finding.Text).Where(text => !text.Contains("audio device")),
-                Is.Empty);
-        }
-
-        [Test]
-        public void AFirstScenePlaysWithoutAnyScript()
-        {
-            Settings();
-            CreateMenu.CreateFirstScene(new MenuCommand(null));
-            HapticStylus stylus = All<HapticStylus>().Single();
-            EditorSession.Play();
-            HapticSession.Current.FinishLoading();
-            SimulatedInput.Reset();
-            SimulatedInput.MousePosition = camera.WorldToScreenPoint(Vector3.zero);
-            SimulatedInput.MouseButton = true;
-            World.Frames(60);
-            Assert.That(stylus.IsTouching, Is.True);
-            Assert.That(stylus.Contact.Material!.Label, Is.EqualTo("wood"));
-            SimulatedInput.Reset();
-            EditorSession.Stop();
-        }
-
-        [Test]
         public void ATaggedCubeHasThePipelinesMaterialUntilTheUserChoosesAnother()
         {
             var pipeline = ScriptableObject.CreateInstance<SimulatedPipeline>();
@@ -153,18 +128,6 @@ namespace HaptoFlow.EditorTests
             Assert.That(renderer.sharedMaterial, Is.SameAs(chosen));
             EditorSession.Stop();
             GraphicsSettings.defaultRenderPipeline = null;
-        }
-
-        [Test]
-        public void AnXrPenIsCreatedBelowTheTrackingSpaceOfTheCamera()
-        {
-            GameObject space = Make("Camera Offset", Make("XR Origin"));
-            camera.transform.SetParent(space.transform, false);
-            CreateMenu.CreateRightPen(new MenuCommand(null));
-            CreateMenu.CreateLeftPen(new MenuCommand(null));
-            Assert.That(All<XrPen>().Select(pen => pen.Hand), Is.EqualTo(new[] { PenHand.Right, PenHand.Left }));
-            Assert.That(All<XrPen>().Select(pen => pen.transform.parent), Is.All.SameAs(space.transform));
-            Assert.That(All<XrPen>().Select(pen => pen.Stylus!.Force), Is.EqualTo(All<XrPen>()));
         }
 
         [Test]
@@ -204,8 +167,184 @@ namespace HaptoFlow.EditorTests
         }
 
         private static int Count() => All<Transform>().Length;
+    }
 
-        private static T[] All<T>()
-            where T : Object => Object.FindObjectsByType<T>(FindObjectsInactive.Include, FindObjectsSortMode.None);
+    public sealed class DeviceCheckMenuTests : EditorTest
+    {
+        [Test]
+        public void TheMenuAddsOneCheckSelectsItAndUndoRemovesIt()
+        {
+            Undo.IncrementCurrentGroup();
+            DeviceCheckMenu.Add();
+            DeviceCheckMenu.Add();
+            Assert.That(All<DeviceCheckRun>(), Has.Length.EqualTo(1));
+            Assert.That(Selection.activeGameObject, Is.SameAs(All<DeviceCheckRun>().Single().gameObject));
+            Undo.PerformUndo();
+            Assert.That(All<DeviceCheckRun>(), Is.Empty);
+        }
+    }
+
+    /// <summary>The menu Window > HaptoFlow > Sample Scenes makes the scenes that the samples have as files.</summary>
+    public sealed class SampleSceneMenuTests : EditorTest
+    {
+        private static readonly Dictionary<string, Action> Menus = new Dictionary<string, Action>
+        {
+            ["StylusTracing"] = SampleSceneMenu.MakeStylusTracing,
+            ["TextureGallery"] = SampleSceneMenu.MakeTextureGallery,
+            ["Workshop"] = SampleSceneMenu.MakeWorkshop,
+            ["DeviceCheck"] = SampleSceneMenu.MakeDeviceCheck,
+        };
+
+        private static readonly string[] Samples = Menus.Keys.ToArray();
+
+        [TestCaseSource(nameof(Samples))]
+        public void TheMenuMakesTheObjectsOfTheSamplesSceneFile(string sample)
+        {
+            Menus[sample]();
+            var file = new PrefabFile(SampleFiles.Scene(sample));
+            IEnumerable<string> written = file.Objects.Where(each => each.Type == "Transform")
+                .Select(place => Describe(file, place));
+            IEnumerable<string> made = default(UnityEngine.SceneManagement.Scene).GetRootGameObjects().Select(Describe);
+            Assert.That(made, Is.EqualTo(written));
+            PrefabObject render = file.Objects.Single(each => each.Type == "RenderSettings");
+            Assert.That(((int)RenderSettings.ambientMode).ToString(), Is.EqualTo(render["m_AmbientMode"]));
+            Assert.That(Numbers(RenderSettings.ambientLight), Is.EqualTo(Numbers(render["m_AmbientSkyColor"])));
+        }
+
+        [Test]
+        public void ThePanelOfTheWorkshopHasTheRecordingsOfTheSceneFile()
+        {
+            SampleSceneMenu.MakeWorkshop();
+            IEnumerable<string> guids = Regex.Matches(
+                File.ReadAllText(SampleFiles.Scene("Workshop")), @"fileID: 4900000, guid: (\w+)")
+                .Select(match => match.Groups[1].Value);
+            var panel = All<AddMaterialPanel>().Single();
+            var beside = (TextAsset[])PrivateField(panel, "beside")!;
+            TextAsset[] recordings = beside.Prepend((TextAsset)PrivateField(panel, "recording")!).ToArray();
+            Assert.That(recordings.Select(each => GuidOf(each)), Is.EqualTo(guids));
+        }
+
+        [Test]
+        public void ModifiedScenesAreSavedFirstAndTheNewSceneIsModified()
+        {
+            GameObject before = Make("Mine");
+            EditorSession.CancelsSaving = true;
+            SampleSceneMenu.MakeTextureGallery();
+            Assert.That(before != null, Is.True, "the user pressed Cancel");
+            Assert.That(EditorSession.SceneIsDirty, Is.False);
+            EditorSession.CancelsSaving = false;
+            SampleSceneMenu.MakeTextureGallery();
+            Assert.That(before == null, Is.True);
+            Assert.That(EditorSession.SceneIsDirty, Is.True);
+            Assert.That(Selection.activeGameObject, Is.SameAs(All<GalleryScene>().Single().gameObject));
+        }
+
+        [Test]
+        public void TheMenuIsGreyInPlayMode()
+        {
+            Assert.That(SampleSceneMenu.CanMake(), Is.True);
+            EditorSession.Play();
+            Assert.That(SampleSceneMenu.CanMake(), Is.False);
+        }
+
+        [TestCaseSource(nameof(Samples))]
+        public void ASceneOfTheMenuPlays(string sample)
+        {
+            Menus[sample]();
+            GameObject[] made = default(UnityEngine.SceneManagement.Scene).GetRootGameObjects();
+            EditorSession.Play();
+            World.Frames(3);
+            Assert.That(Object.FindObjectsByType<MousePen>(FindObjectsInactive.Exclude, FindObjectsSortMode.None),
+                Has.Length.EqualTo(1));
+            Assert.That(made, Has.Length.EqualTo(3));
+        }
+
+        private static string Describe(PrefabFile file, PrefabObject place)
+        {
+            PrefabObject owner = file[PrefabObject.Reference(place["m_GameObject"])];
+            IEnumerable<string> components = file.ComponentsOf(place).Select(each => Describe(file, each, each.Type));
+            return Lines(owner["m_Name"], owner["m_TagString"], components);
+        }
+
+        private static string Describe(PrefabFile file, PrefabObject written, string type) => type switch
+        {
+            "Transform" => Line(type, Numbers(written["m_LocalPosition"]), Numbers(written["m_LocalRotation"]),
+                Numbers(written["m_LocalScale"])),
+            "Camera" => Line(type, Number(written["m_ClearFlags"]), Numbers(written["m_BackGroundColor"]),
+                Number(written["near clip plane"]), Number(written["far clip plane"]), Number(written["field of view"]),
+                Number(written["m_Depth"])),
+            "Light" => Line(type, Number(written["m_Type"]), Numbers(written["m_Color"]),
+                Number(written["m_Intensity"]), Number(written["m_Shadows.m_Type"])),
+            "MonoBehaviour" => Script(file, written),
+            _ => type,
+        };
+
+        private static string Script(PrefabFile file, PrefabObject written)
+        {
+            string name = Path.GetFileNameWithoutExtension(FileOf(GuidIn(written["m_Script"])));
+            return written.ScriptFields.Contains("view")
+                ? $"{name} {Path.GetFileName(FileOf(GuidIn(written["model"])))} " +
+                    file[PrefabObject.Reference(written["view"])].Type
+                : name;
+        }
+
+        private static string Describe(GameObject owner)
+        {
+            var components = new List<Component>();
+            owner.transform.GetComponents(components);
+            return Lines(owner.name, owner.tag, components.Select(Describe));
+        }
+
+        private static string Describe(Component made)
+        {
+            string type = made.GetType().Name;
+            switch (made)
+            {
+                case Transform place:
+                    Quaternion turn = place.localRotation;
+                    return Line(type, Numbers(place.localPosition), new[] { turn.x, turn.y, turn.z, turn.w },
+                        Numbers(place.localScale));
+                case Camera camera:
+                    return Line(type, new[] { (float)camera.clearFlags }, Numbers(camera.backgroundColor),
+                        new[] { camera.nearClipPlane }, new[] { camera.farClipPlane }, new[] { camera.fieldOfView },
+                        new[] { camera.depth });
+                case Light light:
+                    return Line(type, new[] { (float)light.type }, Numbers(light.color), new[] { light.intensity },
+                        new[] { (float)light.shadows });
+                case BuiltScene scene:
+                    return $"{type} {Path.GetFileName(AssetDatabase.GetAssetPath(scene.Model!))} " +
+                        scene.View!.GetType().Name;
+                default:
+                    return type;
+            }
+        }
+
+        // Unity adds a component that another one requires before that one; a scene file may have any order.
+        private static string Lines(string name, string tag, IEnumerable<string> components) =>
+            $"{name} [{tag}]\n{string.Join("\n", components.OrderBy(each => each, StringComparer.Ordinal))}";
+
+        private static string Line(string type, params float[][] values) => type + " " + string.Join(" ",
+            values.Select(each => string.Join(",", each.Select(
+                value => (Math.Round(value, 4) + 0.0).ToString(CultureInfo.InvariantCulture)))));
+
+        private static float[] Number(string text) => new[] { float.Parse(text, CultureInfo.InvariantCulture) };
+
+        private static float[] Numbers(string text) => PrefabObject.Numbers(text);
+
+        private static float[] Numbers(Vector3 vector) => new[] { vector.x, vector.y, vector.z };
+
+        private static float[] Numbers(Color colour) => new[] { colour.r, colour.g, colour.b, colour.a };
+
+        private static string GuidIn(string text) => Regex.Match(text, "guid: (\\w+)").Groups[1].Value;
+
+        private static string GuidOf(Object asset) => GuidIn(File.ReadAllText(
+            RepositoryFiles.In(AssetDatabase.GetAssetPath(asset).Split('/')) + ".meta"));
+
+        private static string FileOf(string guid) => Directory
+            .EnumerateFiles(RepositoryFiles.In("Packages", "com.haptoflow.runtime"), "*.meta", SearchOption.AllDirectories)
+            .Single(meta => File.ReadAllText(meta).Contains("guid: " + guid)).Replace(".meta", "");
+
+        private static object? PrivateField(object owner, string name) => owner.GetType().GetField(
+            name, System.Reflection.BindingFlags.Instance | System.Reflection.BindingFlags.NonPublic)!.GetValue(owner);
     }
 }

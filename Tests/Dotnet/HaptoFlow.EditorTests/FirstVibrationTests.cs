@@ -1,10 +1,5 @@
 using System;
-using System.Collections.Generic;
-using System.Globalization;
-using System.IO;
 using System.Linq;
-using System.Reflection;
-using System.Text.RegularExpressions;
 using HaptoFlow.Editor;
 using HaptoFlow.Tests.Support;
 using NUnit.Framework;
@@ -15,24 +10,14 @@ using Object = UnityEngine.Object;
 
 namespace HaptoFlow.EditorTests
 {
-    /// <summary>Walks the tables of the page getting-started.md click by click, adds the clicks up, and checks what
-    /// plays then.</summary>
-    public sealed class FirstVibrationTests : EditorTest
+    /// <summary>The clicks of the page getting-started.md, and what plays then.</summary>
+    public sealed class FirstVibrationTests : PlayedTest
     {
-        private const string Clone = "From a clone, with mouse and loudspeakers";
-        private const string Desktop = "A desktop, with mouse and loudspeakers";
-        private const string Headset = "A Quest 3, with controllers or MX Ink";
-        private const string Coil = "A voice coil behind an amplifier, on the right audio channel";
-        private const string Later = "A pen added later";
-        private const string Both = "What plays where";
         private const float Audible = 0.001f;
-        private static readonly string[] Page =
-            File.ReadAllLines(RepositoryFiles.In("Documentation~", "getting-started.md"));
 
-        private readonly HashSet<string> drawnIn = new HashSet<string>();
+        private string drawnIn = "Right";
         private Camera camera = null!;
         private ProjectScene? opened;
-        private Object? inspected;
 
         /// <summary>Loads the optional assemblies, which .NET loads on first use only, unlike Unity.</summary>
         [OneTimeSetUp]
@@ -41,128 +26,98 @@ namespace HaptoFlow.EditorTests
         [SetUp]
         public void OpenANewScene()
         {
-            HapticSession.OptionsOverride = new HapticEngineOptions { WithoutWorker = true, FixedLeadMs = 8.0, Seed = 3 };
-            HeldDevices.Reset();
-            SimulatedInput.Reset();
-            GameObject owner = Make("Main Camera");
-            owner.tag = "MainCamera";
-            owner.transform.position = new Vector3(0f, 1f, -10f);
-            camera = owner.AddComponent<Camera>();
-            owner.AddComponent<AudioListener>();
+            camera = MainCamera();
+            drawnIn = "Right";
             Undo.IncrementCurrentGroup();
-            drawnIn.Clear();
-            drawnIn.Add("Right");
         }
 
         [TearDown]
         public void LeaveTheScene()
         {
-            if (Application.isPlaying)
-            {
-                EditorSession.Stop();
-            }
+            StopPlaying();
             foreach (GameObject each in opened?.Owners.Where(each => each != null) ?? Enumerable.Empty<GameObject>())
             {
                 Object.DestroyImmediate(each);
             }
             opened = null;
-            HapticSession.OptionsOverride = null;
-            HeldDevices.Reset();
-            SimulatedInput.Reset();
         }
 
-        [Test]
-        public void TheClonesClicksMakeTheLoudspeakersSound()
+        [TestCase(true)]
+        [TestCase(false)]
+        public void TheDeskOfACloneAndAFirstSceneSoundOnTheLoudspeakers(bool isClone)
         {
-            Walk(Clone);
+            if (isClone)
+            {
+                Object.DestroyImmediate(camera.gameObject);
+                opened = ProjectScene.Open("Desk.unity");
+                camera = Camera.main!;
+            }
+            else
+            {
+                MakeFirstScene();
+            }
+            EditorSession.Play();
+            PressOverThePlate();
             Assert.That(Peak(0), Is.GreaterThan(Audible));
             Assert.That(Peak(1), Is.GreaterThan(Audible));
         }
 
-        [Test]
-        public void TheDesktopsClicksMakeTheLoudspeakersSound()
+        [TestCase("Right")]
+        [TestCase("Left")]
+        public void AHeadsetsControllerVibratesAlone(string hand)
         {
-            Walk(Desktop);
-            Assert.That(Peak(0), Is.GreaterThan(Audible));
-            Assert.That(Peak(1), Is.GreaterThan(Audible));
-        }
-
-        [Test]
-        public void TheHeadsetsClicksMakeAControllerVibrate([Values("Right", "Left")] string hand)
-        {
-            AddRig();
-            drawnIn.Clear();
-            drawnIn.Add(hand);
-            Walk(Headset);
+            drawnIn = hand;
+            PlayWithAHeadset();
             OVRInput.Controller wanted = hand == "Left" ? OVRInput.Controller.LTouch : OVRInput.Controller.RTouch;
             Assert.That(OVRInput.Waves.Count(wave => wave.Mask == wanted), Is.GreaterThan(20));
             Assert.That(OVRInput.Waves.Select(wave => wave.Mask), Is.All.EqualTo(wanted));
             Assert.That(Peak(0), Is.Zero, "the Haptic Output of First Scene is left to loudspeakers");
-        }
-
-        [Test]
-        public void TheHeadsetsClicksMakeBothHandsVibrate()
-        {
-            AddRig();
-            drawnIn.Add("Left");
-            Walk(Headset);
-            Assert.That(OVRInput.Waves.Select(wave => wave.Mask).Distinct(), Is.EquivalentTo(
-                new[] { OVRInput.Controller.LTouch, OVRInput.Controller.RTouch }));
-        }
-
-        [Test]
-        public void TheHeadsetsClicksMakeMxInkVibrate()
-        {
-            AddRig();
-            OVRPlugin.Take(OVRPlugin.Hand.HandRight, OVRPlugin.MxInkProfile);
-            Walk(Headset);
-            Assert.That(OVRPlugin.Pulses.Count, Is.GreaterThan(20));
-            Assert.That(Peak(0), Is.Zero);
-        }
-
-        [Test]
-        public void TheBuildOfTheHeadsetHasSettings()
-        {
-            AddRig();
-            Walk(Headset);
             Assert.That(BuildCheck.Findings(BuildTarget.StandaloneLinux64).Select(finding => finding.Text),
                 Has.None.Contains("settings"));
         }
 
         [Test]
-        public void TheCoilsClicksMakeTheRightChannelAloneVibrate()
+        public void MxInkVibrates()
         {
-            Walk(Coil);
+            OVRPlugin.Take(OVRPlugin.Hand.HandRight, OVRPlugin.MxInkProfile);
+            PlayWithAHeadset();
+            Assert.That(OVRPlugin.Pulses.Count, Is.GreaterThan(20));
+            Assert.That(Peak(0), Is.Zero);
+        }
+
+        [Test]
+        public void AChannelMakesTheRightChannelAloneVibrate()
+        {
+            MakeFirstScene();
+            EditorScreen.Enter("Channel", 1);
+            InspectorTests.Draw(All<HapticOutput>().Single());
+            EditorSession.Play();
+            PressOverThePlate();
             Assert.That(Peak(1), Is.GreaterThan(Audible));
             Assert.That(Peak(0), Is.Zero);
         }
 
-        [Test]
-        public void APenAddedAfterFirstSceneIsFeltInTheHandAndTheMouseIsHeard()
+        [TestCase(false)]
+        [TestCase(true)]
+        public void APenAddedLaterIsFeltInTheHandAndWithAnAutoOutputHeardToo(bool withAutoOutput)
         {
-            Perform(Rows(Desktop)[0].What);
-            AddRig();
-            Walk(Later);
-            Assert.That(OVRInput.Waves.Count, Is.GreaterThan(20));
-            Assert.That(Peak(0), Is.Zero);
-            Assert.That(Log.Lines.Select(line => line.Text), Has.Exactly(1).Matches<string>(text =>
-                text.Contains("XR Pen Right is felt through") && text.Contains("Choose a channel on Haptic Output")));
-            SetTracked("Right", false);
-            PressOverThePlate();
-            Assert.That(Peak(0), Is.GreaterThan(Audible));
-        }
-
-        [Test]
-        public void APenInTheHandIsHeardTooAfterTheClicksForIt()
-        {
-            Perform(Rows(Desktop)[0].What);
-            AddRig();
-            Perform(Rows(Later)[0].What);
-            Walk(Both);
+            AddAPenLater();
+            if (withAutoOutput)
+            {
+                All<XrPen>().Single().Stylus!.gameObject.AddComponent<AutoOutput>();
+            }
             EditorSession.Play();
             DrawWithDevices();
             Assert.That(OVRInput.Waves.Count, Is.GreaterThan(20));
-            Assert.That(Peak(0), Is.GreaterThan(Audible));
+            Assert.That(Peak(0) > Audible, Is.EqualTo(withAutoOutput));
+            if (!withAutoOutput)
+            {
+                Assert.That(Log.Lines.Select(line => line.Text), Has.Exactly(1).Matches<string>(text =>
+                    text.Contains("XR Pen Right is felt through") && text.Contains("Choose a channel on Haptic Output")));
+                SetTracked("Right", false);
+                PressOverThePlate();
+                Assert.That(Peak(0), Is.GreaterThan(Audible), "the mouse");
+            }
         }
 
         [Test]
@@ -170,9 +125,7 @@ namespace HaptoFlow.EditorTests
         {
             Settings();
             MxInkSwitch.SwitchOn();
-            Perform(Rows(Desktop)[0].What);
-            AddRig();
-            Perform(Rows(Later)[0].What);
+            AddAPenLater();
             Assert.That(StylusPlaces.Summary(new SceneContents()).Split('\n'), Is.EquivalentTo(new[]
             {
                 "Mouse Pen plays on Haptic Output (all channels of the audio device).",
@@ -183,127 +136,25 @@ namespace HaptoFlow.EditorTests
                 Is.Empty);
         }
 
-        [TestCase(Clone)]
-        [TestCase(Desktop)]
-        [TestCase(Headset)]
-        [TestCase(Coil)]
-        [TestCase(Later)]
-        [TestCase(Both)]
-        public void TheClicksOfATableAddUp(string section)
-        {
-            (string What, int Clicks)[] rows = Rows(section);
-            Assert.That(rows[^1].What, Is.EqualTo("together"));
-            Assert.That(rows[..^1].Sum(row => row.Clicks), Is.EqualTo(rows[^1].Clicks));
-        }
+        private static void MakeFirstScene() => CreateMenu.CreateFirstScene(new MenuCommand(null));
 
-        [Test]
-        public void LinkSavesTheClicksThatThePageSays()
+        private void AddAPenLater()
         {
-            string said = Regex.Match(string.Join(" ", Page), "\\*\\*Play\\*\\* takes the place of rows two to four, which " +
-                "makes ([0-9]+) clicks").Groups[1].Value;
+            MakeFirstScene();
             AddRig();
-            int clicks = Perform(Rows(Headset)[0].What) + Perform("**Play**");
-            Assert.That(clicks.ToString(CultureInfo.InvariantCulture), Is.EqualTo(said));
+            CreateMenu.CreateRightPen(new MenuCommand(null));
+        }
+
+        /// <summary>Play mode takes the place of the headset's build.</summary>
+        private void PlayWithAHeadset()
+        {
+            AddRig();
+            MakeFirstScene();
+            CheckSceneWindow.Open();
+            EditorScreen.Press("Create Settings");
+            EditorScreen.Draw(EditorWindow.GetWindow<CheckSceneWindow>().OnGUI);
+            EditorSession.Play();
             DrawWithDevices();
-            Assert.That(OVRInput.Waves.Count, Is.GreaterThan(20));
-        }
-
-        private void Walk(string section)
-        {
-            foreach ((string what, int clicks) in Rows(section)[..^1])
-            {
-                Assert.That(Perform(what), Is.EqualTo(clicks), what);
-            }
-        }
-
-        /// <summary>The rows of the last table of a section.</summary>
-        private static (string What, int Clicks)[] Rows(string section)
-        {
-            string[] lines = Page.SkipWhile(line => line.TrimStart('#') != " " + section).Skip(1)
-                .TakeWhile(line => !line.StartsWith("##")).ToArray();
-            Assert.That(lines, Is.Not.Empty, section);
-            return lines.Select(line => Regex.Match(line, "^\\| (.+) \\| ([0-9]+) \\|$")).Where(match => match.Success)
-                .Select(match => (match.Groups[1].Value, int.Parse(match.Groups[2].Value))).ToArray();
-        }
-
-        /// <summary>Does what a row says; returns the number of clicks.</summary>
-        private int Perform(string row)
-        {
-            string[] bold = Regex.Matches(row, "\\*\\*([^*]+)\\*\\*").Select(match => match.Groups[1].Value).ToArray();
-            if (row.StartsWith("*Unity:*"))
-            {
-                // The stand-in has no players: play mode takes the place of the headset's build.
-                EditorSession.Play();
-                return bold[0].Split(" > ").Length;
-            }
-            switch (row)
-            {
-                case "**Play**":
-                    EditorSession.Play();
-                    return 1;
-                case string hold when hold.StartsWith("hold the left mouse button over the plate and draw"):
-                    PressOverThePlate();
-                    return 1;
-                case "draw over the plate with a controller or MX Ink":
-                    DrawWithDevices();
-                    return 0;
-                case string add when add.StartsWith("**Add Component > "):
-                    return AddComponent(bold[0].Split(" > "));
-                case string menu when menu.StartsWith("**"):
-                    return Choose(bold[0]);
-                case string button when button.StartsWith("in Check Scene: "):
-                    EditorScreen.Press(bold[0]);
-                    EditorScreen.Draw(EditorWindow.GetWindow<CheckSceneWindow>().OnGUI);
-                    return 1;
-                case string scene when scene.StartsWith("in the Project window: double-click "):
-                    OpenScene(bold[0]);
-                    return 2;
-                case string place when place.StartsWith("in the Hierarchy: "):
-                    return Select(bold);
-                case string field when field.StartsWith("in the Inspector: "):
-                    EditorScreen.Enter(bold[0], int.Parse(row.Split(' ')[^1]));
-                    InspectorTests.Draw(((GameObject)inspected!).GetComponent<HapticOutput>());
-                    return 1;
-                default:
-                    throw new AssertionException("nobody knows how to do: " + row);
-            }
-        }
-
-        private static int Choose(string path)
-        {
-            MethodInfo entry = typeof(CreateMenu).Assembly.GetTypes()
-                .SelectMany(type => type.GetMethods(BindingFlags.Static | BindingFlags.NonPublic | BindingFlags.Public))
-                .Single(method => method.GetCustomAttributes<MenuItem>()
-                    .Any(item => !item.validate && item.menuItem == path.Replace(" > ", "/")));
-            entry.Invoke(null, entry.GetParameters().Length == 0 ? null : new object[] { new MenuCommand(null) });
-            return path.Split(" > ").Length;
-        }
-
-        /// <summary>Opens a scene of this repository's project; the objects of the scene before it go.</summary>
-        private void OpenScene(string name)
-        {
-            Object.DestroyImmediate(camera.gameObject);
-            opened = ProjectScene.Open(name + ".unity");
-            camera = Camera.main!;
-        }
-
-        /// <summary>Selects an object, below objects that have to be unfolded with a click each.</summary>
-        private int Select(string[] names)
-        {
-            Transform chosen = All<Transform>().Single(each => each.name == names[0] &&
-                (names.Length == 1 ? each.parent == null : each.parent != null && each.parent.name == names[1]));
-            inspected = chosen.gameObject;
-            Selection.activeObject = inspected;
-            return names.Length;
-        }
-
-        private int AddComponent(string[] path)
-        {
-            Type type = typeof(HapticOutput).Assembly.GetTypes().Single(each =>
-                each.GetCustomAttribute<AddComponentMenu>()?.componentMenu == string.Join("/", path.Skip(1)));
-            typeof(GameObject).GetMethods().Single(method => method.Name == "AddComponent" && method.IsGenericMethod)
-                .MakeGenericMethod(type).Invoke(inspected, null);
-            return path.Length;
         }
 
         /// <summary>Adds what the rig of a headset consists of, and a controller in each hand.</summary>
@@ -319,38 +170,31 @@ namespace HaptoFlow.EditorTests
 
         private void PressOverThePlate()
         {
-            Begin();
-            Transform plate = All<HapticSurface>().Single().transform;
+            Transform plate = Begin();
             SimulatedInput.MouseButton = true;
-            SteppedFrames.Play(90, frame => SimulatedInput.MousePosition = camera.WorldToScreenPoint(Top(plate, frame)));
+            Frames(90, frame => SimulatedInput.MousePosition = camera.WorldToScreenPoint(Top(plate, frame)));
             SimulatedInput.MouseButton = false;
         }
 
         private void DrawWithDevices()
         {
-            Begin();
-            Transform plate = All<HapticSurface>().Single().transform;
-            SteppedFrames.Play(90, frame =>
-            {
-                foreach (string hand in drawnIn)
-                {
-                    SetTracked(hand, true);
-                    SimulatedInput.SetControl($"<XRController>{{{hand}Hand}}/pointerPosition",
-                        Top(plate, frame) + 0.001f * Vector3.up);
-                    SimulatedInput.SetControl($"<XRController>{{{hand}Hand}}/pointerRotation", Quaternion.identity);
-                }
-            });
+            Transform plate = Begin();
+            SetTracked(drawnIn, true);
+            SimulatedInput.SetControl($"<XRController>{{{drawnIn}Hand}}/pointerRotation", Quaternion.identity);
+            Frames(90, frame => SimulatedInput.SetControl(
+                $"<XRController>{{{drawnIn}Hand}}/pointerPosition", Top(plate, frame) + 0.001f * Vector3.up));
         }
 
         private static void SetTracked(string hand, bool isTracked) =>
             SimulatedInput.SetControl($"<XRController>{{{hand}Hand}}/isTracked", isTracked ? 1f : 0f);
 
-        private static void Begin()
+        private static Transform Begin()
         {
             HapticSession.Current.FinishLoading();
             AudioDevice.Forget();
             OVRInput.Waves.Clear();
             OVRPlugin.Pulses.Clear();
+            return All<HapticSurface>().Single().transform;
         }
 
         /// <summary>A point on the plate that moves at up to 0.3 m/s.</summary>
@@ -359,9 +203,6 @@ namespace HaptoFlow.EditorTests
 
         private static float Peak(int channel) => Enumerable.Range(0, AudioDevice.RecordedFrames)
             .Max(frame => Math.Abs(AudioDevice.Sample(frame, channel)));
-
-        private static T[] All<T>()
-            where T : Object => Object.FindObjectsByType<T>(FindObjectsInactive.Include, FindObjectsSortMode.None);
 
         /// <summary>Stands for the component of that name in Meta's SDK.</summary>
         private sealed class OVRCameraRig : MonoBehaviour

@@ -43,9 +43,6 @@ namespace HaptoFlow.EditorTests
             .Where(type => type.IsPublic && !type.IsAbstract &&
                 (typeof(MonoBehaviour).IsAssignableFrom(type) || typeof(ScriptableObject).IsAssignableFrom(type)));
 
-        [Test]
-        public void TheAssembliesContainComponents() => Assert.That(Components().Count(), Is.GreaterThanOrEqualTo(11));
-
         [TestCaseSource(nameof(Components))]
         public void TheHelpOfAComponentLeadsToASectionOfAPage(Type component)
         {
@@ -56,10 +53,6 @@ namespace HaptoFlow.EditorTests
                 .Select(heading => AnchorOf(heading.Groups[1].Value));
             Assert.That(anchors.Count(anchor => anchor == parts[1]), Is.EqualTo(1), help);
         }
-
-        [Test]
-        public void EveryComponentHasItsOwnHelp() => Assert.That(
-            Components().Select(type => type.GetCustomAttribute<HelpPageAttribute>(false)?.Page), Is.Unique);
 
         [Test]
         public void HelpOpensTheSectionOfThePageInsideAnInstalledPackage()
@@ -124,17 +117,6 @@ namespace HaptoFlow.EditorTests
             Assert.That(World.OpenedUrl, Is.EqualTo(new Uri(Path.Combine(pages, "index.html")).AbsoluteUri));
         }
 
-        // Without an address the Package Manager opens Documentation~/index.md and CHANGELOG.md of the package.
-        [Test]
-        public void ThePackageManagerIsSentToNoAddress()
-        {
-            JObject manifest = JObject.Parse(File.ReadAllText(
-                RepositoryFiles.In("Packages", "com.haptoflow.runtime", "package.json")));
-            Assert.That(manifest.ContainsKey("documentationUrl"), Is.False);
-            Assert.That(manifest.ContainsKey("changelogUrl"), Is.False);
-            Assert.That(Page("index.html"), Does.Contain("](installation.md)").And.Contain("](getting-started.md)"));
-        }
-
         private static string InstalledPages(string name)
         {
             return Directory.CreateDirectory(Path.Combine(Install(name), "Documentation~")).FullName;
@@ -147,19 +129,6 @@ namespace HaptoFlow.EditorTests
             EditorLifecycle.Begin();
             return package;
         }
-
-        [Test]
-        public void TheFirstPageLeadsToEveryPage()
-        {
-            string index = Page("index.html");
-            string[] pages = Directory.GetFiles(RepositoryFiles.In("Documentation~"), "*.md")
-                .Select(path => Path.GetFileName(path)!).Where(name => name != "index.md").ToArray();
-            Assert.That(pages.Where(name => !index.Contains($"]({name})")), Is.Empty);
-        }
-
-        [Test]
-        public void TheOverlayOfSurfacesShowsByDefault() => Assert.That(
-            typeof(SurfaceOverlay).GetCustomAttribute<OverlayAttribute>()!.defaultDisplay, Is.True);
 
         private static string Page(string name) =>
             File.ReadAllText(RepositoryFiles.In("Documentation~", name.Replace(".html", ".md")));

@@ -1,12 +1,18 @@
+using System;
 using System.Collections.Generic;
+using System.IO;
 using System.Linq;
+using System.Reflection;
 using HaptoFlow.Editor;
+using HaptoFlow.Tests.Support;
 using NUnit.Framework;
 using UnityEditor;
 using UnityEditor.IMGUI.Controls;
 using UnityEngine;
 using UnityEngine.TestTools;
 using UnityShim;
+using Object = UnityEngine.Object;
+using SerializedFields = UnityShim.SerializedFields;
 
 namespace HaptoFlow.EditorTests
 {
@@ -96,35 +102,6 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void UndoRestoresFeatureScaleAndTone()
-        {
-            HapticSurface table = Tagged("Table", "wood");
-            Undo.IncrementCurrentGroup();
-            EditorScreen.Enter("Feature Scale", 2f);
-            EditorScreen.Enter("Tone (dB/octave)", -3f);
-            Draw(table);
-            Assert.That(table.Material.FeatureScale, Is.EqualTo(2f));
-            Assert.That(table.Material.ToneDbPerOctave, Is.EqualTo(-3f));
-            Undo.PerformUndo();
-            Assert.That(table.Material.FeatureScale, Is.EqualTo(1f));
-            Assert.That(table.Material.ToneDbPerOctave, Is.Zero);
-        }
-
-        [Test]
-        public void UndoRestoresTheVariationOfASurface()
-        {
-            HapticSurface table = Tagged("Table", "wood");
-            Assert.That(table.Variation, Is.Zero, "all objects of a label are alike by default");
-            Assert.That(Draw(table).Single(item => item.Label == "Variation").Tooltip, Does.EndWith("."));
-            Undo.IncrementCurrentGroup();
-            EditorScreen.Enter("Variation", 0.75f);
-            Draw(table);
-            Assert.That(table.Variation, Is.EqualTo(0.75f));
-            Undo.PerformUndo();
-            Assert.That(table.Variation, Is.Zero);
-        }
-
-        [Test]
         public void AMaterialFileShowsItsRecordingAndADamagedOneItsKey()
         {
             LogAssert.ignoreFailingMessages = true;
@@ -151,37 +128,15 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void UndoRemovesALearntMaterialFromASurface()
-        {
-            HapticSurface table = Tagged("Table", "wood");
-            var material = HapticMaterial.Create(HaptoFlow.Model.MaterialText.OfLabel(Model().File, "glass"), "fur");
-            Undo.IncrementCurrentGroup();
-            EditorScreen.Enter("Learnt Material", material);
-            Draw(table);
-            Assert.That(table.Material.Learnt, Is.SameAs(material));
-            Undo.PerformUndo();
-            Assert.That(table.Material.Learnt, Is.Null);
-        }
-
-        [Test]
-        public void TheInspectorOfASurfaceOpensThePreview()
+        public void TheInspectorsOfSurfacesAndMaterialsOpenThePreview()
         {
             HapticSurface surface = Tagged("Table", "glass");
             EditorScreen.Press("Preview");
             Draw(surface);
             var window = EditorWindow.GetWindow<TexturePreviewWindow>();
             Assert.That(window.State.First.Label, Is.EqualTo("glass"));
-            WindowHost.Close(window);
-        }
-
-        [Test]
-        public void TheInspectorOfAMaterialOpensThePreview()
-        {
-            HapticMaterial material = ScriptableObject.CreateInstance<HapticMaterial>();
-            material.Description.Label = "cork";
             EditorScreen.Press("Preview");
-            Draw(material);
-            var window = EditorWindow.GetWindow<TexturePreviewWindow>();
+            Draw(Feeling("cork"));
             Assert.That(window.State.First.Label, Is.EqualTo("cork"));
             WindowHost.Close(window);
         }
@@ -242,18 +197,6 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void EveryFieldOfAStylusHasATooltip()
-        {
-            Drawn[] fields = Draw(Stylus()).Where(item => item.Kind == DrawnKind.Field).ToArray();
-            Assert.That(fields.Select(item => item.Label), Is.EqualTo(new[]
-            {
-                "Tip", "Tip Radius (m)", "Layers", "Update", "Tip Force", "Touch By", "Output", "Hand", "Strength", "Rig",
-                "Touch Began", "Touch Moved", "Surface Changed", "Touch Ended",
-            }));
-            Assert.That(fields.Select(item => item.Tooltip), Has.None.Empty);
-        }
-
-        [Test]
         public void AnOutputShowsTheFieldsOfItsRoute()
         {
             HapticOutput output = Output();
@@ -274,15 +217,6 @@ namespace HaptoFlow.EditorTests
                 }));
         }
 
-        [TestCase(true)]
-        [TestCase(false)]
-        public void TheInspectorsAreTheSameInBothSkins(bool dark)
-        {
-            EditorSession.DarkSkin = dark;
-            Assert.That(Fields(Output()), Has.Length.EqualTo(10));
-            Assert.That(Draw(Tagged("Table", "wood")), Is.Not.Empty);
-        }
-
         internal static IReadOnlyList<Drawn> Draw(params Object[] targets)
         {
             UnityEditor.Editor editor = UnityEditor.Editor.CreateEditor(targets);
@@ -300,6 +234,125 @@ namespace HaptoFlow.EditorTests
             EditorScreen.Press(shown);
             Draw(surface);
             AdvancedDropdown.Shown!.Pick(chosen);
+        }
+    }
+
+    public sealed class StylusInspectorTests : EditorTest
+    {
+        [Test]
+        public void ForceThresholdsAreShownOnlyForMeasuredForce()
+        {
+            HapticStylus stylus = Stylus();
+            Assert.That(Fields(stylus), Has.No.Member("Press Force (N)"));
+            EditorScreen.Enter("Touch By", TouchDecision.MeasuredForce);
+            Fields(stylus);
+            Assert.That(stylus.TouchBy, Is.EqualTo(TouchDecision.MeasuredForce));
+            Assert.That(Fields(stylus), Has.Member("Press Force (N)"));
+            EditorScreen.Enter("Press Force (N)", 0.25f);
+            Fields(stylus);
+            Assert.That(stylus.ForceDecision.PressNewtons, Is.EqualTo(0.25f));
+            Assert.That(EditorScreen.Draw(UnityEditor.Editor.CreateEditor(new UnityEngine.Object[] { stylus }).OnInspectorGUI)
+                .Select(item => item.Label), Has.Some.Contains("geometry decides"));
+        }
+
+        private static string[] Fields(HapticStylus stylus) => EditorScreen
+            .Draw(UnityEditor.Editor.CreateEditor(new UnityEngine.Object[] { stylus }).OnInspectorGUI)
+            .Where(item => item.Kind == DrawnKind.Field).Select(item => item.Label).ToArray();
+    }
+
+    /// <summary>The page of components calls fields what the Inspector calls them, so that a reader finds them.</summary>
+    public sealed class FieldNameTests : EditorTest
+    {
+        /// <summary>A tooltip that an Inspector wrote itself would stand twice, and soon in other words.</summary>
+        [TestCaseSource(nameof(Inspected))]
+        public void EveryFieldIsShownWithTheTooltipThatIsWrittenOnIt(Type type)
+        {
+            HashSet<string> written = TooltipsOf(type).ToHashSet();
+            Drawn[] fields = InEveryState(type).Where(item => item.Kind == DrawnKind.Field).ToArray();
+            Assert.That(fields, Is.Not.Empty);
+            Assert.That(fields.Where(item => !written.Contains(item.Tooltip)).Select(item => $"{item.Label}: {item.Tooltip}"),
+                Is.Empty);
+        }
+
+        /// <summary>The components and assets whose fields a custom Inspector draws.</summary>
+        private static IEnumerable<TestCaseData> Inspected() =>
+            new[]
+            {
+                typeof(HapticStylus), typeof(HapticSurface), typeof(HapticMaterial), typeof(HapticOutput), typeof(AutoOutput),
+                typeof(HapticMaterialMap), typeof(HapticMaskMap), typeof(HaptoFlowSettings),
+            }.Select(type => new TestCaseData(type).SetName("{m}(" + type.Name + ")"));
+
+        /// <summary>What an Inspector draws for every value of every choice, because choices show and hide fields.
+        /// Lists have an element.</summary>
+        private IEnumerable<Drawn> InEveryState(Type type)
+        {
+            UnityEngine.Object target = New(type);
+            foreach (string size in SerializedFields.Leaves(target).Where(path => path.EndsWith(".Array.size")).ToArray())
+            {
+                SerializedFields.Set(target, size, 1);
+            }
+            var editor = UnityEditor.Editor.CreateEditor(target);
+            var drawn = new List<Drawn>(EditorScreen.Draw(editor.OnInspectorGUI));
+            foreach (string path in SerializedFields.Leaves(target).ToArray())
+            {
+                object? before = SerializedFields.Get(target, path);
+                foreach (object value in before is Enum ? Enum.GetValues(before.GetType()) : Array.Empty<object>())
+                {
+                    SerializedFields.Set(target, path, value);
+                    drawn.AddRange(EditorScreen.Draw(editor.OnInspectorGUI));
+                }
+                SerializedFields.Set(target, path, before);
+            }
+            return drawn;
+        }
+
+        private UnityEngine.Object New(Type type) => typeof(Component).IsAssignableFrom(type)
+            ? World.AddComponent(Make("Owner"), type)
+            : ScriptableObject.CreateInstance(type);
+
+        private static IEnumerable<string> TooltipsOf(Type? type) => type == null
+            ? Array.Empty<string>()
+            : TooltipsOf(type.BaseType).Concat(SerialisedFieldsOf(type).SelectMany(field =>
+                (IsDrawnInside(InnerOf(field)) ? TooltipsOf(InnerOf(field)) : Array.Empty<string>())
+                .Append(field.GetCustomAttribute<TooltipAttribute>()?.tooltip)).OfType<string>());
+
+        private static IEnumerable<FieldInfo> SerialisedFieldsOf(Type type) => type
+            .GetFields(BindingFlags.Instance | BindingFlags.NonPublic | BindingFlags.DeclaredOnly)
+            .Where(field => field.GetCustomAttribute<SerializeField>() != null);
+
+        /// <summary>The type of a field, or of the elements of a list.</summary>
+        private static Type InnerOf(FieldInfo field) =>
+            field.FieldType.IsGenericType ? field.FieldType.GetGenericArguments()[0] : field.FieldType;
+
+        /// <summary>True for a serialisable type of the package. A field that names another object shows the name only,
+        /// and objects name each other in circles.</summary>
+        private static bool IsDrawnInside(Type type) =>
+            HelpTests.Assemblies.Contains(type.Assembly) && !type.IsEnum && !typeof(UnityEngine.Object).IsAssignableFrom(type);
+    }
+
+    public sealed class LevelMeterTests
+    {
+        [TestCase(1f, 0.0)]
+        [TestCase(0.1f, -20.0)]
+        [TestCase(0.001f, -60.0)]
+        [TestCase(1e-9f, -60.0)]
+        [TestCase(0f, -60.0)]
+        public void ALevelIsShownInDecibelsOfFullScale(float level, double decibels) =>
+            Assert.That(LevelMeter.DecibelsOf(level), Is.EqualTo(decibels).Within(1e-4));
+
+        [TestCase(0.0, 1f)]
+        [TestCase(-30.0, 0.5f)]
+        [TestCase(-60.0, 0f)]
+        public void TheBarRangesFromMinusSixtyDecibelsToFullScale(double decibels, float share) =>
+            Assert.That(LevelMeter.ShareOf(decibels), Is.EqualTo(share).Within(1e-6f));
+
+        [Test]
+        public void CaptionsAreCreatedOnce()
+        {
+            Assert.That(LevelMeter.CaptionOf(-12.4), Is.SameAs(LevelMeter.CaptionOf(-11.6)));
+            Assert.That(LevelMeter.CaptionOf(-12.4), Is.EqualTo("level -12 dB of full scale"));
+            Assert.That(LevelMeter.CaptionOf(-60.0), Is.EqualTo("silent"));
+            Assert.That(LevelMeter.CaptionOf(0.0), Is.EqualTo("level 0 dB of full scale"));
         }
     }
 }

@@ -9,16 +9,8 @@ using UnityShim;
 namespace HaptoFlow.EditorTests
 {
     /// <summary>Play mode in an editor with domain reload off, and reloads of scripts.</summary>
-    public sealed class PlayModeTests : EditorTest
+    public sealed class PlayModeTests : PlayedTest
     {
-        [SetUp]
-        public void StepTheEngine() =>
-            HapticSession.OptionsOverride =
-                new HapticEngineOptions { WithoutWorker = true, FixedLeadMs = 8.0, Seed = 3 };
-
-        [TearDown]
-        public void ForgetOptions() => HapticSession.OptionsOverride = null;
-
         [Test]
         public void PlayModeUsesTheProjectsSettings()
         {
@@ -35,16 +27,6 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void AStylusInTheSceneWakesWithTheProjectsSettings()
-        {
-            HaptoFlowSettings settings = Settings();
-            settings.Quality = HapticQuality.Draft;
-            Stylus();
-            EditorSession.Play();
-            Assert.That(HapticSession.Current.Settings, Is.SameAs(settings));
-        }
-
-        [Test]
         public void WithoutSettingsThePackagesModelPlaysAndOneMessageIsLogged()
         {
             // The quality is then automatic, which needs a worker.
@@ -55,15 +37,6 @@ namespace HaptoFlow.EditorTests
             World.Frames(3);
             Assert.That(LogLines("built-in"), Has.Length.EqualTo(1));
             Assert.That(AssetDatabase.FindAssets("t:HaptoFlowSettings"), Is.Empty, "play mode creates no asset");
-        }
-
-        [Test]
-        public void EditModeWakesNoScriptAndStartsNoEngine()
-        {
-            Settings();
-            Stylus();
-            Tagged("Table", "wood");
-            Assert.That(HapticSession.Existing, Is.Null);
         }
 
         [TestCase("reload")]
@@ -86,16 +59,6 @@ namespace HaptoFlow.EditorTests
             }
             Assert.That(HapticSession.Existing, Is.Null);
             Assert.Throws<HaptoFlowException>(() => engine.Statistics());
-        }
-
-        [Test]
-        public void ReloadingScriptsTwiceSubscribesOnce()
-        {
-            EditorSession.ReloadScripts();
-            EditorSession.ReloadScripts();
-            PlayWithEngine();
-            EditorSession.Stop();
-            Assert.That(UnityShim.Log.Lines.Where(line => line.Type == LogType.Exception), Is.Empty);
         }
 
         [Test]
@@ -125,13 +88,8 @@ namespace HaptoFlow.EditorTests
             output.Processing.ExposureGuard = true;
             output.ApplyProcessing();
             // The tip descends onto the table at 0.3 m/s.
-            for (int frame = 0; frame < 90; ++frame)
-            {
-                float height = Mathf.Max(0.001f, 0.1f - 0.3f / 90f * frame);
-                stylus.transform.position = new Vector3(0f, height, 0f);
-                World.Frame();
-                HapticSession.Current.Engine!.Step();
-            }
+            Frames(90, frame => stylus.transform.position =
+                new Vector3(0f, Mathf.Max(0.001f, 0.1f - 0.3f / 90f * frame), 0f));
             Drawn[] drawn = InspectorTests.Draw(stylus).ToArray();
             Assert.That(Value(drawn, "Impact"), Does.Match("^1 impacts, [0-9]+[.][0-9] us a block$"));
             Assert.That(Value(drawn, "Exposure Guard"), Does.Match("^[0-9]+[.][0-9] us a block$"));
@@ -167,10 +125,8 @@ namespace HaptoFlow.EditorTests
             HapticStylus stylus = PlayTouching(out _);
             HapticMaterialMap map = ScriptableObject.CreateInstance<HapticMaterialMap>();
             map.name = "Rooms";
-            HapticMaterial stone = ScriptableObject.CreateInstance<HapticMaterial>();
-            stone.Description.Label = "stone";
             map.Add(HapticMaterialRule.ForTag("Finish", null));
-            map.Add(HapticMaterialRule.ForName("Tab*", stone));
+            map.Add(HapticMaterialRule.ForName("Tab*", Feeling("stone")));
             HaptoFlowSettings.Active.MaterialMap = map;
             stylus.Contact.Surface!.enabled = false;
             World.Frames(2);
@@ -226,22 +182,21 @@ namespace HaptoFlow.EditorTests
             Vector3 point = stylus.Contact.Point;
             Assert.That(Gizmos.Lines.Count(line => line.From == point && line.To == point + 0.02f * Vector3.up),
                 Is.EqualTo(1), "the normal");
-            Assert.That(Handles.Labels.Single(), Does.StartWith("wood: ").And.EndWith("1.0 mm deep"));
+            Assert.That(Gizmos.Lines.Count(line => line.From == point && line.To == point - 0.001f * Vector3.up),
+                Is.EqualTo(1), "the depth");
+            Assert.That(Gizmos.Lines.Where(line => line.From == point).Select(line => (line.To - point).x).Max(),
+                Is.EqualTo(0.015f).Within(0.002f), "the velocity, for a tenth of a second");
+            Assert.That(Gizmos.Lines, Has.Count.EqualTo(9), "with a cross and the heads of two arrows");
+            Assert.That(Handles.Labels.Single(), Does.Match("^wood: [0-9.]+ N, 1[0-9][0-9] mm/s, 1.0 mm deep$"));
             Gizmos.Lines.Clear();
             Handles.Labels.Clear();
             StylusGizmos.Draw(stylus, GizmoType.NonSelected);
             Assert.That(Gizmos.Lines, Is.Not.Empty);
             Assert.That(Handles.Labels, Is.Empty);
-            EditorSession.Stop();
-        }
-
-        [Test]
-        public void AStylusThatTouchesNothingShowsOnlyItsTip()
-        {
-            HapticStylus stylus = Stylus();
             Gizmos.Lines.Clear();
-            StylusGizmos.Draw(stylus, GizmoType.Selected);
-            Assert.That(Gizmos.Lines, Is.Empty);
+            StylusGizmos.Draw(Stylus(), GizmoType.Selected);
+            Assert.That(Gizmos.Lines, Is.Empty, "it touches nothing");
+            EditorSession.Stop();
         }
 
         private HapticEngine PlayWithEngine()
@@ -267,12 +222,7 @@ namespace HaptoFlow.EditorTests
             stylus.transform.position = new Vector3(-0.2f, 0.001f, 0f);
             EditorSession.Play();
             HapticSession.Current.FinishLoading();
-            for (int frame = 0; frame < 45; ++frame)
-            {
-                stylus.transform.position += new Vector3(0.15f / 90f, 0f, 0f);
-                World.Frame();
-                HapticSession.Current.Engine!.Step();
-            }
+            Frames(45, _ => stylus.transform.position += new Vector3(0.15f / 90f, 0f, 0f));
             Assert.That(stylus.IsTouching, Is.True);
             return stylus;
         }

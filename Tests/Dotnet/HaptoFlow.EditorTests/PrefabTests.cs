@@ -4,8 +4,10 @@ using System.Globalization;
 using System.IO;
 using System.Linq;
 using System.Reflection;
+using HaptoFlow.Editor;
 using HaptoFlow.Tests.Support;
 using NUnit.Framework;
+using UnityEditor;
 using UnityEngine;
 using Object = UnityEngine.Object;
 
@@ -159,6 +161,26 @@ namespace HaptoFlow.EditorTests
         {
             float[] numbers = PrefabObject.Numbers(text);
             return new Vector3(numbers[0], numbers[1], numbers[2]);
+        }
+    }
+
+    /// <summary>The scenes of the repository's Unity project in the editor.</summary>
+    public sealed class ProjectScenesTests : EditorTest
+    {
+        [TestCase("Desk.unity")]
+        [TestCase("Headset.unity")]
+        public void CheckSceneFindsNothingToRepair(string name)
+        {
+            // As in the project's OpenXR settings, which the tests of the package read.
+            MxInkSwitch.SwitchOn();
+            ProjectScene scene = ProjectScene.Open(name);
+            ProjectSettingsAsset.FindOrCreate();
+            string[] findings = SceneCheck.Run().Select(finding => finding.Text).ToArray();
+            foreach (GameObject each in scene.Owners.Where(each => each != null))
+            {
+                Object.DestroyImmediate(each);
+            }
+            Assert.That(findings, Is.Empty);
         }
     }
 }

@@ -145,19 +145,6 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void TheSceneCheckRunsAgainWhenTheSceneChanges()
-        {
-            Settings();
-            CheckSceneWindow.Open();
-            var window = EditorWindow.GetWindow<CheckSceneWindow>();
-            Assert.That(Helps(EditorScreen.Draw(window.OnGUI)), Is.Empty);
-            Box("Thing");
-            EditorSession.ChangeHierarchy();
-            Assert.That(Helps(EditorScreen.Draw(window.OnGUI)), Has.Length.EqualTo(1));
-            window.Close();
-        }
-
-        [Test]
         public void LongAudioBlocksAreAFindingThatOpensTheAudioSettings()
         {
             Settings();

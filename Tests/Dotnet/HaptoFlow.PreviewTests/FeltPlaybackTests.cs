@@ -21,21 +21,13 @@ namespace HaptoFlow.PreviewTests
         public void ForgetDevices() => HeldDevices.Reset();
 
         [Test]
-        public void NothingIsSentToADeviceUntilOneIsChosen()
+        public void AGamepadGetsTheEnvelopeWhileTheSoundPlaysAndStopsWithIt()
         {
             HeldGamepad pad = HeldGamepad.Take("A pad");
             Play(0.2);
-            Assert.That(pad.Speeds, Is.Empty);
-            State.Change("Device", state => state.FeltOn = FeltDevice.Gamepad);
-            Window.Finish();
-            Updates(0.2);
-            Assert.That(pad.Speeds, Is.Not.Empty);
-        }
-
-        [Test]
-        public void AGamepadGetsTheEnvelopeWhileTheSoundPlaysAndStopsWithIt()
-        {
-            HeldGamepad pad = Feel(HeldGamepad.Take("A pad"));
+            Assert.That(pad.Speeds, Is.Empty, "no device was chosen");
+            Press("Stop");
+            Feel(pad);
             Updates(0.2);
             Assert.That(pad.Speeds, Is.Empty, "nothing plays yet");
             Play(0.25);
@@ -46,44 +38,6 @@ namespace HaptoFlow.PreviewTests
             int sent = pad.Speeds.Count;
             Updates(0.3);
             Assert.That(pad.Speeds, Has.Count.EqualTo(sent));
-        }
-
-        [Test]
-        public void TheMotorsStopAtTheEndOfTheSound()
-        {
-            HeldGamepad pad = Feel(HeldGamepad.Take("A pad"));
-            Play(1.5);
-            Assert.That(Window.Player!.IsPlaying, Is.False);
-            Assert.That(Strengths(pad).Last(), Is.Zero);
-            Assert.That(Strengths(pad).Max(), Is.GreaterThan(0.05f));
-        }
-
-        [Test]
-        public void ASoundThatLoopsIsFeltOverAndOver()
-        {
-            State.Loops = true;
-            HeldGamepad pad = Feel(HeldGamepad.Take("A pad"));
-            Play(3.0);
-            Assert.That(pad.Speeds.Count(each => each.Seconds > 2.0 && each.Low + each.High > 0.05f),
-                Is.GreaterThan(10));
-        }
-
-        [Test]
-        public void TheKeyBSwitchesWhatIsFeltAtTheSamePlace()
-        {
-            State.ContactSeconds = 4f;
-            State.Compares = true;
-            State.First.Label = "glass";
-            State.Second.Label = "sandpaper";
-            HeldGamepad pad = Feel(HeldGamepad.Take("A pad"));
-            Play(1.0);
-            double first = Strengths(pad).Skip(5).Average();
-            int sent = pad.Speeds.Count;
-            Key(KeyCode.B);
-            Window.Finish();
-            Updates(1.0);
-            Assert.That(Strengths(pad).Skip(sent + 5).Average(), Is.GreaterThan(1.5 * first));
-            Assert.That(Window.Player!.PlayedSeconds, Is.EqualTo(2.0).Within(0.1));
         }
 
         [Test]
@@ -249,11 +203,8 @@ namespace HaptoFlow.PreviewTests
         }
 
         [TestCase(40.0, 1.0)]
-        [TestCase(200.0, 1.0)]
-        [TestCase(1000.0, 1.0)]
         [TestCase(3000.0, 1.0)]
         [TestCase(5000.0, 0.0)]
-        [TestCase(9000.0, 0.0)]
         public void TheWaveForADeviceKeepsWhatItsRateCanHoldAndNothingElse(double frequencyHz, double gain)
         {
             float[] tone = Enumerable.Range(0, 48000)
@@ -279,6 +230,8 @@ namespace HaptoFlow.PreviewTests
             wave.Play(Sound(new float[48000]), 47800, true);
             wave.Follow(300);
             Assert.That(wave.PositionSamples, Is.EqualTo(47800), "over the seam of a loop");
+            wave.Render(new float[100]);
+            Assert.That(wave.PositionSamples, Is.EqualTo(400), "a loop goes on at the beginning");
             wave.Play(Sound(new float[48000]), 48000, false);
             Assert.That(wave.PositionSamples, Is.Zero, "past the end");
         }
@@ -299,12 +252,6 @@ namespace HaptoFlow.PreviewTests
             Window.Finish();
             Press("Play");
             Updates(seconds);
-        }
-
-        private void Press(string caption)
-        {
-            EditorScreen.Press(caption);
-            WindowHost.Draw(Window);
         }
 
         private string[] Remarks() => WindowHost.Draw(Window).Select(item => item.Label).ToArray();

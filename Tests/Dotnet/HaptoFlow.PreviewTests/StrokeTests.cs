@@ -34,34 +34,13 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void TheVelocityOfEveryPresetIsTheDerivativeOfItsPosition(
+        public void TheVelocityOfEveryPresetIsTheDerivativeOfThePlaceAlongItsAxes(
             [ValueSource(nameof(Presets))] StrokePreset preset, [Values(0.0, 130.0)] double degrees)
         {
             Stroke stroke = PresetStrokes.Make(preset, new StrokeSettings(0.05, 1.0, degrees, 2.0));
-            int compared = 0;
-            for (int index = 1; index < stroke.States.Count - 1; ++index)
-            {
-                StrokeState before = stroke.States[index - 1];
-                StrokeState now = stroke.States[index];
-                StrokeState after = stroke.States[index + 1];
-                // Time without contact and wraps at the edge do not count as motion.
-                if (!before.Touching || !now.Continues || !after.Continues)
-                {
-                    continue;
-                }
-                double seconds = after.TimeSeconds - before.TimeSeconds;
-                Assert.That(now.VelocityXMps, Is.EqualTo((after.XMetres - before.XMetres) / seconds).Within(1e-3));
-                Assert.That(now.VelocityYMps, Is.EqualTo((after.YMetres - before.YMetres) / seconds).Within(1e-3));
-                ++compared;
-            }
-            Assert.That(compared, Is.GreaterThan(20));
-        }
-
-        [Test]
-        public void TheVelocityOfEveryPresetIsTheDerivativeOfThePlaceAlongItsAxes(
-            [ValueSource(nameof(Presets))] StrokePreset preset)
-        {
-            Stroke stroke = PresetStrokes.Make(preset, new StrokeSettings(0.05, 1.0, 130.0, 2.0));
+            ContactState air = stroke.States[0].ContactOn(default);
+            Assert.That((air.Touching, air.FirstVelocityMps, air.SecondVelocityMps, air.ForceNewtons),
+                Is.EqualTo((false, 0f, 0f, 0f)));
             int compared = 0;
             for (int index = 1; index < stroke.States.Count - 1; ++index)
             {
@@ -182,14 +161,6 @@ namespace HaptoFlow.PreviewTests
             () => PresetStrokes.Make(StrokePreset.Drawn, Usual), Throws.ArgumentException);
 
         [Test]
-        public void SpeedAndForceAreZeroWithoutContact()
-        {
-            ContactState air = PresetStrokes.Make(StrokePreset.Slide, Usual).States[0].ContactOn(default);
-            Assert.That(air.Touching, Is.False);
-            Assert.That((air.FirstVelocityMps, air.SecondVelocityMps, air.ForceNewtons), Is.EqualTo((0f, 0f, 0f)));
-        }
-
-        [Test]
         public void TheStateAtATimeIsTheLatestUpdate()
         {
             Stroke stroke = PresetStrokes.Make(StrokePreset.Slide, Usual);
@@ -197,6 +168,82 @@ namespace HaptoFlow.PreviewTests
             Assert.That(stroke.At(10.5 / 72.0).TimeSeconds, Is.EqualTo(10.0 / 72.0));
             Assert.That(stroke.At(11.0 / 72.0).TimeSeconds, Is.EqualTo(11.0 / 72.0));
             Assert.That(stroke.At(99.0).TimeSeconds, Is.EqualTo(stroke.States[^1].TimeSeconds));
+        }
+    }
+
+    public sealed class DrawnStrokeTests
+    {
+        private static readonly DrawnPoint[] Nothing = Array.Empty<DrawnPoint>();
+
+        /// <summary>Pointer events at uneven intervals.</summary>
+        private static DrawnStroke Drawn(double seconds, Func<double, (double X, double Y)> path, double force = 1.0)
+        {
+            var drawn = new DrawnStroke();
+            (double x, double y) = path(0.0);
+            drawn.Begin(100.0, x, y, force, Nothing);
+            int count = 0;
+            for (double time = 0.007; time <= seconds; time += 0.007 + 0.004 * (count++ % 3))
+            {
+                (x, y) = path(time);
+                drawn.Move(100.0 + time, x, y, force);
+            }
+            return drawn;
+        }
+
+        [Test]
+        public void ADrawnCurveHasItsSpeedWithinAFewPercent()
+        {
+            Stroke stroke = DrawnStroke.Of(Drawn(1.5, time =>
+                (0.06 + 0.02 * Math.Cos(5.0 * time), 0.04 + 0.02 * Math.Sin(5.0 * time))).Points);
+            StrokeState[] inner = stroke.States.Where(state => state.Touching).Skip(2).SkipLast(2).ToArray();
+            Assert.That(inner.Select(state => state.SpeedMps), Is.All.EqualTo(0.1).Within(0.004));
+        }
+
+        [Test]
+        public void APauseOfThePointerIsAPauseOfTheStroke()
+        {
+            var drawn = new DrawnStroke();
+            drawn.Begin(0.0, 0.02, 0.02, 1.0, Nothing);
+            drawn.Move(0.02, 0.03, 0.02, 1.0);
+            drawn.Move(0.52, 0.04, 0.02, 1.0);
+            drawn.Move(0.54, 0.05, 0.02, 1.0);
+            Stroke stroke = DrawnStroke.Of(drawn.Points);
+            StrokeState resting = stroke.At(PresetStrokes.LeadSeconds + 0.3);
+            Assert.That(resting.Touching, Is.True);
+            Assert.That(resting.SpeedMps, Is.Zero);
+            Assert.That(resting.XMetres, Is.EqualTo(0.03).Within(1e-6));
+            Assert.That(stroke.At(PresetStrokes.LeadSeconds + 0.53).SpeedMps, Is.GreaterThan(0.2));
+        }
+
+        [Test]
+        public void PointsOutsideThePatchMoveToItsEdge()
+        {
+            var drawn = new DrawnStroke();
+            drawn.Begin(0.0, -1.0, 5.0, -3.0, Nothing);
+            drawn.Move(0.01, 7.0, -0.5, 1.0);
+            Assert.That((drawn.Points[0].XMetres, drawn.Points[0].YMetres), Is.EqualTo((0f, 0.08f)));
+            Assert.That(drawn.Points[0].ForceNewtons, Is.Zero);
+            Assert.That((drawn.Points[1].XMetres, drawn.Points[1].YMetres), Is.EqualTo((0.12f, 0f)));
+        }
+
+        [Test]
+        public void EventsAtTheSameTimeAndAfterTwentySecondsAreIgnored()
+        {
+            var drawn = new DrawnStroke();
+            drawn.Begin(3.0, 0.02, 0.02, 1.0, Nothing);
+            drawn.Move(3.0, 0.03, 0.02, 1.0);
+            drawn.Move(2.0, 0.03, 0.02, 1.0);
+            drawn.Move(23.5, 0.03, 0.02, 1.0);
+            Assert.That(drawn.Points.Count, Is.EqualTo(1));
+        }
+
+        [Test]
+        public void AStrokeWithoutPointsHasNoContact()
+        {
+            Stroke stroke = DrawnStroke.Of(Nothing);
+            Assert.That(stroke.States, Is.Not.Empty);
+            Assert.That(stroke.States.Any(state => state.Touching), Is.False);
+            Assert.That((stroke.MaximumSpeedMps, stroke.MaximumForceNewtons), Is.EqualTo((0.0, 0.0)));
         }
     }
 }

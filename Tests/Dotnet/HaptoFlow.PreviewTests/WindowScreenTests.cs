@@ -4,6 +4,7 @@ using System.IO;
 using System.Linq;
 using HaptoFlow.Editor;
 using HaptoFlow.Preview;
+using HaptoFlow.Tests.Support;
 using NUnit.Framework;
 using UnityEditor;
 using UnityEngine;
@@ -14,17 +15,9 @@ namespace HaptoFlow.PreviewTests
     /// <summary>Tests of the Texture Preview window that need the shim: drawing, controls, clean-up.</summary>
     public sealed class WindowScreenTests : PreviewWindowTest
     {
-        private IReadOnlyList<Drawn> Screen() => WindowHost.Draw(Window);
-
         private void Enter(string label, object value)
         {
             EditorScreen.Enter(label, value);
-            Screen();
-        }
-
-        private void Press(string label)
-        {
-            EditorScreen.Press(label);
             Screen();
         }
 
@@ -126,54 +119,11 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void ResetAndAnotherLabelResetFeatureScaleAndTone()
-        {
-            Enter("Sliders", true);
-            Enter("Feature Scale", 2f);
-            Enter("Tone [dB/oct]", 3f);
-            WindowHost.Reload(Window);
-            Assert.That((State.First.FeatureScale, State.First.ToneDbPerOctave), Is.EqualTo((2f, 3f)));
-            Undo.IncrementCurrentGroup();
-            Press("Reset");
-            Assert.That((State.First.FeatureScale, State.First.ToneDbPerOctave), Is.EqualTo((1f, 0f)));
-            Undo.PerformUndo();
-            Assert.That((State.First.FeatureScale, State.First.ToneDbPerOctave), Is.EqualTo((2f, 3f)));
-            State.Change("Label", state => state.First.Choose("cork"));
-            Assert.That(State.First.IsAtRest, Is.True);
-        }
-
-        [Test]
-        public void AModelWithoutSlidersHasFeatureScaleAndTone()
-        {
-            const string path = "Assets/HaptoFlowScaleTests.haptoflow";
-            const string beside = "Assets/HaptoFlowScaleTests.sliders.json";
-            File.WriteAllBytes(path, DefaultFile());
-            File.WriteAllText(beside, SliderFiles.For(DefaultFile(), "0badcafe"));
-            try
-            {
-                AssetDatabase.ImportAsset(path);
-                State.Model = AssetDatabase.LoadAssetAtPath<HapticModelAsset>(path);
-                SliderCatalog.Forget();
-                Enter("Sliders", true);
-                Assert.That(Screen().Select(item => item.Label), Does.Not.Contain("Coarseness"));
-                Enter("Feature Scale", 2f);
-                Assert.That(State.First.FeatureScale, Is.EqualTo(2f));
-                Press("Reset");
-                Assert.That(State.First.FeatureScale, Is.EqualTo(1f));
-            }
-            finally
-            {
-                SliderCatalog.Forget();
-                AssetDatabase.DeleteAsset(path);
-                AssetDatabase.DeleteAsset(beside);
-            }
-        }
-
-        [Test]
-        public void ASavedMaterialKeepsFeatureScaleAndTone()
+        public void AChangedMaterialIsSavedWithFeatureScaleAndToneAndPreviewedFromThenOn()
         {
             WindowHost.AnswerToSave = name => "Assets/" + name;
             Enter("Sliders", true);
+            Assert.That(Screen().Single(item => item.Label == "Save as Haptic Material\u2026").Enabled, Is.False);
             Enter("Hardness", -0.5f);
             Enter("Feature Scale", 2f);
             Enter("Tone [dB/oct]", 3f);
@@ -181,54 +131,25 @@ namespace HaptoFlow.PreviewTests
             float[] moved = Samples;
             Press("Save as Haptic Material\u2026");
             WindowHost.Update();
-            MaterialDescription saved =
-                AssetDatabase.LoadAssetAtPath<HapticMaterial>("Assets/wood, moved.asset").Description;
-            Assert.That((saved.FeatureScale, saved.ToneDbPerOctave), Is.EqualTo((2f, 3f)));
-            Assert.That((State.First.FeatureScale, State.First.Moves.Length), Is.EqualTo((2f, 0)));
+            Assert.That(WindowHost.Notification, Is.EqualTo("Saved wood, moved"));
+            var saved = AssetDatabase.LoadAssetAtPath<HapticMaterial>("Assets/wood, moved.asset");
+            Assert.That((saved.IsLearnt, saved.Description.FeatureScale, saved.Description.ToneDbPerOctave),
+                Is.EqualTo((true, 2f, 3f)));
+            Assert.That((State.First.Learnt, State.First.FeatureScale, State.First.Moves.Length),
+                Is.EqualTo((saved, 2f, 0)));
             Window.Finish();
             Assert.That(Samples.SequenceEqual(moved), Is.True);
             WindowHost.AnswerToSave = null;
         }
 
         [Test]
-        public void OnlyAChangedLabelCanBeSaved()
-        {
-            WindowHost.AnswerToSave = name => "Assets/" + name;
-            Window.Finish();
-            Enter("Sliders", true);
-            Assert.That(Screen().Single(item => item.Label == "Save as Haptic Material\u2026").Enabled, Is.False);
-            Enter("Feature Scale", 0.5f);
-            Press("Save as Haptic Material\u2026");
-            WindowHost.Update();
-            Assert.That(WindowHost.Notification, Is.EqualTo("Saved wood"));
-            var saved = AssetDatabase.LoadAssetAtPath<HapticMaterial>("Assets/wood.asset");
-            Assert.That(saved.Description.FeatureScale, Is.EqualTo(0.5f));
-            WindowHost.AnswerToSave = null;
-        }
-
-        [Test]
-        public void AChangedMaterialIsSavedAndPreviewedFromThenOn()
-        {
-            WindowHost.AnswerToSave = name => "Assets/" + name;
-            Enter("Sliders", true);
-            Enter("Hardness", -0.5f);
-            Window.Finish();
-            float[] moved = Samples;
-            Press("Save as Haptic Material\u2026");
-            WindowHost.Update();
-            var saved = AssetDatabase.LoadAssetAtPath<HapticMaterial>("Assets/wood, moved.asset");
-            Assert.That(saved.IsLearnt, Is.True);
-            Assert.That((State.First.Learnt, State.First.Moves.Length), Is.EqualTo((saved, 0)));
-            Window.Finish();
-            Assert.That(Samples, Is.EqualTo(moved));
-            WindowHost.AnswerToSave = null;
-        }
-
-        [Test]
         public void SecondMaterialAndShareAppearAtTheNextLayout()
         {
+            Window.Finish();
+            Assert.That(Screen().Single(item => item.Label == "B").Enabled, Is.False);
             Enter("Compare", true);
             Assert.That(Screen().Select(item => item.Label), Does.Contain("Material B").And.Not.Contain("Share"));
+            Assert.That(Screen().Single(item => item.Label == "B").Enabled, Is.True);
             State.First.SecondLabel = "cork";
             Assert.That(Screen().Count(item => item.Label == "Share"), Is.EqualTo(1));
             Enter("Compare", false);
@@ -274,23 +195,8 @@ namespace HaptoFlow.PreviewTests
             Enter("Quality", 0);
             Assert.That(State.Tier, Is.EqualTo("sketch"));
             Assert.That(Screen().Single(item => item.Label == "Quality").Value, Is.EqualTo("sketch"));
-        }
-
-        [Test]
-        public void AQualityThatTheModelLacksIsReplacedByItsDefault()
-        {
-            Window.Finish();
             State.Tier = "exquisite";
-            Assert.That(Screen().Single(item => item.Label == "Quality").Value, Is.EqualTo("standard"));
-        }
-
-        [Test]
-        public void TheButtonsAAndBAreDisabledWithoutASecondMaterial()
-        {
-            Window.Finish();
-            Assert.That(Screen().Single(item => item.Label == "B").Enabled, Is.False);
-            State.Compares = true;
-            Assert.That(Screen().Single(item => item.Label == "B").Enabled, Is.True);
+            Assert.That(Screen().Single(item => item.Label == "Quality").Value, Is.EqualTo("standard"), "the default");
         }
 
         [Test]
@@ -304,27 +210,23 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void ChartsAreDrawnInTheSkinOfTheEditor()
+        public void ChartsAreDrawnInTheSkinAndThePixelsOfTheEditor()
         {
             Window.Finish();
             Assert.That(CardColour(), Is.EqualTo(Palette.Dark.Card.ToColor()));
             EditorSession.DarkSkin = false;
             Assert.That(CardColour(), Is.EqualTo(Palette.Light.Card.ToColor()));
-        }
-
-        [Test]
-        public void AHairlineIsOnePixelOfADenseScreen()
-        {
-            Window.Finish();
             WindowHost.PixelsPerPoint = 2f;
             Screen();
             float thinnest = ScreenPaint.All.Where(each => each.Call == "DrawRect").Min(each => each.Place.height);
-            Assert.That(thinnest, Is.EqualTo(0.5f));
+            Assert.That(thinnest, Is.EqualTo(0.5f), "a hairline is one pixel");
         }
 
         [Test]
-        public void KeysAreIgnoredWhileTextIsEdited()
+        public void KeysOfOthersAndOfTextAreIgnored()
         {
+            Assert.That(Key(KeyCode.E), Is.False);
+            Assert.That(Key(KeyCode.A, EventModifiers.Alt), Is.False);
             EditorGUIUtility.editingTextField = true;
             Assert.That(Key(KeyCode.Space), Is.False);
             Assert.That(Key(KeyCode.RightArrow), Is.False);
@@ -410,6 +312,131 @@ namespace HaptoFlow.PreviewTests
             Assert.That(GC.GetAllocatedBytesForCurrentThread() - before, Is.Zero);
             Assert.That((drawings, ScreenPaint.All.Count), Is.EqualTo((1, calls)));
             picture.Release();
+        }
+    }
+
+    /// <summary>Tests of the Texture Preview window that need the shim: playback and export.</summary>
+    public sealed class WindowSoundTests : PreviewWindowTest
+    {
+        [SetUp]
+        public void Reset() => WindowHost.AnswerToSave = null;
+
+        [Test]
+        public void PlayStartsTheNormalisedActiveSoundAndStopEndsIt()
+        {
+            Window.Finish();
+            Press("Play");
+            Window.Step();
+            AudioClip clip = ClipPreview.Playing!;
+            var played = new float[clip.samples];
+            clip.GetData(played, 0);
+            Assert.That((clip.frequency, clip.channels), Is.EqualTo((48000, 1)));
+            Assert.That(played.Max(sample => Math.Abs(sample)), Is.EqualTo(0.9f).Within(1e-4f));
+            float gain = Window.Player!.Gain;
+            Assert.That(played, Is.EqualTo(Samples.Select(sample => gain * sample)).Within(1e-6f));
+            Press("Stop");
+            Assert.That(ClipPreview.Playing, Is.Null);
+            Assert.That(Window.Player.PlayedSeconds, Is.Null);
+            State.Change("Normalise", state => state.Raises = false);
+            Window.Finish();
+            Press("Play");
+            Window.Step();
+            ClipPreview.Playing!.GetData(played, 0);
+            Assert.That(played, Is.EqualTo(Samples));
+        }
+
+        [Test]
+        public void BothMaterialsAreNormalisedWithTheSameGain()
+        {
+            State.Compares = true;
+            Window.Finish();
+            float gain = Window.Player!.Gain;
+            State.Change("Material", state => state.Active = 1);
+            Window.Finish();
+            Assert.That(Window.Player.Gain, Is.EqualTo(gain));
+            float loudest = Window.Session!.Shown!.Sounds.Max(sound => sound.Sound.Peak);
+            Assert.That(gain * loudest, Is.EqualTo(0.9f).Within(1e-4f));
+        }
+
+        [Test]
+        public void SwitchingMaterialsDuringPlaybackKeepsThePosition()
+        {
+            State.Compares = true;
+            Window.Finish();
+            Key(KeyCode.Space);
+            Window.Step();
+            AudioClip first = ClipPreview.Playing!;
+            ClipPreview.Advance(9600);
+            Press("B");
+            Window.Finish();
+            Assert.That(ClipPreview.Playing, Is.Not.Null.And.Not.SameAs(first));
+            Assert.That(ClipPreview.Position, Is.EqualTo(9600));
+            Assert.That(Window.Player!.PlayedSeconds, Is.EqualTo(0.2).Within(1e-9));
+        }
+
+        [Test]
+        public void PlaybackStopsAtTheEndUnlessItLoops()
+        {
+            Window.Finish();
+            Key(KeyCode.Space);
+            Window.Step();
+            ClipPreview.Advance(10 * 48000);
+            Window.Step();
+            Assert.That(Window.Player!.IsPlaying, Is.False);
+            State.Loops = true;
+            Key(KeyCode.Space);
+            Window.Step();
+            ClipPreview.Advance(10 * 48000);
+            Window.Step();
+            Assert.That(Window.Player.IsPlaying, Is.True);
+        }
+
+        [Test]
+        public void ExportProposesAFileNameFromMaterialAndStroke()
+        {
+            string proposed = "";
+            string path = TemporaryFile();
+            WindowHost.AnswerToSave = name =>
+            {
+                proposed = name;
+                return path;
+            };
+            Assert.That(Key(KeyCode.E, EventModifiers.Control), Is.True);
+            Assert.That(proposed, Is.Empty, "the dialog opens after the event");
+            WindowHost.Update();
+            Assert.That(proposed, Is.EqualTo("wood 0.12 mps 1.5 N.wav"));
+            Assert.That(new WaveReader(File.ReadAllBytes(path)).Samples(), Is.EqualTo(Samples));
+            Assert.That(WindowHost.Notification, Is.EqualTo("Exported"));
+        }
+    }
+
+    /// <summary>The Texture Preview with a model file of published weights.</summary>
+    public sealed class ImportedModelPreviewTests : PreviewWindowTest
+    {
+        [Test]
+        public void TheTiersOfItsQualitiesPlayAndSoundDifferent()
+        {
+            HapticModelAsset model = HapticModelAsset.Create(
+                File.ReadAllBytes(RepositoryFiles.In("Tests", "Golden", "model", "published.haptoflow")));
+            State.Model = model;
+            State.First.Label = "wool felt";
+            float[]? before = null;
+            string[] tiers = PreviewModel.Of(model).Tiers.ToArray();
+            Assert.That(tiers, Is.EqualTo(new[] { "published-1-unguided", "published" }));
+            foreach (string tier in tiers)
+            {
+                State.Change("Quality", state => state.Tier = tier);
+                Window.Finish();
+                Assert.That(Window.Session!.Problem, Is.Null);
+                Assert.That(Window.Player!.PlayedSound!.Sound.Material, Is.EqualTo(new LabelMix("wool felt")));
+                Assert.That(Samples.Max(Math.Abs), Is.GreaterThan(1e-4f), tier);
+                Assert.That(Samples.SequenceEqual(before ?? Array.Empty<float>()), Is.False, tier);
+                before = Samples;
+            }
+            EditorScreen.Enter("Sliders", true);
+            WindowHost.Draw(Window);
+            string[] shown = WindowHost.Draw(Window).Select(item => item.Label).ToArray();
+            Assert.That(shown, Has.Member("Feature Scale").And.Some.StartsWith("This model has no sliders"));
         }
     }
 }

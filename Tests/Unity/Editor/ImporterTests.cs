@@ -1,6 +1,11 @@
 #nullable enable
 using System;
+using System.Collections.Generic;
 using System.Linq;
+using System.Text;
+using System.Text.RegularExpressions;
+using HaptoFlow.Editor;
+using HaptoFlow.Model;
 using NUnit.Framework;
 using UnityEditor;
 using UnityEditor.AssetImporters;
@@ -10,28 +15,7 @@ namespace HaptoFlow.EditorTests
 {
     public sealed class ImporterTests : EditorTest
     {
-        [Test]
-        public void TheDefaultModelIsImportedWithItsLabelsAndTiers()
-        {
-            HapticModelAsset model = Model();
-            Assert.That(model.Header.Labels, Has.Count.EqualTo(20));
-            Assert.That(model.Header.Labels.Select(label => label.Name), Has.Member("wood"));
-            Assert.That(model.Header.Tiers.Select(tier => tier.Name), Is.SupersetOf(new[] { "draft", "standard" }));
-        }
-
-        [Test]
-        public void AValidFileIsImportedWithoutMessages()
-        {
-            string path = Import("sound.haptoflow", Model().File);
-            byte[] kept = AssetDatabase.LoadAssetAtPath<HapticModelAsset>(path).File;
-            Assert.That(kept.AsSpan().SequenceEqual(Model().File), Is.True);
-            Assert.That(ImportErrors(path), Is.Empty);
-        }
-
         [TestCase("truncated", "get it again")]
-        [TestCase("header", "checksum at byte 24")]
-        [TestCase("part", "does not match its checksum")]
-        [TestCase("empty", "its first part alone takes 32")]
         [TestCase("text", "not a .haptoflow file")]
         public void ADamagedFileBecomesAnAssetAndLogsItsProblem(string damage, string message)
         {
@@ -53,22 +37,9 @@ namespace HaptoFlow.EditorTests
             Assert.That(ImportErrors(path), Is.Empty);
         }
 
-        private static byte[] Damaged(byte[] file, string damage)
-        {
-            switch (damage)
-            {
-                case "truncated":
-                    return ModelBytes.Truncated(file, file.Length - 1000);
-                case "header":
-                    return ModelBytes.Flipped(file, 100);
-                case "part":
-                    return ModelBytes.Flipped(file, file.Length - 100);
-                case "empty":
-                    return Array.Empty<byte>();
-                default:
-                    return System.Text.Encoding.ASCII.GetBytes("this is no model, but a text of more than 32 bytes");
-            }
-        }
+        private static byte[] Damaged(byte[] file, string damage) => damage == "truncated"
+            ? ModelBytes.Truncated(file, file.Length - 1000)
+            : System.Text.Encoding.ASCII.GetBytes("this is no model, but a text of more than 32 bytes");
 
         private static string[] ImportErrors(string path)
         {
@@ -78,5 +49,144 @@ namespace HaptoFlow.EditorTests
                 : log.logEntries.Where(entry => (entry.flags & ImportLogFlags.Error) != 0)
                     .Select(entry => entry.message).ToArray();
         }
+    }
+
+    public sealed class MaterialImporterTests : EditorTest
+    {
+        private static string Text(params (string Key, object? Value)[] changes) => MaterialText.With(
+            MaterialFile.Read(MaterialText.OfLabel(Model().File, "glass")),
+            changes.ToDictionary(each => each.Key, each => each.Value));
+
+        private static string ImportText(string text) => Import("glass.haptomaterial", Encoding.UTF8.GetBytes(text));
+
+        private static string[] Errors(string path) => AssetImporter.GetImportLog(path)?.logEntries
+            .Where(entry => (entry.flags & ImportLogFlags.Error) != 0).Select(entry => entry.message).ToArray() ??
+            new string[0];
+
+        [Test]
+        public void AMaterialFileIsImportedWithItsNearestLabel()
+        {
+            string text = Text();
+            string path = ImportText(text);
+            var material = AssetDatabase.LoadAssetAtPath<HapticMaterial>(path);
+            Assert.That(material.Learnt, Is.EqualTo(text));
+            Assert.That(material.Description.Label, Is.EqualTo("glass"));
+            Assert.That(material.Description.Learnt, Is.SameAs(material));
+            Assert.That(Errors(path), Is.Empty);
+        }
+
+        [TestCase("", "")]
+        [TestCase("{\"format\": \"haptoflow-material\", \"version\": 1}", "expected a member \"space\"")]
+        public void AnInvalidMaterialFileIsImportedAndLogsTheKey(string text, string message)
+        {
+            LogAssert.ignoreFailingMessages = true;
+            string path = ImportText(text);
+            Assert.That(AssetDatabase.LoadAssetAtPath<HapticMaterial>(path).IsLearnt, Is.False);
+            Assert.That(Errors(path).Single(), Does.Contain(path).And.Contain(message));
+        }
+
+        [Test]
+        public void TheSummaryShowsNameNearestLabelDurationAndLicence()
+        {
+            MaterialSummary summary = MaterialSummary.Of(Text(("name", "bottle"), ("provenance",
+                new Dictionary<string, object?>
+                {
+                    ["statement"] = "learnt", ["recordings"] = "one", ["licence"] = "CC BY 4.0", ["seconds"] = 12.5, ["created"] = "",
+                })), Model());
+            Dictionary<string, string> rows = summary.Rows.ToDictionary(row => row.Name, row => row.Value);
+            Assert.That((summary.Title, summary.Problem, summary.Mismatch), Is.EqualTo(("bottle", (string?)null, (string?)null)));
+            Assert.That(rows["Nearest Label"], Is.EqualTo("glass"));
+            Assert.That(rows["Recording"], Is.EqualTo("12.5 s"));
+            Assert.That(rows["Licence"], Is.EqualTo("CC BY 4.0"));
+        }
+
+        [Test]
+        public void TheSummaryShowsWhyAMaterialCannotBeUsed()
+        {
+            Assert.That(MaterialSummary.Of(Text(("space", "0badcafe")), Model()).Mismatch,
+                Does.Contain("learnt for another model").And.Contain("Learn it again"));
+            Assert.That(MaterialSummary.Of(Text(), null).Mismatch, Does.Contain("no usable model"));
+            Assert.That(MaterialSummary.Of("{}", Model()).Problem, Does.Contain("expected a member \"format\""));
+        }
+    }
+
+    public sealed class ModelSummaryTests : EditorTest
+    {
+        [Test]
+        public void TheSummaryShowsProvenanceAndLicence()
+        {
+            ModelSummary summary = ModelSummary.Of(Model());
+            Assert.That(summary.Problem, Is.Null);
+            Assert.That(Value(summary, "Provenance"), Is.EqualTo("trained on synthetic recordings"));
+            Assert.That(Value(summary, "Licence"), Is.EqualTo("MIT"));
+            Assert.That(Value(summary, "Trained speeds"), Does.Match("^[0-9.]+ to [0-9.]+ m/s$"));
+            Assert.That(Value(summary, "Trained forces"), Does.Match("^[0-9.]+ to [0-9.]+ N$"));
+        }
+
+        [Test]
+        public void AnAssumedLevelIsShownAndAMeasuredOneIsNotMentioned()
+        {
+            byte[] file = ModelBytes.WithHeader(Model().File, header => Regex.Replace(
+                Regex.Replace(header, "\"statement\":\\s*\"[^\"]*\"", "\"statement\":\"imported; level assumed: a median\""),
+                "\"unit\":\\s*\"m/s\\^2\"", "\"unit\":\"m/s^2\",\"assumed\":true"));
+            ModelSummary assumed = ModelSummary.Of(HapticModelAsset.Create(file));
+            Assert.That(Value(assumed, "Level"), Is.EqualTo("level assumed"));
+            Assert.That(Value(assumed, "Provenance"), Is.EqualTo("imported; level assumed: a median"));
+            Assert.That(ModelSummary.Of(Model()).Origin.Select(row => row.Name), Has.No.Member("Level"));
+        }
+
+        [Test]
+        public void EveryLabelShowsItsCategoryAndStiffness()
+        {
+            ModelSummary summary = ModelSummary.Of(Model());
+            Assert.That(summary.Labels, Has.Count.EqualTo(20));
+            SummaryRow wood = summary.Labels.Single(row => row.Name == "wood");
+            Assert.That(wood.Value, Does.StartWith("wood, 1200 N/m, friction 0."));
+            Assert.That(summary.Labels.Single(row => row.Name == "corduroy").Value, Does.Contain("period"));
+        }
+
+        [Test]
+        public void MissingFiguresAreShownAsNotMeasured()
+        {
+            ModelSummary summary = Summary("{}", "{}");
+            Assert.That(summary.Tiers.Select(tier => tier.Accuracy), Is.All.EqualTo("not measured"));
+            Assert.That(summary.Tiers.Select(tier => tier.Time), Is.All.EqualTo("not measured"));
+        }
+
+        [Test]
+        public void MeasuredFiguresAreShownWithTheirUnits()
+        {
+            ModelSummary summary = Summary(
+                "{\"level_error_db\":-0.25,\"gfc_recording\":0.9714,\"lsd_db\":3.1}",
+                "{\"machine\":\"a desk\",\"ms_p50\":0.231,\"ms_live_p50\":0.3,\"ms_live_p99\":0.52}");
+            Assert.That(summary.Tiers[0].Accuracy,
+                Is.EqualTo("level error -0.25 dB; spectral fit 0.971 of 1; spectral distance 3.1 dB"));
+            Assert.That(summary.Tiers[0].Time,
+                Is.EqualTo("0.23 ms a segment; 0.30 ms live, one in a hundred above 0.52; on a desk"));
+        }
+
+        [Test]
+        public void TheDefaultTierIsMarked()
+        {
+            ModelSummary summary = ModelSummary.Of(Model());
+            string[] named = summary.Tiers.Select(tier => tier.Name)
+                .Where(name => name.EndsWith("(default)")).ToArray();
+            Assert.That(named, Is.EqualTo(new[] { Model().Header.DefaultTier.Name + " (default)" }));
+            Assert.That(summary.Tiers[0].Network, Does.Contain("million weights"));
+        }
+
+        [Test]
+        public void AFigureThatIsNotANumberIsReportedAsAProblem()
+        {
+            ModelSummary summary = Summary("{\"lsd_db\":\"low\"}", "{}");
+            Assert.That(summary.Problem, Does.Contain("lsd_db is not a number"));
+            Assert.That(summary.Labels, Is.Empty);
+        }
+
+        private static ModelSummary Summary(string accuracyJson, string costJson) =>
+            ModelSummary.Of(HapticModelAsset.Create(ModelBytes.WithFigures(Model().File, accuracyJson, costJson)));
+
+        private static string Value(ModelSummary summary, string name) =>
+            summary.Origin.Single(row => row.Name == name).Value;
     }
 }

@@ -33,14 +33,11 @@ namespace HaptoFlow.EditorTests
             HaptoFlowSettings first = ProjectSettingsAsset.FindOrCreate();
             HaptoFlowSettings second = ProjectSettingsAsset.FindOrCreate();
             Assert.That(second, Is.SameAs(first));
+            Assert.That(first.Model, Is.EqualTo(Model()));
             Assert.That(AssetDatabase.FindAssets("t:HaptoFlowSettings"), Has.Length.EqualTo(1));
             Assert.That(AssetDatabase.GetAssetPath(first), Is.EqualTo(ProjectSettingsAsset.Path));
             Assert.That(PlayerSettings.GetPreloadedAssets(), Is.EqualTo(new Object[] { first }));
         }
-
-        [Test]
-        public void NewSettingsHaveThePackagesModel() =>
-            Assert.That(ProjectSettingsAsset.FindOrCreate().Model, Is.EqualTo(Model()));
 
         [Test]
         public void OtherPreloadedAssetsAreKept()

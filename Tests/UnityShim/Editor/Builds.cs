@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
+using System.Reflection;
 using UnityEditor;
 using UnityEditor.Build;
 using UnityEditor.Build.Reporting;
@@ -58,10 +59,7 @@ namespace UnityEditor
         public static PluginImporter[] GetImporters(BuildTarget platform) =>
             BuildHost.Plugins.Where(plugin => plugin.Platforms.Contains(platform)).ToArray();
     }
-}
 
-namespace UnityEditor
-{
     public partial class EditorBuildSettingsScene
     {
         public EditorBuildSettingsScene(string path, bool enabled)
@@ -71,7 +69,6 @@ namespace UnityEditor
         }
 
         public bool enabled { get; set; }
-
         public string path { get; set; }
     }
 
@@ -172,5 +169,19 @@ namespace UnityShim
             .Select(type => (T)Activator.CreateInstance(type, true))
             .OrderBy(callback => callback.callbackOrder)
             .ToArray();
+    }
+}
+
+namespace UnityEditor.PackageManager
+{
+    public sealed partial class PackageInfo
+    {
+        private PackageInfo(string folder) => resolvedPath = folder;
+
+        /// <summary>The package's folder on disk.</summary>
+        public string resolvedPath { get; }
+
+        public static PackageInfo? FindForAssembly(Assembly assembly) =>
+            EditorSession.PackageFolder is { } folder ? new PackageInfo(folder) : null;
     }
 }

@@ -20,6 +20,7 @@ namespace UnityEditor
 
         public static int indentLevel { get; set; }
         public static bool showMixedValue { get; set; }
+        public static bool actionKey => Event.current.control;
 
         public static void BeginDisabledGroup(bool disabled)
         {
@@ -75,15 +76,11 @@ namespace UnityEditor
 
         public static int LayerField(Rect position, GUIContent label, int layer) => EditorScreen.Field(label, layer);
 
-        public static Rect IndentedRect(Rect source) => source;
-
         public static bool DropdownButton(Rect position, GUIContent content, FocusType focusType) =>
             EditorScreen.Button(content);
 
         public static void LabelField(Rect position, string label) => EditorScreen.Add(DrawnKind.Label, label);
         public static void LabelField(Rect position, string label, GUIStyle style) => LabelField(position, label);
-        public static void LabelField(Rect position, string label, string label2) =>
-            EditorScreen.Add(DrawnKind.Label, label, label2);
         public static void LabelField(Rect position, GUIContent label, GUIContent label2) =>
             EditorScreen.Add(DrawnKind.Label, label.text, label2.text, label.tooltip);
 
@@ -95,11 +92,6 @@ namespace UnityEditor
 
         public static void DrawRect(Rect rect, Color color) => ScreenPaint.Add(nameof(DrawRect), rect, color);
 
-        public static void Slider(
-            Rect position, SerializedProperty property, float leftValue, float rightValue, GUIContent label) =>
-            property.floatValue = Mathf.Clamp(
-                PropertyScreen.Enter(property, label, property.floatValue), leftValue, rightValue);
-
         public static bool PropertyField(Rect position, SerializedProperty property) =>
             PropertyField(position, property, null);
 
@@ -108,9 +100,6 @@ namespace UnityEditor
             PropertyScreen.Show(position, property, label ?? new GUIContent(property.displayName, property.tooltip));
             return false;
         }
-
-        public static float GetPropertyHeight(SerializedProperty property, GUIContent label) =>
-            PropertyScreen.HeightOf(property, label);
 
         public partial struct DisabledScope : IDisposable
         {

@@ -15,17 +15,14 @@ namespace UnityEngine
         }
 
         public static Vector2 zero => new Vector2(0f, 0f);
-        public static Vector2 one => new Vector2(1f, 1f);
 
         public float magnitude => (float)Math.Sqrt(x * x + y * y);
         public float sqrMagnitude => x * x + y * y;
-        public Vector2 normalized => magnitude > 1e-5f ? this / magnitude : zero;
 
         public static Vector2 operator +(Vector2 a, Vector2 b) => new Vector2(a.x + b.x, a.y + b.y);
         public static Vector2 operator -(Vector2 a, Vector2 b) => new Vector2(a.x - b.x, a.y - b.y);
         public static Vector2 operator *(Vector2 a, float d) => new Vector2(a.x * d, a.y * d);
         public static Vector2 operator *(float d, Vector2 a) => a * d;
-        public static Vector2 operator /(Vector2 a, float d) => new Vector2(a.x / d, a.y / d);
         public static bool operator ==(Vector2 lhs, Vector2 rhs) => (lhs - rhs).sqrMagnitude < 9.99999944E-11f;
         public static bool operator !=(Vector2 lhs, Vector2 rhs) => !(lhs == rhs);
 
@@ -35,110 +32,31 @@ namespace UnityEngine
         public override string ToString() => FormattableString.Invariant($"({x:F2}, {y:F2})");
     }
 
-    public partial struct Rect : IEquatable<Rect>
+    public partial struct Rect
     {
-        public Rect(float x, float y, float width, float height)
-        {
-            this.x = x;
-            this.y = y;
-            this.width = width;
-            this.height = height;
-        }
-
-        public static Rect zero => new Rect(0f, 0f, 0f, 0f);
+        public Rect(float x, float y, float width, float height) =>
+            (this.x, this.y, this.width, this.height) = (x, y, width, height);
 
         public float x { get; set; }
         public float y { get; set; }
         public float width { get; set; }
         public float height { get; set; }
 
-        public Vector2 position
-        {
-            get => new Vector2(x, y);
-            set
-            {
-                x = value.x;
-                y = value.y;
-            }
-        }
+        public Vector2 position => new Vector2(x, y);
+        public float xMax => x + width;
+        public float yMax => y + height;
 
-        public Vector2 size
-        {
-            get => new Vector2(width, height);
-            set
-            {
-                width = value.x;
-                height = value.y;
-            }
-        }
-
-        public Vector2 center
-        {
-            get => new Vector2(x + 0.5f * width, y + 0.5f * height);
-            set
-            {
-                x = value.x - 0.5f * width;
-                y = value.y - 0.5f * height;
-            }
-        }
-
-        public float xMin
-        {
-            get => x;
-            set
-            {
-                width = xMax - value;
-                x = value;
-            }
-        }
-
-        public float yMin
-        {
-            get => y;
-            set
-            {
-                height = yMax - value;
-                y = value;
-            }
-        }
-
-        public float xMax
-        {
-            get => x + width;
-            set => width = value - x;
-        }
-
-        public float yMax
-        {
-            get => y + height;
-            set => height = value - y;
-        }
-
-        public bool Contains(Vector2 point) => point.x >= xMin && point.x < xMax && point.y >= yMin && point.y < yMax;
-
-        public static bool operator ==(Rect lhs, Rect rhs) => lhs.Equals(rhs);
-        public static bool operator !=(Rect lhs, Rect rhs) => !lhs.Equals(rhs);
-
-        public bool Equals(Rect other) =>
-            x == other.x && y == other.y && width == other.width && height == other.height;
-        public override bool Equals(object? other) => other is Rect rect && Equals(rect);
-        public override int GetHashCode() => HashCode.Combine(x, y, width, height);
+        public bool Contains(Vector2 point) => point.x >= x && point.x < xMax && point.y >= y && point.y < yMax;
     }
 
-    public partial struct Color : IEquatable<Color>
+    public partial struct Color
     {
         public float r;
         public float g;
         public float b;
         public float a;
 
-        public Color(float r, float g, float b, float a)
-        {
-            this.r = r;
-            this.g = g;
-            this.b = b;
-            this.a = a;
-        }
+        public Color(float r, float g, float b, float a) => (this.r, this.g, this.b, this.a) = (r, g, b, a);
 
         public Color(float r, float g, float b)
             : this(r, g, b, 1f)
@@ -147,18 +65,9 @@ namespace UnityEngine
 
         public static Color white => new Color(1f, 1f, 1f);
         public static Color black => new Color(0f, 0f, 0f);
-        public static Color gray => new Color(0.5f, 0.5f, 0.5f);
-        public static Color clear => new Color(0f, 0f, 0f, 0f);
 
         public static Color operator +(Color a, Color b) => new Color(a.r + b.r, a.g + b.g, a.b + b.b, a.a + b.a);
         public static Color operator *(float b, Color a) => new Color(b * a.r, b * a.g, b * a.b, b * a.a);
-
-        public static bool operator ==(Color lhs, Color rhs) => lhs.Equals(rhs);
-        public static bool operator !=(Color lhs, Color rhs) => !lhs.Equals(rhs);
-
-        public bool Equals(Color other) => r == other.r && g == other.g && b == other.b && a == other.a;
-        public override bool Equals(object? other) => other is Color color && Equals(color);
-        public override int GetHashCode() => HashCode.Combine(r, g, b, a);
     }
 
     public partial class Texture : Object
@@ -179,15 +88,8 @@ namespace UnityEngine
         public GUIContent(string text, string tooltip)
             : this(text) => this.tooltip = tooltip;
 
-        public GUIContent(string text, Texture? image)
-            : this(text) => this.image = image;
-
-        public GUIContent(string text, Texture? image, string tooltip)
-            : this(text, tooltip) => this.image = image;
-
         public string text { get; set; }
         public string tooltip { get; set; } = "";
-        public Texture? image { get; set; }
     }
 
     public sealed partial class GUIStyle
@@ -208,7 +110,6 @@ namespace UnityEngine
         }
 
         public static GUIStyle none { get; } = new GUIStyle();
-
         public string name { get; set; } = "";
         public bool wordWrap { get; set; }
         public bool richText { get; set; }
@@ -262,5 +163,109 @@ namespace UnityEngine
     {
         Keyboard = 1,
         Passive = 2,
+    }
+
+    public enum EventType
+    {
+        MouseDown = 0,
+        MouseUp = 1,
+        MouseMove = 2,
+        MouseDrag = 3,
+        KeyDown = 4,
+        KeyUp = 5,
+        ScrollWheel = 6,
+        Repaint = 7,
+        Layout = 8,
+        Ignore = 11,
+        Used = 12,
+    }
+
+    public enum KeyCode
+    {
+        None = 0,
+        Return = 13,
+        Space = 32,
+        Alpha0 = 48,
+        A = 97,
+        B = 98,
+        C = 99,
+        E = 101,
+        N = 110,
+        S = 115,
+        Y = 121,
+        UpArrow = 273,
+        DownArrow = 274,
+        RightArrow = 275,
+        LeftArrow = 276,
+    }
+
+    [Flags]
+    public enum EventModifiers
+    {
+        None = 0,
+        Shift = 1,
+        Control = 2,
+        Alt = 4,
+        Command = 8,
+        Numeric = 16,
+        CapsLock = 32,
+        FunctionKey = 64,
+    }
+
+    public enum PointerType
+    {
+        Mouse = 0,
+        Touch = 1,
+        Pen = 2,
+    }
+
+    public sealed partial class Event
+    {
+        public static Event current { get; set; } = new Event();
+        public EventType type { get; set; } = EventType.Ignore;
+        public KeyCode keyCode { get; set; }
+        public EventModifiers modifiers { get; set; }
+        public Vector2 mousePosition { get; set; }
+        public int button { get; set; }
+        public float pressure { get; set; }
+        public PointerType pointerType { get; set; }
+
+        public bool shift
+        {
+            get => Has(EventModifiers.Shift);
+            set => Put(EventModifiers.Shift, value);
+        }
+
+        public bool control
+        {
+            get => Has(EventModifiers.Control);
+            set => Put(EventModifiers.Control, value);
+        }
+
+        public bool alt
+        {
+            get => Has(EventModifiers.Alt);
+            set => Put(EventModifiers.Alt, value);
+        }
+
+        public bool command
+        {
+            get => Has(EventModifiers.Command);
+            set => Put(EventModifiers.Command, value);
+        }
+
+        /// <summary>The event type for a control: Ignore for mouse events that another control has captured.</summary>
+        public EventType GetTypeForControl(int controlID)
+        {
+            bool mouse = type <= EventType.MouseDrag;
+            bool foreign = GUIUtility.hotControl != 0 && GUIUtility.hotControl != controlID;
+            return mouse && foreign ? EventType.Ignore : type;
+        }
+
+        public void Use() => type = EventType.Used;
+
+        private bool Has(EventModifiers one) => (modifiers & one) != 0;
+
+        private void Put(EventModifiers one, bool on) => modifiers = on ? modifiers | one : modifiers & ~one;
     }
 }

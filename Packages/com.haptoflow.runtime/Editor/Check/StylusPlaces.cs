@@ -35,10 +35,7 @@ namespace HaptoFlow.Editor
         }
 
         public HapticStylus Stylus { get; }
-
         public HapticHand Hand { get; }
-
-        /// <summary>True where the stylus names its audio output.</summary>
         public bool IsNamed { get; }
 
         /// <summary>The enabled audio output; null without one.</summary>
@@ -58,10 +55,8 @@ namespace HaptoFlow.Editor
         /// connected.</summary>
         public bool GetsMadeOutput { get; }
 
-        /// <summary>True where nothing plays the stylus.</summary>
         public bool IsSilent => Audio == null && devices.Count == 0 && !UsesHand && !GetsMadeOutput;
 
-        /// <summary>The places of every stylus.</summary>
         public static IReadOnlyList<StylusPlaces> Of(SceneContents scene) =>
             scene.Styluses.Select(stylus => new StylusPlaces(stylus, scene)).ToArray();
 

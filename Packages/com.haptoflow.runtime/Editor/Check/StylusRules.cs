@@ -1,6 +1,8 @@
 #nullable enable
 using System;
 using System.Collections.Generic;
+using System.Linq;
+using HaptoFlow.Alignment;
 using UnityEditor;
 using UnityEngine;
 
@@ -70,5 +72,71 @@ namespace HaptoFlow.Editor
 
         private static void FeelAllLayers(HapticStylus stylus) =>
             SerializedFields.Set(stylus, "layers", property => property.intValue = ~0);
+    }
+
+    /// <summary>Checks that pens are known for what they are, and that the hand of every pen is known.</summary>
+    internal static class PenRules
+    {
+        public static IEnumerable<Finding> Check(SceneContents scene) => Check(scene, MxInkSupport.OfProject());
+
+        internal static IEnumerable<Finding> Check(SceneContents scene, MxInkSupport mxInk)
+        {
+            IReadOnlyList<XrPen> pens = SceneContents.All<XrPen>();
+            if (mxInk.IsLacking && pens.Count > 0)
+            {
+                yield return new Finding(MessageType.Info,
+                    $"{string.Join(", ", pens.Select(pen => pen.name))}: the project has no interaction profile of MX " +
+                    "Ink, so a headset presents that pen as a Touch controller, without the force of its tip. " +
+                    $"{DisguisedMxInk.MissingProfile} For controllers nothing is missing.", pens,
+                    mxInk.CanSwitchOn
+                        ? new[] { new Repair("Switch On Profile of MX Ink", MxInkSwitch.SwitchOn) }
+                        : Array.Empty<Repair>());
+            }
+            foreach (HapticStylus stylus in scene.Styluses)
+            {
+                if (stylus.Force != null && stylus.Hand == HapticHand.None)
+                {
+                    yield return new Finding(MessageType.Info,
+                        $"{stylus.name} measures the force of its tip, but its field Hand is None: no controller or pen " +
+                        "in a hand plays it, unless its Tip Force finds out the hand, as Tip Force (Meta) does. A pen on " +
+                        "a tablet is in no hand; for another choose the hand.", new[] { stylus },
+                        new Repair("Right Hand", () => SetHand(stylus, HapticHand.Right)),
+                        new Repair("Left Hand", () => SetHand(stylus, HapticHand.Left)));
+                }
+            }
+        }
+
+        private static void SetHand(HapticStylus stylus, HapticHand hand) =>
+            SerializedFields.Set(stylus, "hand", property => property.intValue = (int)hand);
+    }
+
+    /// <summary>Checks scenes with real objects under virtual ones: whether the touch force is measured, and whether
+    /// the marks of an alignment determine a pose.</summary>
+    internal static class RealObjectRules
+    {
+        public static IEnumerable<Finding> Check(SceneContents scene)
+        {
+            foreach (HapticStylus stylus in scene.Styluses)
+            {
+                if (stylus.TouchBy == TouchDecision.MeasuredForce && stylus.Force == null)
+                {
+                    yield return new Finding(MessageType.Warning,
+                        $"{stylus.name} has Touch By set to Measured Force, but its field Tip Force is empty: " +
+                        "geometry decides.",
+                        new[] { stylus });
+                }
+            }
+            foreach (HapticAlignment alignment in SceneContents.All<HapticAlignment>())
+            {
+                Vector3 scale = alignment.transform.lossyScale;
+                string? problem = ThreePointFit.WhyMarksUnusable(
+                    alignment.Marks.Select(mark => Vector3.Scale(scale, mark).ToDouble()).ToArray());
+                if (problem != null)
+                {
+                    yield return new Finding(MessageType.Warning,
+                        $"{alignment.name} cannot be aligned: {problem}.", new[] { alignment });
+                }
+            }
+        }
     }
 }

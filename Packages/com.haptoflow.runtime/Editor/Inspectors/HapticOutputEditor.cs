@@ -1,6 +1,9 @@
 #nullable enable
+using System;
+using System.Globalization;
 using UnityEditor;
 using UnityEngine;
+using Object = UnityEngine.Object;
 
 namespace HaptoFlow.Editor
 {
@@ -113,6 +116,125 @@ namespace HaptoFlow.Editor
             {
                 output.Panic();
             }
+        }
+    }
+
+    /// <summary>The state of an output in play mode: times, underruns, and the engine that feeds it.</summary>
+    internal sealed class OutputReadout : Readout<HapticOutput>
+    {
+        private int voices;
+        private ulong underruns;
+        private ulong limited;
+
+        protected override void Read(HapticOutput output)
+        {
+            voices = 0;
+            underruns = 0;
+            limited = 0;
+            output.ForEachVoice((voice, readout) => readout.Count(voice), this);
+            Add("Voices", "{0}", voices);
+            Add("Underruns", "{0}", underruns);
+            Add("Limited samples", "{0}", limited);
+            if (output.Route != OutputRoute.MixerEffect)
+            {
+                Add("Rendering a block", "{0:0.000} ms, at worst {1:0.000} ms",
+                    output.RenderMilliseconds, output.WorstRenderMilliseconds);
+            }
+            Add("Device", "{0} Hz", output.SampleRateHz);
+            if (Haptics.TryGetStatistics(out EngineStatistics engine))
+            {
+                Add("Inference", "{0:0.00} ms a round, budget {1:0.00} ms", engine.LastRoundMs, engine.BudgetMs);
+                Add("Quality", TierOf(engine));
+                AddHealth(engine);
+            }
+        }
+
+        private void AddHealth(in EngineStatistics engine)
+        {
+            if (!engine.WorkerIsAlive)
+            {
+                Add("Worker", "has ended; Haptics.Restart starts it again");
+            }
+            if (engine.PriorityWasRefused)
+            {
+                Add("Worker priority", "refused by the system, so more segments are late");
+            }
+            string failure = engine.FailedRounds > 0 || !engine.WorkerIsAlive ? Haptics.LastFailure : "";
+            if (failure.Length > 0)
+            {
+                Add("Last failure", failure);
+            }
+        }
+
+        private void Count(HapticVoice voice)
+        {
+            VoiceStatistics statistics = voice.Statistics();
+            ++voices;
+            underruns += statistics.Underruns;
+            limited += statistics.LimitedSamples;
+        }
+
+        private static string TierOf(in EngineStatistics engine)
+        {
+            string tier = NameOf((int)engine.Tier);
+            return engine.IsMeasuring ? tier + ", measuring" : tier;
+        }
+
+        private static string NameOf(int tier)
+        {
+            HapticModelAsset? model = HaptoFlowSettings.Active.Model;
+            try
+            {
+                return model != null && tier < model.Header.Tiers.Count
+                    ? model.Header.Tiers[tier].Name
+                    : "tier " + tier.ToString(CultureInfo.InvariantCulture);
+            }
+            catch (HaptoFlowException)
+            {
+                // The settings now name a damaged model, while the engine still runs with the previous one.
+                return "of the previous model";
+            }
+        }
+    }
+
+    /// <summary>Draws a level as a bar from -60 dB to full scale.</summary>
+    internal static class LevelMeter
+    {
+        private const double MinimumDecibels = -60.0;
+        private static readonly string[] Captions = CreateCaptions();
+
+        public static void Draw(Rect place, float level)
+        {
+            double decibels = DecibelsOf(level);
+            EditorGUI.ProgressBar(place, ShareOf(decibels), CaptionOf(decibels));
+        }
+
+        /// <summary>The level in decibels of full scale, at least -60.</summary>
+        public static double DecibelsOf(float level) => level > 0f
+            ? Math.Max(MinimumDecibels, 20.0 * Math.Log10(level))
+            : MinimumDecibels;
+
+        /// <summary>The length of the bar, from 0 to 1.</summary>
+        public static float ShareOf(double decibels) =>
+            (float)Math.Max(0.0, Math.Min(1.0, 1.0 - decibels / MinimumDecibels));
+
+        /// <summary>The level as text, in whole decibels. Allocates nothing.</summary>
+        public static string CaptionOf(double decibels)
+        {
+            int index = (int)Math.Round(decibels - MinimumDecibels);
+            return Captions[Math.Max(0, Math.Min(Captions.Length - 1, index))];
+        }
+
+        private static string[] CreateCaptions()
+        {
+            var captions = new string[1 - (int)MinimumDecibels];
+            for (int index = 0; index < captions.Length; ++index)
+            {
+                captions[index] = string.Format(
+                    CultureInfo.InvariantCulture, "level {0:0} dB of full scale", index + MinimumDecibels);
+            }
+            captions[0] = "silent";
+            return captions;
         }
     }
 }

@@ -71,7 +71,6 @@ namespace HaptoFlow.Editor
             HapticMaterialEditor.Draw(sharedDescription);
         }
 
-        /// <summary>Registers the surfaces of a running scene again, with the changed fields.</summary>
         private void ApplyToScene()
         {
             foreach (Object each in targets)

@@ -1,7 +1,9 @@
 #nullable enable
+using System;
 using System.Collections.Generic;
 using UnityEditor;
 using UnityEngine;
+using Object = UnityEngine.Object;
 
 namespace HaptoFlow.Editor
 {
@@ -27,7 +29,6 @@ namespace HaptoFlow.Editor
             }
         }
 
-        /// <summary>Draws the rows.</summary>
         public void Draw()
         {
             EditorGUILayout.LabelField("Now", EditorStyles.boldLabel);
@@ -40,5 +41,44 @@ namespace HaptoFlow.Editor
 
         protected void Add(string name, string format, params object[] values) =>
             Add(name, SummaryRow.Format(format, values));
+    }
+
+    /// <summary>Places the fields of a property drawer, one row below the other.</summary>
+    internal sealed class InspectorRows
+    {
+        private readonly SerializedProperty property;
+        private Rect row;
+
+        public InspectorRows(Rect position, SerializedProperty property) => (this.property, row) = (
+            property, new Rect(position.x, position.y, position.width, EditorGUIUtility.singleLineHeight));
+
+        public static float Height(int rows) =>
+            rows * (EditorGUIUtility.singleLineHeight + EditorGUIUtility.standardVerticalSpacing) -
+            EditorGUIUtility.standardVerticalSpacing;
+
+        public Rect Next()
+        {
+            Rect place = row;
+            row.y += row.height + EditorGUIUtility.standardVerticalSpacing;
+            return place;
+        }
+
+        /// <summary>Draws a field in the next row; without a title, by its name.</summary>
+        public void Field(string name, GUIContent? title = null) =>
+            EditorGUI.PropertyField(Next(), property.FindPropertyRelative(name), title);
+    }
+
+    /// <summary>Sets a serialised field of assets or components by its path, as one step of undo.</summary>
+    internal static class SerializedFields
+    {
+        public static void Set(Object target, string path, Action<SerializedProperty> set) =>
+            Set(new[] { target }, path, set);
+
+        public static void Set(Object[] targets, string path, Action<SerializedProperty> set)
+        {
+            using var serialized = new SerializedObject(targets);
+            set(serialized.FindProperty(path));
+            serialized.ApplyModifiedProperties();
+        }
     }
 }

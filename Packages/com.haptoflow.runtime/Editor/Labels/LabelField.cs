@@ -1,6 +1,11 @@
 #nullable enable
+using System;
+using System.Collections.Generic;
+using System.Linq;
 using UnityEditor;
+using UnityEditor.IMGUI.Controls;
 using UnityEngine;
+using Object = UnityEngine.Object;
 
 namespace HaptoFlow.Editor
 {
@@ -43,6 +48,79 @@ namespace HaptoFlow.Editor
             {
                 SerializedFields.Set(targets, path, property => property.stringValue = name);
             }
+        }
+    }
+
+    /// <summary>A searchable list of labels.</summary>
+    internal sealed class LabelDropdown : AdvancedDropdown
+    {
+        private const float MinimumWidth = 200f;
+        private const float MinimumHeight = 280f;
+
+        private readonly IReadOnlyList<LabelOption> options;
+        private readonly Action<string> choose;
+
+        public LabelDropdown(IReadOnlyList<LabelOption> options, Action<string> choose)
+            : base(new AdvancedDropdownState())
+        {
+            this.options = options;
+            this.choose = choose;
+            minimumSize = new Vector2(MinimumWidth, MinimumHeight);
+        }
+
+        protected override AdvancedDropdownItem BuildRoot()
+        {
+            var root = new AdvancedDropdownItem("Labels");
+            foreach (LabelOption option in options)
+            {
+                root.AddChild(new Item(option));
+            }
+            return root;
+        }
+
+        protected override void ItemSelected(AdvancedDropdownItem item)
+        {
+            if (item is Item chosen)
+            {
+                choose(chosen.Label);
+            }
+        }
+
+        private sealed class Item : AdvancedDropdownItem
+        {
+            public Item(LabelOption option)
+                : base(option.Text) => Label = option.Label;
+
+            public string Label { get; }
+        }
+    }
+
+    /// <summary>An entry in the dropdown list of a label.</summary>
+    /// <param name="Label">The label that the entry chooses; empty for none.</param>
+    internal sealed record LabelOption(string Text, string Label);
+
+    /// <summary>The entries in the dropdown list of a label.</summary>
+    internal static class LabelOptions
+    {
+        /// <summary>The entries in this order: the current name if the model does not have it, labels with similar
+        /// names, none if that is allowed, and all labels sorted by name.</summary>
+        public static IReadOnlyList<LabelOption> For(LabelCatalog catalog, string current, bool canBeEmpty)
+        {
+            var options = new List<LabelOption>();
+            if (catalog.IsUnknown(current))
+            {
+                options.Add(new LabelOption(catalog.TextOf(current), current));
+                options.AddRange(catalog.Names.NearMatches(current)
+                    .Select(near => new LabelOption($"{near} (near \"{current}\")", near)));
+            }
+            if (canBeEmpty)
+            {
+                options.Add(new LabelOption(catalog.TextOf(""), ""));
+            }
+            options.AddRange(catalog.Names.All
+                .OrderBy(name => name, StringComparer.OrdinalIgnoreCase)
+                .Select(name => new LabelOption(name, name)));
+            return options;
         }
     }
 }

@@ -42,7 +42,6 @@ namespace HaptoFlow.Editor
             }
         }
 
-        /// <summary>Draws the field of the model.</summary>
         public void DrawModel(GUIContent title) => Enter("Model", Model,
             (HapticModelAsset?)EditorGUILayout.ObjectField(title, Model, typeof(HapticModelAsset), false),
             (changed, chosen) => changed.Model = chosen);

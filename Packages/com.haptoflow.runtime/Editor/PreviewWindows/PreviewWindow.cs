@@ -26,7 +26,6 @@ namespace HaptoFlow.Editor
         /// <summary>Of the last event.</summary>
         protected PreviewView View => view!;
 
-        /// <summary>What the left column holds.</summary>
         protected abstract PreviewRoom Room { get; }
 
         /// <summary>False after <see cref="Release"/>.</summary>

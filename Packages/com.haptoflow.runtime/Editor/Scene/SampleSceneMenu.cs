@@ -23,11 +23,9 @@ namespace HaptoFlow.Editor
         private static readonly Color Ambient = new Color(0.5f, 0.52f, 0.56f);
         private static readonly Color Background = new Color(0.12f, 0.13f, 0.15f, 0f);
 
-        /// <summary>A table with objects of eight labels.</summary>
         [MenuItem("Window/HaptoFlow/Sample Scenes/Stylus Tracing", false, 2104)]
         internal static void MakeStylusTracing() => Make<TracingScene>("Tracing Scene", AboveTable, 45f);
 
-        /// <summary>A wall with a tile for each label.</summary>
         [MenuItem("Window/HaptoFlow/Sample Scenes/Texture Gallery", false, 2105)]
         internal static void MakeTextureGallery() => Make<GalleryScene>("Gallery Scene", BeforeWall, 0f);
 
@@ -43,7 +41,6 @@ namespace HaptoFlow.Editor
             }
         }
 
-        /// <summary>Three plates, and the device check.</summary>
         [MenuItem("Window/HaptoFlow/Sample Scenes/Device Check", false, 2107)]
         internal static void MakeDeviceCheck() => Make<DeviceCheckScene>("Device Check", AboveTable, 45f);
 
@@ -102,5 +99,46 @@ namespace HaptoFlow.Editor
         }
 
         private static TextAsset Load(string ending) => AssetDatabase.LoadAssetAtPath<TextAsset>(Recording + ending);
+    }
+
+    /// <summary>Adds the device check to the open scene, also in play mode: Window > HaptoFlow > Device Check.</summary>
+    internal static class DeviceCheckMenu
+    {
+        [MenuItem("Window/HaptoFlow/Device Check", false, 2103)]
+        internal static void Add()
+        {
+            DeviceCheckRun[] present = Object.FindObjectsByType<DeviceCheckRun>(
+                FindObjectsInactive.Include, FindObjectsSortMode.None);
+            GameObject owner = present.Length > 0 ? present[0].gameObject : new GameObject("Device Check");
+            if (present.Length == 0)
+            {
+                owner.AddComponent<DeviceCheckRun>();
+                if (!Application.isPlaying)
+                {
+                    Undo.RegisterCreatedObjectUndo(owner, "Create Device Check");
+                }
+            }
+            Selection.activeGameObject = owner;
+            Debug.Log("HaptoFlow: the object Device Check " + (Application.isPlaying
+                ? "runs in this scene now: follow the words in the game view."
+                : "runs when you press Play: follow the words in the game view. Delete it afterwards."), owner);
+        }
+    }
+
+    /// <summary>Opens the documentation's first page: Window > HaptoFlow > Documentation.</summary>
+    internal static class DocumentationMenu
+    {
+        [MenuItem("Window/HaptoFlow/Documentation", false, 2110)]
+        internal static void Open()
+        {
+            string address = HelpPages.AddressOfPage(HelpPages.Index);
+            if (address.Length == 0)
+            {
+                Debug.LogWarning("HaptoFlow: this package came without its pages, as it does from a git URL. They are in " +
+                    "the tarball of a release, and in the folder Documentation~ of a clone.");
+                return;
+            }
+            Application.OpenURL(address);
+        }
     }
 }

@@ -1,12 +1,22 @@
 #nullable enable
+using System.Globalization;
 using UnityEditor;
 using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>Draws the tip of a stylus, and its contact while it touches.</summary>
+    /// <summary>Draws the tip of a stylus, and its contact while it touches: a cross at its point, normal, tangential
+    /// velocity, penetration.</summary>
     internal static class StylusGizmos
     {
+        private const float NormalMetres = 0.02f;
+        private const float CrossMetres = 0.002f;
+
+        // The length of the velocity arrow is the distance covered in this time, one segment.
+        private const float VelocitySeconds = 0.1f;
+        private const float MinimumMps = 1e-3f;
+        private const float HeadShare = 0.2f;
+
         private static readonly Color TipColour = new Color(0.95f, 0.95f, 0.95f, 0.8f);
         private static readonly Color PointColour = new Color(1f, 0.85f, 0.2f);
         private static readonly Color NormalColour = new Color(0.35f, 0.75f, 1f);
@@ -16,7 +26,8 @@ namespace HaptoFlow.Editor
         [DrawGizmo(GizmoType.Selected | GizmoType.NonSelected)]
         internal static void Draw(HapticStylus stylus, GizmoType type)
         {
-            if ((type & GizmoType.Selected) != 0)
+            bool isSelected = (type & GizmoType.Selected) != 0;
+            if (isSelected)
             {
                 Transform tip = stylus.Tip != null ? stylus.Tip : stylus.transform;
                 Gizmos.color = TipColour;
@@ -24,42 +35,43 @@ namespace HaptoFlow.Editor
             }
             if (stylus.IsTouching && stylus.isActiveAndEnabled)
             {
-                DrawContact(stylus.Contact, (type & GizmoType.Selected) != 0);
+                DrawContact(stylus.Contact, isSelected);
             }
         }
 
         private static void DrawContact(in HapticContact contact, bool withCaption)
         {
-            MarkedContact marked = MarkedOf(contact);
-            foreach (MarkLine line in ContactMarks.Of(marked))
+            Vector3 point = contact.Point;
+            Vector3 velocity = contact.TangentialVelocity;
+            Gizmos.color = PointColour;
+            Gizmos.DrawLine(point - CrossMetres * contact.FirstAxis, point + CrossMetres * contact.FirstAxis);
+            Gizmos.DrawLine(point - CrossMetres * contact.SecondAxis, point + CrossMetres * contact.SecondAxis);
+            DrawArrow(NormalColour, point, NormalMetres * contact.Normal, contact.FirstAxis);
+            if (velocity.magnitude >= MinimumMps)
             {
-                Gizmos.color = ColourOf(line.Kind);
-                Gizmos.DrawLine(line.From.ToVector(), line.To.ToVector());
+                DrawArrow(VelocityColour, point, VelocitySeconds * velocity,
+                    Vector3.Cross(contact.Normal, velocity.normalized));
             }
+            Gizmos.color = PenetrationColour;
+            Gizmos.DrawLine(point, point - contact.PenetrationMetres * contact.Normal);
             if (withCaption)
             {
-                Handles.Label((marked.PointMetres + marked.Normal * ContactMarks.NormalMetres).ToVector(),
-                    MaterialWords.Of(contact) + ": " + ContactMarks.Caption(marked));
+                Handles.Label(point + NormalMetres * contact.Normal, string.Format(CultureInfo.InvariantCulture,
+                    "{0}: {1:0.00} N, {2:0} mm/s, {3:0.0} mm deep", MaterialWords.Of(contact), contact.ForceNewtons,
+                    1000f * velocity.magnitude, 1000f * contact.PenetrationMetres));
             }
         }
 
-        private static MarkedContact MarkedOf(in HapticContact contact) => new MarkedContact
+        /// <param name="side">A vector of unit length across the arrow.</param>
+        private static void DrawArrow(Color colour, Vector3 from, Vector3 shaft, Vector3 side)
         {
-            PointMetres = contact.Point.ToDouble(),
-            Normal = contact.Normal.ToDouble(),
-            FirstAxis = contact.FirstAxis.ToDouble(),
-            SecondAxis = contact.SecondAxis.ToDouble(),
-            TangentialVelocityMps = contact.TangentialVelocity.ToDouble(),
-            PenetrationMetres = contact.PenetrationMetres,
-            ForceNewtons = contact.ForceNewtons,
-        };
-
-        private static Color ColourOf(MarkKind kind) => kind switch
-        {
-            MarkKind.Normal => NormalColour,
-            MarkKind.Velocity => VelocityColour,
-            MarkKind.Penetration => PenetrationColour,
-            _ => PointColour,
-        };
+            Vector3 tip = from + shaft;
+            Vector3 back = tip - HeadShare * shaft;
+            Vector3 aside = 0.5f * HeadShare * shaft.magnitude * side;
+            Gizmos.color = colour;
+            Gizmos.DrawLine(from, tip);
+            Gizmos.DrawLine(tip, back + aside);
+            Gizmos.DrawLine(tip, back - aside);
+        }
     }
 }

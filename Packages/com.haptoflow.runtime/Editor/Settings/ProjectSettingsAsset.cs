@@ -3,6 +3,7 @@ using System;
 using System.Linq;
 using UnityEditor;
 using UnityEngine;
+using Object = UnityEngine.Object;
 
 namespace HaptoFlow.Editor
 {
@@ -37,7 +38,6 @@ namespace HaptoFlow.Editor
             searched = false;
         }
 
-        /// <summary>Whether player builds include the settings.</summary>
         public static bool ReachesPlayers(HaptoFlowSettings settings) =>
             IsPreloaded(settings) || IsInResources(AssetDatabase.GetAssetPath(settings));
 
@@ -107,6 +107,27 @@ namespace HaptoFlow.Editor
                 "assets.",
                 settings);
             return settings;
+        }
+    }
+
+    /// <summary>The project's audio settings, which Unity gives scripts no property for.</summary>
+    internal static class ProjectAudio
+    {
+        private const string SettingsPath = "ProjectSettings/AudioManager.asset";
+
+        /// <summary>Whether Project Settings > Audio > Disable Unity Audio is on.</summary>
+        public static bool IsDisabled()
+        {
+            foreach (Object settings in AssetDatabase.LoadAllAssetsAtPath(SettingsPath))
+            {
+                using var serialized = new SerializedObject(settings);
+                SerializedProperty? disabled = serialized.FindProperty("m_DisableAudio");
+                if (disabled != null)
+                {
+                    return disabled.boolValue;
+                }
+            }
+            return false;
         }
     }
 }

@@ -13,7 +13,7 @@ namespace HaptoFlow.PreviewTests
     public sealed class TexturePreviewTests : PreviewWindowTest
     {
         [Test]
-        public void ChoosingALabelRendersIt()
+        public void ChoosingALabelRendersItAndUndoTheOneBefore()
         {
             Window.Finish();
             float[] wood = Samples;
@@ -22,17 +22,7 @@ namespace HaptoFlow.PreviewTests
             Assert.That(Window.Player!.PlayedSound!.Sound.Material, Is.EqualTo(new LabelMix("rubber")));
             Assert.That(Samples, Is.Not.EqualTo(wood));
             Assert.That(Window.Session!.Problem, Is.Null);
-        }
-
-        [Test]
-        public void UndoRestoresTheLabelAndItsSound()
-        {
-            Window.Finish();
-            float[] wood = Samples;
-            State.Change("Label", state => state.First.Label = "rubber");
-            Window.Finish();
             Undo.PerformUndo();
-            Assert.That(State.First.Label, Is.EqualTo("wood"));
             Window.Finish();
             Assert.That(Samples, Is.EqualTo(wood));
         }
@@ -48,34 +38,6 @@ namespace HaptoFlow.PreviewTests
             Assert.That(Window.Session.IsBusy, Is.False);
             Window.Step();
             Assert.That(Window.Session.IsBusy, Is.False, "nothing has changed");
-        }
-
-        [Test]
-        public void ASketchIsShownWhileAControlIsDragged()
-        {
-            GUIUtility.hotControl = 1;
-            State.Change("Speed", state => state.SpeedMps = 0.2f);
-            Window.Step();
-            GUIUtility.hotControl = 0;
-            Window.Session!.Finish();
-            Assert.That(Window.Session.Shown!.Request.IsSketch, Is.True);
-            Assert.That(Window.Session.IsFinal, Is.False);
-            Window.Step();
-            Window.Session.Finish();
-            Assert.That(Window.Session.Shown.Request.IsSketch, Is.False);
-            Assert.That(Window.Session.IsFinal, Is.True);
-        }
-
-        [Test]
-        public void AnExportedFileContainsTheActiveSound()
-        {
-            string path = TemporaryFile();
-            Assert.That(Window.ExportTo(path), Is.Null);
-            var file = new WaveReader(File.ReadAllBytes(path));
-            Assert.That(file.Samples(), Is.EqualTo(Samples));
-            Assert.That(file.Samples().Max(), Is.GreaterThan(0.001f));
-            Assert.That((file.RateHz, file.Channels), Is.EqualTo((48000, 1)));
-            File.Delete(path);
         }
 
         [Test]
@@ -118,14 +80,6 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void OtherKeysAreNotUsed()
-        {
-            Assert.That(Key(KeyCode.E), Is.False);
-            Assert.That(Key(KeyCode.A, EventModifiers.Alt), Is.False);
-            Assert.That(Key(KeyCode.None), Is.False);
-        }
-
-        [Test]
         public void ADamagedModelIsReportedUntilAnotherIsChosen()
         {
             byte[] damaged = (byte[])DefaultFile().Clone();
@@ -139,26 +93,6 @@ namespace HaptoFlow.PreviewTests
             State.Change("Model", state => state.Model = null);
             Window.Finish();
             Assert.That(Window.Session.Problem, Is.Null);
-        }
-
-        [Test]
-        public void DamageAfterTheHeaderIsReported()
-        {
-            byte[] damaged = (byte[])DefaultFile().Clone();
-            damaged[damaged.Length - 100] ^= 1;
-            HapticModelAsset bad = Model(damaged);
-            State.Change("Model", state => state.Model = bad);
-            Window.Finish();
-            Assert.That(Window.Session!.Problem, Does.Contain("checksum"));
-            Assert.That(Window.Session.Model.Labels, Is.Empty, "no part of a damaged file is used");
-        }
-
-        [Test]
-        public void ALabelThatTheModelLacksIsReported()
-        {
-            State.Change("Label", state => state.First.Label = "granite");
-            Window.Finish();
-            Assert.That(Window.Session!.Problem, Does.Contain("\"granite\""));
         }
 
         [Test]
@@ -176,41 +110,120 @@ namespace HaptoFlow.PreviewTests
             }));
             Assert.That(shown.Tier, Is.EqualTo(Window.Session.Model.DefaultTier));
         }
+    }
 
-        [Test]
-        public void ASecondLabelIsBlendedIn()
+    /// <summary>Strokes drawn on the patch with pointer events.</summary>
+    public sealed class PatchInputTests : PreviewWindowTest
+    {
+        private double clockSeconds;
+
+        [SetUp]
+        public void TakeTheClock()
         {
-            Window.Finish();
-            float[] wood = Samples;
-            State.Change("Blend", state =>
+            clockSeconds = 40.0;
+            Window.ClockSeconds = () => clockSeconds;
+        }
+
+        [TearDown]
+        public void LetGo() => GUIUtility.hotControl = 0;
+
+        private Box Patch => PreviewLayout.Patch(
+            new PreviewLayout(Window.position.width, Window.position.height).StrokePanel);
+
+        private bool Pointer(EventType type, double xMetres, double yMetres, PointerType pointer = PointerType.Mouse,
+            float pressure = 0f, EventModifiers modifiers = EventModifiers.None)
+        {
+            (double x, double y) = PatchPicture.ToPoints(Patch, xMetres, yMetres);
+            clockSeconds += 0.01;
+            return Window.SendEvent(new Event
             {
-                state.First.SecondLabel = "sandpaper";
-                state.First.Share = 0.25f;
+                type = type,
+                button = 0,
+                mousePosition = new Vector2((float)x, (float)y),
+                pointerType = pointer,
+                pressure = pressure,
+                modifiers = modifiers,
             });
-            Window.Finish();
-            Assert.That(Window.Player!.PlayedSound!.Sound.Material, Is.EqualTo(new LabelMix("wood", "sandpaper", 0.25f)));
-            Assert.That(Samples, Is.Not.EqualTo(wood));
+        }
+
+        /// <summary>Draws from left to right at 0.1 m/s.</summary>
+        private void Draw(double yMetres, PointerType pointer = PointerType.Mouse, float pressure = 0f,
+            EventModifiers modifiers = EventModifiers.None)
+        {
+            Pointer(EventType.MouseDown, 0.02, yMetres, pointer, pressure, modifiers);
+            for (int step = 1; step <= 30; ++step)
+            {
+                Pointer(EventType.MouseDrag, 0.02 + 0.001 * step, yMetres, pointer, pressure, modifiers);
+            }
+            Pointer(EventType.MouseUp, 0.051, yMetres, pointer, pressure, modifiers);
         }
 
         [Test]
-        public void TheTableHasATimeForEveryTier()
+        public void DraggingOnThePatchDrawsAStrokeWithThePointersVelocity()
         {
+            Draw(0.04);
+            Assert.That(State.Preset, Is.EqualTo(StrokePreset.Drawn));
+            StrokeState[] touched = Window.Session!.Stroke.States.Where(state => state.Touching).ToArray();
+            Assert.That(touched, Has.Length.EqualTo(22).Within(1), "0.31 s at 72 Hz");
+            Assert.That(touched.Select(state => state.VelocityXMps), Is.All.EqualTo(0.1).Within(0.002));
+            Assert.That(touched.Select(state => state.VelocityYMps), Is.All.EqualTo(0.0).Within(0.002));
+            Assert.That(touched.Select(state => state.ForceNewtons), Is.All.EqualTo(1.5).Within(1e-5));
             Window.Finish();
-            int tiers = ProjectSettingsAsset.DefaultModel()!.Header.Tiers.Count;
-            Assert.That(Window.Session!.Shown!.Qualities, Has.Count.EqualTo(tiers));
-            Assert.That(Window.Session.Shown.Qualities.Select(row => row.Timing!.MedianMs), Is.All.GreaterThan(0.0));
+            Assert.That(Samples.Max(), Is.GreaterThan(0.001f));
+#if HAPTOFLOW_OUTSIDE_UNITY
+            Assert.That(Window.Player!.IsPlaying, Is.True, "as soon as it is rendered");
+#endif
         }
 
         [Test]
-        public void AClosedWindowCanBeOpenedAgain()
+        public void ASketchIsShownWhileAStrokeIsDrawn()
         {
-            Window.Finish();
-            Close();
-            Assert.That(Window == null, Is.True);
-            OpenWindow();
-            Window!.Finish();
-            Assert.That(Window.Session!.Problem, Is.Null);
-            Assert.That(Samples, Is.Not.Empty);
+            Pointer(EventType.MouseDown, 0.02, 0.04);
+            Pointer(EventType.MouseDrag, 0.03, 0.04);
+            Window.Step();
+            Window.Session!.Finish();
+            Assert.That(Window.Session.Shown!.Request.IsSketch, Is.True);
+            Assert.That(Window.Session.IsFinal, Is.False);
+            Pointer(EventType.MouseUp, 0.04, 0.04);
+            Window.Step();
+            Window.Session.Finish();
+            Assert.That(Window.Session.Shown.Request.IsSketch, Is.False);
+            Assert.That(Window.Session.IsFinal, Is.True);
+        }
+
+        [Test]
+        public void APenAtHalfPressureHasTheForceThatIsSet()
+        {
+            Draw(0.04, PointerType.Pen, 0.75f);
+            Assert.That(Window.Session!.Stroke.MaximumForceNewtons, Is.EqualTo(2.25).Within(1e-5));
+        }
+
+        [Test]
+        public void ShiftAddsATouchToTheDrawnStroke()
+        {
+            Draw(0.02);
+            Draw(0.06, modifiers: EventModifiers.Shift);
+            Assert.That(Window.Session!.Stroke.States.Max(state => state.TouchCounter), Is.EqualTo(2u));
+            Draw(0.04);
+            Assert.That(Window.Session.Stroke.States.Max(state => state.TouchCounter), Is.EqualTo(1u));
+        }
+
+        [Test]
+        public void ADrawnStrokeIsUndoneInOneStep()
+        {
+            Draw(0.04);
+            Undo.PerformUndo();
+            Assert.That(State.Preset, Is.EqualTo(StrokePreset.Slide));
+            Assert.That(State.Drawn, Is.Empty);
+        }
+
+        [Test]
+        public void ADragThatStartsBesideThePatchDrawsNothing()
+        {
+            Assert.That(Pointer(EventType.MouseDown, -0.01, 0.04), Is.False);
+            Pointer(EventType.MouseDrag, 0.05, 0.04);
+            Pointer(EventType.MouseUp, 0.06, 0.04);
+            Assert.That(State.Preset, Is.EqualTo(StrokePreset.Slide));
         }
     }
 }

@@ -10,14 +10,11 @@ namespace HaptoFlow.Preview
     internal static class LearningPanel
     {
         private const double AxisWidth = 36.0;
-        private const double CardGap = 8.0;
-        private const double CardRadius = 5.0;
         private const double Margin = 12.0;
         private const double TitleHeight = 32.0;
         private const double AxisHeight = 20.0;
         private const double FooterHeight = 24.0;
         private const double FiguresWidth = 236.0;
-        private const double TitleSize = 12.0;
         private const double SpectrumDecibels = 70.0;
         private const double LowestRibDecibels = -40.0;
 
@@ -36,8 +33,8 @@ namespace HaptoFlow.Preview
                 ? "To gain most, " + next + "."
                 : "Nothing much is missing from the recording.";
             Box footer = box.Rows(box.Height - FooterHeight, FooterHeight);
-            canvas.DrawText(canvas.FitText(sentence, TitleSize, footer.Width - 2.0 * Margin), footer.Left + Margin,
-                footer.MiddleY + 3.0, TitleSize, palette.Ink);
+            canvas.DrawText(canvas.FitText(sentence, Card.TitleSize, footer.Width - 2.0 * Margin), footer.Left + Margin,
+                footer.MiddleY + 3.0, Card.TitleSize, palette.Ink);
         }
 
         /// <summary>Where the panel shows the spectra: a card with a title and its charts.</summary>
@@ -47,17 +44,17 @@ namespace HaptoFlow.Preview
         public static Box Levels(Box box)
         {
             Box lower = Lower(box);
-            return lower.Columns(0.0, lower.Width - FiguresWidth - CardGap);
+            return lower.Columns(0.0, lower.Width - FiguresWidth - Card.Gap);
         }
 
         /// <summary>Where the panel shows the kurtosis.</summary>
-        public static Box Kurtosis(Box box) => Figures(box).Rows(0.0, 0.5 * (Figures(box).Height - CardGap));
+        public static Box Kurtosis(Box box) => Figures(box).Rows(0.0, 0.5 * (Figures(box).Height - Card.Gap));
 
         /// <summary>Where the panel shows the ribs.</summary>
         public static Box Ribs(Box box)
         {
             Box upper = Kurtosis(box);
-            return upper.Rows(upper.Height + CardGap, upper.Height);
+            return upper.Rows(upper.Height + Card.Gap, upper.Height);
         }
 
         /// <summary>The plot area of one range of force within the panel.</summary>
@@ -66,7 +63,7 @@ namespace HaptoFlow.Preview
 
         private static Box Lower(Box box)
         {
-            double top = Spectra(box).Height + CardGap;
+            double top = Spectra(box).Height + Card.Gap;
             return box.Rows(top, box.Height - FooterHeight - top);
         }
 
@@ -88,13 +85,9 @@ namespace HaptoFlow.Preview
                 height).Inside(AxisWidth, headerHeight, 0.0, AxisHeight);
         }
 
-        private static Box Card(ICanvas canvas, Palette palette, Box card, string title, string unit)
+        private static Box Below(ICanvas canvas, Palette palette, Box card, string title, string unit)
         {
-            canvas.FillRectangle(card, palette.Card, CardRadius);
-            double y = card.Top + 17.0;
-            canvas.DrawText(title, card.Left + Margin, y, TitleSize, palette.Ink, bold: true);
-            canvas.DrawText(unit, card.Left + Margin + canvas.MeasureText(title, TitleSize, true) + 10.0, y,
-                Plot.NumberSize, palette.Soft);
+            Card.Draw(canvas, palette, card, title, unit, Margin);
             return card.Inside(Margin, TitleHeight, Margin, 6.0);
         }
 
@@ -103,7 +96,7 @@ namespace HaptoFlow.Preview
 
         private static void DrawSpectra(ICanvas canvas, Palette palette, Box card, LearningCurves curves)
         {
-            Box inside = Card(canvas, palette, card, "Spectrum", "dB re 1 (m/s\u00b2)\u00b2/Hz");
+            Box inside = Below(canvas, palette, card, "Spectrum", "dB re 1 (m/s\u00b2)\u00b2/Hz");
             DrawLegend(canvas, palette, card, curves);
             IReadOnlyList<LearningCurves.AtSpeed> speeds = curves.Speeds;
             double highest = speeds.SelectMany(each => each.Sides).SelectMany(each => each.Decibels)
@@ -129,7 +122,7 @@ namespace HaptoFlow.Preview
 
         private static void DrawLevels(ICanvas canvas, Palette palette, Box box, LearningCurves curves)
         {
-            Card(canvas, palette, Levels(box), "Level", "m/s\u00b2; points and shade: recorded, dashed: extrapolated");
+            Below(canvas, palette, Levels(box), "Level", "m/s\u00b2; points and shade: recorded, dashed: extrapolated");
             IReadOnlyList<double> all = curves.Forces
                 .SelectMany(force => force.LearntMps2.Concat(force.NearestLabelMps2)).Where(level => level > 0.0).ToArray();
             double low = Math.Floor(Math.Log10(all.DefaultIfEmpty(0.1).Min()));
@@ -156,7 +149,7 @@ namespace HaptoFlow.Preview
 
         private static void DrawKurtosis(ICanvas canvas, Palette palette, Box card, LearningCurves curves)
         {
-            Box inside = Card(canvas, palette, card, "Kurtosis", "3: even noise");
+            Box inside = Below(canvas, palette, card, "Kurtosis", "3: even noise");
             double highest = Math.Max(6.0, curves.Speeds.SelectMany(speed => speed.Sides)
                 .Where(each => each.Frames >= FewestFrames).Max(each => each.Kurtosis) ?? 0.0);
             Box frame = inside.Inside(AxisWidth, 0.0, 0.0, AxisHeight);
@@ -169,7 +162,7 @@ namespace HaptoFlow.Preview
         {
             string distances = string.Join(" mm; without points ",
                 curves.RibsMillimetres.Select(each => AxisNumbers.Fixed(each, 2)));
-            Box inside = Card(canvas, palette, card, "Ribs", distances.Length > 0 ? distances + " mm, dB" : "none found");
+            Box inside = Below(canvas, palette, card, "Ribs", distances.Length > 0 ? distances + " mm, dB" : "none found");
             if (distances.Length == 0)
             {
                 return;

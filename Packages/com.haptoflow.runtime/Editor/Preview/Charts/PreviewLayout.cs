@@ -6,13 +6,11 @@ namespace HaptoFlow.Preview
     /// <summary>What the left column of a preview window holds.</summary>
     internal enum PreviewRoom
     {
-        /// <summary>Controls, and the stroke below them.</summary>
         Default = 0,
 
         /// <summary>Controls with the sliders unfolded, and the stroke below them.</summary>
         WithSliders = 1,
 
-        /// <summary>Only controls.</summary>
         WithoutStroke = 2,
     }
 
@@ -59,10 +57,8 @@ namespace HaptoFlow.Preview
         /// <summary>The panel of the stroke; empty without one.</summary>
         public Box StrokePanel { get; }
 
-        /// <summary>The panel of the sounds.</summary>
         public Box Charts { get; }
 
-        /// <summary>The patch within the panel of the stroke.</summary>
         public static Box Patch(Box strokePanel)
         {
             double width = strokePanel.Width - 24.0;
@@ -70,7 +66,6 @@ namespace HaptoFlow.Preview
             return new Box(strokePanel.Left + 12.0, strokePanel.Top + 32.0, width, height);
         }
 
-        /// <summary>The plot area of speed and force within the panel of the stroke.</summary>
         public static Box Motion(Box strokePanel)
         {
             double top = Patch(strokePanel).Bottom + 30.0;

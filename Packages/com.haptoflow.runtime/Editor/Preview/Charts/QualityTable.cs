@@ -1,7 +1,10 @@
 #nullable enable
 using System;
 using System.Collections.Generic;
+using System.Diagnostics;
 using System.Linq;
+using System.Threading;
+using HaptoFlow.Model;
 
 namespace HaptoFlow.Preview
 {
@@ -109,5 +112,111 @@ namespace HaptoFlow.Preview
 
         private static string Figure(double? value, int digits, bool signed) =>
             value is { } figure ? AxisNumbers.Fixed(figure, digits, signed) : Unknown;
+    }
+
+    /// <summary>The accuracy of a tier by the model's header, and its time on this machine.</summary>
+    internal sealed class QualityRow
+    {
+        private QualityRow(HapticTier tier, TierTiming? timing)
+        {
+            Name = tier.Name;
+            IsDefault = tier.IsDefault;
+            Timing = timing;
+            JsonValue accuracy = JsonValue.Parse(tier.AccuracyJson);
+            LevelErrorDecibels = accuracy.Find("level_error_db")?.AsNumber();
+            GoodnessOfFit = accuracy.Find("gfc_recording")?.AsNumber();
+            SpectralDistanceDecibels = accuracy.Find("lsd_db")?.AsNumber();
+        }
+
+        public string Name { get; }
+        public bool IsDefault { get; }
+
+        /// <summary>Null until it was measured.</summary>
+        public TierTiming? Timing { get; }
+
+        /// <summary>Ratio of generated to recorded RMS, in decibels; null if the header has no value.</summary>
+        public double? LevelErrorDecibels { get; }
+
+        /// <summary>GFC of the magnitude spectra, 0 to 1; null if the header has no value.</summary>
+        public double? GoodnessOfFit { get; }
+
+        /// <summary>LSD: RMS over 20 to 1000 Hz of the difference of the mean power spectra; null if the header has no
+        /// value.</summary>
+        public double? SpectralDistanceDecibels { get; }
+
+        /// <summary>True if the header has at least one of the three values.</summary>
+        public bool HasAccuracy =>
+            LevelErrorDecibels != null || GoodnessOfFit != null || SpectralDistanceDecibels != null;
+
+        /// <param name="timings">By name of the tier.</param>
+        public static IReadOnlyList<QualityRow> Of(
+            ModelHeader header, IReadOnlyDictionary<string, TierTiming> timings) =>
+            header.Tiers.Select(tier => new QualityRow(tier,
+                timings.TryGetValue(tier.Name, out TierTiming? timing) ? timing : null)).ToArray();
+    }
+
+    /// <summary>Time that one segment of a tier takes on this machine.</summary>
+    internal sealed class TierTiming
+    {
+        private const int WarmUps = 8;
+        private const int Runs = 64;
+
+        private TierTiming(double[] sortedMs)
+        {
+            Count = sortedMs.Length;
+            MedianMs = Percentile(sortedMs, 0.5);
+            Percentile90Ms = Percentile(sortedMs, 0.9);
+        }
+
+        public int Count { get; }
+        public double MedianMs { get; }
+        public double Percentile90Ms { get; }
+
+        /// <summary>Generates segments one after the other on the calling thread, the first ones without timing to warm
+        /// the caches, as in the benchmarks' column "hot". Takes up to a second.</summary>
+        /// <exception cref="OperationCanceledException">The token was cancelled.</exception>
+        public static TierTiming Measure(HapticGenerator generator, float[] embedding, CancellationToken token)
+        {
+            var motion = new[] { 0.1f, 0.0f, 1.0f };
+            var previous = new float[HapticGenerator.SegmentSamples];
+            float[] noise = Noise();
+            var segment = new float[HapticGenerator.SegmentSamples];
+            var milliseconds = new double[Runs];
+            var clock = new Stopwatch();
+            for (int run = -WarmUps; run < Runs; ++run)
+            {
+                token.ThrowIfCancellationRequested();
+                clock.Restart();
+                generator.Generate(embedding, motion, previous, noise, segment);
+                clock.Stop();
+                segment.CopyTo(previous, 0);
+                if (run >= 0)
+                {
+                    milliseconds[run] = clock.Elapsed.TotalMilliseconds;
+                }
+            }
+            return Of(milliseconds);
+        }
+
+        /// <summary>Standard normal numbers, after Box and Muller. Which ones changes no time.</summary>
+        private static float[] Noise()
+        {
+            var random = new Random(1);
+            var noise = new float[HapticGenerator.SegmentSamples];
+            for (int index = 0; index < noise.Length; ++index)
+            {
+                double size = Math.Sqrt(-2.0 * Math.Log(1.0 - random.NextDouble()));
+                noise[index] = (float)(size * Math.Cos(2.0 * Math.PI * random.NextDouble()));
+            }
+            return noise;
+        }
+
+        /// <param name="milliseconds">At least one measurement.</param>
+        internal static TierTiming Of(double[] milliseconds) =>
+            new TierTiming(milliseconds.OrderBy(value => value).ToArray());
+
+        /// <summary>By the nearest-rank method.</summary>
+        private static double Percentile(double[] sorted, double share) =>
+            sorted[Math.Max(0, (int)Math.Ceiling(share * sorted.Length) - 1)];
     }
 }

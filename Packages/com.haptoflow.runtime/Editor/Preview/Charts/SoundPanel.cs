@@ -14,7 +14,6 @@ namespace HaptoFlow.Preview
         private const double LegendWidth = 56.0;
         private const double HeaderHeight = 34.0;
         private const double Gap = 14.0;
-        private const double CardGap = 8.0;
         private const double CardRadius = 5.0;
         private const double TableWidth = 450.0;
 
@@ -42,7 +41,7 @@ namespace HaptoFlow.Preview
             string chosenTier)
         {
             Box lower = DrawUpper(canvas, palette, box, active);
-            DrawSpectra(canvas, palette, lower.Columns(0.0, lower.Width - TableWidth - CardGap));
+            DrawSpectra(canvas, palette, lower.Columns(0.0, lower.Width - TableWidth - Card.Gap));
             DrawTable(canvas, palette, lower.Columns(lower.Width - TableWidth, TableWidth), rows, chosenTier);
         }
 
@@ -51,7 +50,6 @@ namespace HaptoFlow.Preview
         public void Draw(ICanvas canvas, Palette palette, Box box, int active) =>
             DrawSpectra(canvas, palette, DrawUpper(canvas, palette, box, active));
 
-        /// <summary>The plot area of a waveform within the panel.</summary>
         public static Box Waveform(Box box, int index, int count)
         {
             Box column = Column(box, index, count);
@@ -59,7 +57,6 @@ namespace HaptoFlow.Preview
             return new Box(column.Left + AxisWidth, column.Top + HeaderHeight, column.Width - AxisWidth, height);
         }
 
-        /// <summary>The plot area of a spectrogram within the panel.</summary>
         public static Box SpectrogramBox(Box box, int index, int count)
         {
             Box waveform = Waveform(box, index, count);
@@ -102,7 +99,7 @@ namespace HaptoFlow.Preview
                 SpectrogramChart.DrawLegend(canvas, palette,
                     new Box(last.Right + 12.0, last.Top, 9.0, last.Height), spectrogramTopDecibels);
             }
-            double used = upper.Height + CardGap;
+            double used = upper.Height + Card.Gap;
             return box.Rows(used, box.Height - used);
         }
 
@@ -146,14 +143,7 @@ namespace HaptoFlow.Preview
 
         private void DrawSpectra(ICanvas canvas, Palette palette, Box card)
         {
-            const double titleSize = 12.0;
-            const string title = "Spectrum";
-            canvas.FillRectangle(card, palette.Card, CardRadius);
-            double y = card.Top + 17.0;
-            double left = card.Left + 12.0;
-            canvas.DrawText(title, left, y, titleSize, palette.Ink, bold: true);
-            canvas.DrawText("dB re 1 (m/s\u00b2)\u00b2/Hz", left + canvas.MeasureText(title, titleSize, true) + 12.0, y,
-                Plot.NumberSize, palette.Soft);
+            double y = Card.Draw(canvas, palette, card, "Spectrum", "dB re 1 (m/s\u00b2)\u00b2/Hz");
             if (sounds.Count == 0)
             {
                 return;
@@ -175,9 +165,7 @@ namespace HaptoFlow.Preview
         private static void DrawTable(
             ICanvas canvas, Palette palette, Box card, IReadOnlyList<QualityRow> rows, string chosenTier)
         {
-            canvas.FillRectangle(card, palette.Card, CardRadius);
-            canvas.DrawText("What accuracy costs in time", card.Left + 14.0, card.Top + 17.0, 12.0, palette.Ink,
-                bold: true);
+            Card.Draw(canvas, palette, card, "What accuracy costs in time", margin: 14.0);
             QualityTable.Draw(canvas, palette, card.Inside(14.0, 38.0, 14.0, 8.0), rows, chosenTier);
         }
     }

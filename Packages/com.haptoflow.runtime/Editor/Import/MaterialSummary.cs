@@ -1,0 +1,138 @@
+#nullable enable
+using System.Collections.Generic;
+using System.Globalization;
+using System.Linq;
+using System.Text;
+using HaptoFlow.Model;
+using UnityEditor;
+
+namespace HaptoFlow.Editor
+{
+    /// <summary>The text of a learnt material's Inspector: its nearest label, its recording, and whether it can be used
+    /// with the project's model.</summary>
+    internal sealed class MaterialSummary
+    {
+        private MaterialSummary(string problem) => Problem = problem;
+
+        private MaterialSummary(MaterialFile material, HapticModel? model)
+        {
+            Title = material.Name;
+            Description = material.Description;
+            bool isOfModel = model != null && model.Space == material.Space;
+            Rows = RowsOf(material, isOfModel ? model : null).Where(row => row.Value.Length > 0).ToArray();
+            Mismatch = isOfModel
+                ? null
+                : model == null
+                    ? "The project has no usable model, so nothing is felt."
+                    : "Its label is used instead: " + MaterialRegistration.ForeignSpace(material.Space, model.Space);
+        }
+
+        /// <summary>The problem of a file that cannot be used, with all other properties empty; else null.</summary>
+        public string? Problem { get; }
+
+        /// <summary>Why it cannot be used with the project's model; null when it can.</summary>
+        public string? Mismatch { get; }
+
+        public string Title { get; } = "";
+        public string Description { get; } = "";
+        public IReadOnlyList<SummaryRow> Rows { get; } = new SummaryRow[0];
+
+        /// <param name="text">The text of a material file.</param>
+        /// <param name="model">The model in use; null for none.</param>
+        public static MaterialSummary Of(string text, HapticModelAsset? model)
+        {
+            try
+            {
+                using HapticModel? opened = Opened(model);
+                return new MaterialSummary(MaterialFile.Read(text), opened);
+            }
+            catch (HaptoFlowException refusal)
+            {
+                return new MaterialSummary(FileProblem.Of(refusal, Encoding.UTF8.GetBytes(text)).Text);
+            }
+        }
+
+        private static HapticModel? Opened(HapticModelAsset? model)
+        {
+            try
+            {
+                return model == null ? null : HapticModel.Open(model.File);
+            }
+            catch (HaptoFlowException)
+            {
+                // The model's Inspector reports the problem.
+                return null;
+            }
+        }
+
+        private static IEnumerable<SummaryRow> RowsOf(MaterialFile material, HapticModel? model)
+        {
+            yield return new SummaryRow("Category", material.Category);
+            yield return new SummaryRow("Nearest Label", model?.NearestLabel(material.Embedding) ?? "");
+            yield return new SummaryRow("Recording",
+                material.Seconds > 0.0 ? SummaryRow.Format("{0:0.#} s", material.Seconds) : "");
+            yield return new SummaryRow("Recordings", material.Recordings);
+            yield return new SummaryRow("Licence", material.Licence);
+            yield return new SummaryRow("Provenance", material.Statement);
+            yield return new SummaryRow("Created", material.Created);
+            yield return new SummaryRow("Learnt Speeds", Interval(material.SpeedMps, "m/s"));
+            yield return new SummaryRow("Learnt Forces", Interval(material.ForceNewtons, "N"));
+            yield return new SummaryRow("Stiffness", SummaryRow.Format("{0:0} N/m", material.StiffnessNewtonsPerMetre));
+            yield return new SummaryRow("Space", material.Space);
+        }
+
+        private static string Interval(TrainedInterval learnt, string unit) =>
+            SummaryRow.Format("{0:0.###} to {1:0.###} {2}", learnt.Minimum, learnt.Maximum, unit);
+    }
+
+    /// <summary>Draws the summary of a learnt material, and updates it when the text or the model changes.</summary>
+    internal sealed class MaterialSummaryView
+    {
+        private string text = "";
+        private HapticModelAsset? model;
+        private MaterialSummary? summary;
+
+        /// <param name="material">The text of a material file.</param>
+        public void Draw(string material)
+        {
+            HapticModelAsset? current = LabelCatalog.ModelInUse();
+            if (summary == null || !ReferenceEquals(material, text) || !ReferenceEquals(current, model))
+            {
+                text = material;
+                model = current;
+                summary = MaterialSummary.Of(material, current);
+            }
+            Draw(summary);
+        }
+
+        public static void Draw(MaterialSummary summary)
+        {
+            if (summary.Problem != null)
+            {
+                EditorGUILayout.HelpBox("This material cannot be used: " + summary.Problem, MessageType.Error);
+                return;
+            }
+            EditorGUILayout.LabelField(summary.Title, EditorStyles.boldLabel);
+            if (summary.Description.Length > 0)
+            {
+                EditorGUILayout.LabelField(summary.Description, EditorStyles.wordWrappedLabel);
+            }
+            if (summary.Mismatch != null)
+            {
+                EditorGUILayout.HelpBox(summary.Mismatch, MessageType.Warning);
+            }
+            foreach (SummaryRow row in summary.Rows)
+            {
+                EditorGUILayout.LabelField(row.Name, row.Value, EditorStyles.wordWrappedLabel);
+            }
+        }
+    }
+
+    /// <summary>A row of an Inspector: a name and its value, both as text.</summary>
+    internal sealed record SummaryRow(string Name, string Value)
+    {
+        /// <summary>Formats values for a row, the same in every language of the system.</summary>
+        public static string Format(string format, params object[] values) =>
+            string.Format(CultureInfo.InvariantCulture, format, values);
+    }
+}

@@ -1,0 +1,125 @@
+#nullable enable
+using System;
+using System.Collections.Generic;
+
+namespace HaptoFlow.Preview
+{
+    /// <summary>Creates the engine that previews are rendered with, and keeps it as long as model, quality and seed
+    /// stay the same. One thread at a time, never the main thread: loading and inference take long.</summary>
+    internal sealed class PreviewEngines : IDisposable
+    {
+        // The command line's default lead, so that both render the same samples.
+        private const double LeadMs = 8.0;
+
+        // Two materials are compared at a time. Registered materials beyond this number are replaced, oldest first.
+        private const int KeptMaterials = 4;
+
+        private OnnxRuntime? runtime;
+        private byte[]? file;
+        private HapticModel? model;
+        private HapticEngine? engine;
+        // Materials registered with the engine, the oldest first.
+        private readonly List<(string Text, int Index)> materials = new List<(string, int)>();
+        private bool used;
+        private (HapticQuality Quality, ulong Seed) options;
+
+        private OnnxRuntime Runtime => runtime ??= OnnxRuntime.Open();
+
+        /// <summary>The engine for these options.</summary>
+        /// <param name="fresh">True for an engine without an earlier voice, whose samples depend only on stroke and
+        /// seed.</param>
+        /// <exception cref="HaptoFlowException">A library is missing, or the model cannot be used.</exception>
+        public HapticEngine Engine(byte[] modelFile, HapticQuality quality, ulong seed, bool fresh)
+        {
+            HapticModel opened = Model(modelFile);
+            if (engine == null || options != (quality, seed) || (fresh && used))
+            {
+                CloseEngine();
+                engine = new HapticEngine(Runtime, opened, new HapticEngineOptions
+                {
+                    Quality = quality,
+                    UpdateRateHz = Stroke.UpdateRateHz,
+                    FullScaleMps2 = PreviewSound.FullScaleMps2,
+                    Seed = seed,
+                    WithoutWorker = true,
+                    FixedLeadMs = LeadMs,
+                });
+                options = (quality, seed);
+            }
+            used = true;
+            return engine;
+        }
+
+        /// <summary>Index of a learnt material in the engine that was created last. Registers the material first if
+        /// necessary, in place of the oldest one if there are too many.</summary>
+        /// <param name="text">The text of a material file.</param>
+        /// <exception cref="HaptoFlowException">The text is no material file, or learnt for another model.</exception>
+        public int MaterialIndex(string text)
+        {
+            int known = materials.FindIndex(each => each.Text == text);
+            if (known >= 0)
+            {
+                return materials[known].Index;
+            }
+            int index;
+            if (materials.Count < KeptMaterials)
+            {
+                index = engine!.RegisterMaterial(text);
+            }
+            else
+            {
+                index = materials[0].Index;
+                engine!.ReplaceMaterial(index, text);
+                materials.RemoveAt(0);
+            }
+            materials.Add((text, index));
+            return index;
+        }
+
+        /// <summary>A generator of one tier, for timing. The caller disposes it.</summary>
+        /// <exception cref="HaptoFlowException">A library is missing, or the model cannot be used.</exception>
+        public HapticGenerator Generator(byte[] modelFile, string tier)
+        {
+            HapticModel opened = Model(modelFile);
+            return new HapticGenerator(Runtime, opened, tier);
+        }
+
+        public float[] Embedding(byte[] modelFile) => Model(modelFile).Embedding(0);
+
+        /// <summary>The model, which is kept as long as it is asked for.</summary>
+        /// <exception cref="HaptoFlowException">The library is missing, or the model cannot be used.</exception>
+        public HapticModel Model(byte[] modelFile)
+        {
+            if (model == null || !ReferenceEquals(file, modelFile))
+            {
+                CloseModel();
+                model = HapticModel.Open(modelFile);
+                file = modelFile;
+            }
+            return model;
+        }
+
+        public void Dispose()
+        {
+            CloseModel();
+            runtime?.Dispose();
+            runtime = null;
+        }
+
+        private void CloseEngine()
+        {
+            engine?.Dispose();
+            engine = null;
+            materials.Clear();
+            used = false;
+        }
+
+        private void CloseModel()
+        {
+            CloseEngine();
+            model?.Dispose();
+            model = null;
+            file = null;
+        }
+    }
+}

@@ -1,0 +1,234 @@
+#nullable enable
+using System;
+using HaptoFlow.Preview;
+using UnityEditor;
+using UnityEngine;
+using Object = UnityEngine.Object;
+
+namespace HaptoFlow.Editor
+{
+    /// <summary>Window > HaptoFlow > Texture Preview: renders, plays and draws the vibration of materials without a
+    /// headset. Rendering and analysis run in the background.</summary>
+    internal sealed class TexturePreviewWindow : PreviewWindow<TexturePreviewState>
+    {
+        private static readonly GUIContent FromRecording = new GUIContent("New Material from Recording\u2026",
+            "Learns a material from a recording of ten seconds, and saves it as a Haptic Material.");
+
+        private EditorPicture? strokePicture;
+        private EditorPicture? chartsPicture;
+        private PreviewControls? controls;
+        private SliderControls? sliders;
+        private PatchInput? patch;
+
+        /// <summary>Null while the window is closed.</summary>
+        internal PreviewSession? Session { get; private set; }
+
+        /// <summary>Null while the window is closed.</summary>
+        internal PreviewPlayer? Player { get; private set; }
+
+        internal Func<double> ClockSeconds { get; set; } = () => EditorApplication.timeSinceStartup;
+
+        [MenuItem("Window/HaptoFlow/Texture Preview", false, 2100)]
+        internal static void Open() => Open<TexturePreviewWindow>(1200f, 940f);
+
+        /// <summary>Opens the window with the material of a surface or of a Haptic Material asset.</summary>
+        internal static void Open(Object described)
+        {
+            Open();
+            if (SceneMaterial.TryRead(described, out LabelMix mix, out HapticMaterial? learnt))
+            {
+                GetWindow<TexturePreviewWindow>().State.Take(mix, learnt);
+            }
+        }
+
+        protected override PreviewRoom Room =>
+            State.ShowsSliders ? PreviewRoom.WithSliders : PreviewRoom.Default;
+
+        protected override bool IsOpen => Session != null;
+
+        protected override void OnEnable()
+        {
+            base.OnEnable();
+            titleContent = new GUIContent("Texture Preview");
+            EditorApplication.projectChanged += OnProjectChanged;
+        }
+
+        protected override void OnDisable()
+        {
+            EditorApplication.projectChanged -= OnProjectChanged;
+            base.OnDisable();
+        }
+
+        protected override void Begin()
+        {
+            Session = new PreviewSession(State);
+            strokePicture = new EditorPicture(DrawStroke);
+            chartsPicture = new EditorPicture(DrawCharts);
+            controls = new PreviewControls(State);
+            sliders = new SliderControls(State);
+            Player = new PreviewPlayer(State, Session);
+            patch = new PatchInput(State);
+            patch.Ended += Player.PlayWhenReady;
+        }
+
+        protected override bool TakesKey(Event input) =>
+            PreviewKeys.Handle(input, State, Player!.Toggle, () => Later(Export));
+
+        protected override void DrawControls()
+        {
+            controls!.Draw(Session!.Model);
+            if (SceneControls.Draw(State, Session.Model) is { } message)
+            {
+                ShowNotification(new GUIContent(message));
+            }
+            Player!.DrawButtons(() => Later(Export));
+            sliders!.Draw(ModelInUse(), () => Later(Save));
+            if (GUILayout.Button(FromRecording))
+            {
+                NewMaterialWindow.Open();
+            }
+        }
+
+        protected override void DrawPictures(PreviewLayout layout)
+        {
+            ShowStroke(layout.StrokePanel);
+            ShowCharts(layout.Charts);
+        }
+
+        internal override void Step()
+        {
+            if (Session == null)
+            {
+                return;
+            }
+            Session.Refresh(ModelInUse(), GUIUtility.hotControl != 0);
+            bool isOther = Session.Poll();
+            if (Player!.Step() || isOther)
+            {
+                Repaint();
+            }
+        }
+
+        /// <summary>Blocks until the present settings are rendered.</summary>
+        internal void Finish()
+        {
+            Session!.Refresh(ModelInUse(), false);
+            Session.Finish();
+            Player!.Step();
+            Repaint();
+        }
+
+        /// <summary>Writes the active sound to a WAV file.</summary>
+        /// <returns>An error message; null on success.</returns>
+        internal string? ExportTo(string path)
+        {
+            Finish();
+            return Session!.Problem ?? WaveExport.Write(path, Player!.PlayedSound!.Sound);
+        }
+
+        private void Export()
+        {
+            if (Session == null)
+            {
+                return;
+            }
+            Finish();
+            if (Player!.PlayedSound == null)
+            {
+                return;
+            }
+            string name = WaveExport.FileName(Player.PlayedSound.Sound.Material, State.Settings);
+            string path = EditorUtility.SaveFilePanel("Export WAV", "", name, "wav");
+            if (path.Length > 0)
+            {
+                ShowNotification(new GUIContent(ExportTo(path) ?? "Exported"));
+            }
+        }
+
+        private void Save()
+        {
+            if (Session == null)
+            {
+                return;
+            }
+            try
+            {
+                LabelMix mix = State.PlayedMix(Session.Model.Labels);
+                HapticMaterial? learnt = State.Material(State.PlayedIndex).Learnt;
+                using HapticModel model = HapticModel.Open(Session.Model.File);
+                string text = mix.MaterialText(model, SliderCatalog.Of(ModelInUse()).Sliders);
+                string label = learnt != null ? learnt.Description.Label : mix.First;
+                HapticMaterial? saved = MaterialAssets.SaveAs(text, label, described =>
+                {
+                    described.FeatureScale = mix.FeatureScale;
+                    described.ToneDbPerOctave = mix.ToneDbPerOctave;
+                });
+                if (saved != null)
+                {
+                    State.Take(new LabelMix(label, mix.Second, mix.Share, "", null, mix.FeatureScale,
+                        mix.ToneDbPerOctave), saved);
+                    ShowNotification(new GUIContent("Saved " + saved.name));
+                }
+            }
+            catch (HaptoFlowException error)
+            {
+                ShowNotification(new GUIContent(error.Message));
+            }
+        }
+
+        /// <summary>A learnt material or the file of the sliders may have changed.</summary>
+        private void OnProjectChanged()
+        {
+            SliderCatalog.Forget();
+            State.MarkChanged();
+        }
+
+        private void ShowStroke(Box panel)
+        {
+            // While a stroke is drawn, the picture follows the pointer; the sound is rendered later.
+            strokePicture!.OnGUI(Session!.Stroke, View);
+            Box place = PreviewLayout.Patch(panel);
+            patch!.Handle(Event.current, place.ToRect(), ClockSeconds());
+            if (Player!.PlayedSeconds is { } seconds)
+            {
+                Playhead.DrawTip(place, Session!.Stroke.At(seconds), View.Palette, State.PlayedIndex);
+            }
+        }
+
+        private void ShowCharts(Box panel)
+        {
+            if (Session!.Shown is { } shown)
+            {
+                chartsPicture!.OnGUI(shown, View);
+                if (Player!.PlayedSeconds is { } seconds)
+                {
+                    Playhead.DrawLines(panel, shown.Sounds, seconds, View.Palette);
+                }
+            }
+            if (Session.Problem is { } problem)
+            {
+                Box help = panel.Inside(16.0).Rows(0.0, 56.0);
+                EditorGUI.HelpBox(help.ToRect(), problem, MessageType.Error);
+            }
+        }
+
+        private void DrawStroke(ICanvas canvas) =>
+            StrokePanel.Draw(canvas, View.Palette, View.Layout.StrokePanel, Session!.Stroke);
+
+        private void DrawCharts(ICanvas canvas)
+        {
+            PreviewResult shown = Session!.Shown!;
+            shown.Panel.Draw(canvas, View.Palette, View.Layout.Charts, shown.Request.Active, shown.Qualities,
+                shown.Request.Tier);
+        }
+
+        protected override void Release()
+        {
+            Player?.Close();
+            Session?.Dispose();
+            Session = null;
+            strokePicture?.Release();
+            chartsPicture?.Release();
+        }
+    }
+}
