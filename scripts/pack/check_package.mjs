@@ -1,3 +1,4 @@
+import { PackageFiles } from './package_files.mjs';
 import { checkAssemblyNames, checkNamespaces, checkPlatforms, checkPrecompiled, checkReferences, checkScriptsBelong } from './rules/assemblies.mjs';
 import { checkAnchors, checkAssetGuids, checkSceneScripts } from './rules/assets.mjs';
 import { checkLinks } from './rules/links.mjs';
@@ -31,9 +32,17 @@ export const rules = {
   'native libraries': checkPlugins,
 };
 
+// Sorts before every file of the package, so that of two files with one GUID or name the package's own is complained of.
+const besides = '.needed/';
+
 /**
  * Checks a package for what Unity would refuse, leave out or lose.
- * @param {import('./package_files.mjs').PackageFiles} files
+ * @param {PackageFiles} files
+ * @param {PackageFiles | null} needed the package that it depends on, to whose assemblies and assets it may refer
  * @returns {string[]} one line for each complaint: the file, what is wrong, what was expected; empty for a good package
  */
-export const checkPackage = (files) => Object.values(rules).flatMap((rule) => rule(files));
+export function checkPackage(files, needed = null) {
+  const brought = (needed?.names ?? []).map((name) => [`${besides}${name}`, needed.contents.get(name)]);
+  const all = new PackageFiles(new Map([...files.contents, ...brought]));
+  return Object.values(rules).flatMap((rule) => rule(all)).filter((complaint) => !complaint.startsWith(besides));
+}

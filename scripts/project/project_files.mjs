@@ -4,11 +4,11 @@ import { CommandError } from '../lib/process.mjs';
 import { inRepository } from '../lib/repository.mjs';
 import { repositoryFiles } from '../lint/files.mjs';
 import { dependencyName } from '../pack/dependency.mjs';
-import { packageName } from '../pack/layout.mjs';
+import { packageName, studiesName } from '../pack/layout.mjs';
 import { PackageFiles } from '../pack/package_files.mjs';
 
 /** Folders of the repository into which Unity writes a .meta for every asset, and deletes every .meta without one. */
-export const writableFolders = ['Assets', `Packages/${packageName}`, 'Tests/Unity'];
+export const writableFolders = ['Assets', `Packages/${packageName}`, `Packages/${studiesName}`, 'Tests/Unity'];
 
 /** The list of the project's packages. */
 export const manifestName = 'Packages/manifest.json';

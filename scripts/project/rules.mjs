@@ -1,6 +1,6 @@
 import { checkAnchors, checkAssetGuids, checkSceneScripts, yamlEndings } from '../pack/rules/assets.mjs';
 import { checkAssemblyNames, checkPlatforms, checkReferences, checkScriptsBelong } from '../pack/rules/assemblies.mjs';
-import { packageName } from '../pack/layout.mjs';
+import { packageName, studiesName } from '../pack/layout.mjs';
 import { PackageFiles } from '../pack/package_files.mjs';
 import { checkGuids, checkImporters, checkMetasAreThere, checkMetasAreWanted, guidsByName } from '../pack/rules/metas.mjs';
 import { checkModelReferences } from '../pack/rules/models.mjs';
@@ -25,7 +25,7 @@ function checkPackages(files) {
   const complaints = [];
   const { dependencies, testables } = JSON.parse(files.text(manifestName));
   const all = withDependency(files);
-  const local = new Map([[packageName, `Packages/${packageName}`]]);
+  const local = new Map([packageName, studiesName].map((name) => [name, `Packages/${name}`]));
   for (const [name, version] of Object.entries(dependencies)) {
     if (!version.startsWith('file:')) continue;
     const folder = version.startsWith('file:../') ? version.slice('file:../'.length) : `Packages/${version.slice('file:'.length)}`;

@@ -1,4 +1,4 @@
-// Puts together what a release offers: both tarballs, the demo's page, notes and checksums; --help
+// Puts together what a release offers: the tarballs, the demo's page, notes and checksums; --help
 import { copyFileSync, cpSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import { parseArgs } from 'node:util';
@@ -6,15 +6,15 @@ import { sha256Of } from '../lib/model_stamp.mjs';
 import { CommandError, runMain, runOrFail } from '../lib/process.mjs';
 import { callerFolder, inRepository } from '../lib/repository.mjs';
 import { dependencyName } from '../pack/dependency.mjs';
-import { packageName } from '../pack/layout.mjs';
+import { packageName, studiesName } from '../pack/layout.mjs';
 import { platforms, pluginsFolder } from '../pack/natives.mjs';
 import { readTarball } from '../pack/tarball.mjs';
 import { tarballOf } from './tarballs.mjs';
 
 const help = `usage: node scripts/release/draft.mjs FOLDER [--tarballs out] [--demo FOLDER]
 
-Empties FOLDER and puts there what a release offers: the two tarballs of \`npm run pack\`, haptoflow-demo.tgz, SHA256SUMS of
-all three, and notes.md: how to install, which platforms have a library, and the version's section of CHANGELOG.md.
+Empties FOLDER and puts there what a release offers: the tarballs of \`npm run pack\`, haptoflow-demo.tgz, SHA256SUMS of
+all, and notes.md: how to install, which platforms have a library, and the version's section of CHANGELOG.md.
 
   --tarballs FOLDER  where the tarballs lie (out)
   --demo FOLDER      the demo's page, as \`npm run demo\` makes it (out/demo)`;
@@ -39,10 +39,10 @@ export function changesOf(changelog, version) {
   return section.slice(section.indexOf('\n')).trim();
 }
 
-function notesOf({ runtime, tarball, files, version }) {
+function notesOf({ runtime, tarball, studies, files, version }) {
   const rows = platforms.map(({ name, place }) => `| ${name} | ${files.has(`${pluginsFolder}/${place}`) ? 'yes' : 'no'} |`);
-  return `Download both tarballs. In Unity: Window > Package Manager > + > Install package from tarball... (2022.3: Add package
-from tarball...), first \`${runtime}\`, then \`${tarball}\`. \`sha256sum --check SHA256SUMS\` compares what was downloaded.
+  return `Download the tarballs. In Unity: Window > Package Manager > + > Install package from tarball... (2022.3: Add package
+from tarball...), first \`${runtime}\`, then \`${tarball}\`, for user studies also \`${studies}\`. \`sha256sum --check SHA256SUMS\` compares what was downloaded.
 \`haptoflow-demo.tgz\` is a page to look at and listen to.
 
 | platform | library in the package |
@@ -58,13 +58,13 @@ ${changesOf(readFileSync(inRepository('CHANGELOG.md'), 'utf8'), version)}
 if (process.argv[1]?.endsWith('draft.mjs')) {
   await runMain('draft', async (words) => {
     const { folder, tarballs, demo } = optionsOf(words);
-    const [runtime, tarball] = [dependencyName, packageName].map((name) => tarballOf(name, tarballs));
+    const [runtime, tarball, studies] = [dependencyName, packageName, studiesName].map((name) => tarballOf(name, tarballs));
     const files = await readTarball(path.join(tarballs, tarball));
     const { version } = JSON.parse(files.text('package.json'));
-    const notes = notesOf({ runtime, tarball, files, version });
+    const notes = notesOf({ runtime, tarball, studies, files, version });
     rmSync(folder, { recursive: true, force: true });
     mkdirSync(folder, { recursive: true });
-    for (const name of [runtime, tarball]) copyFileSync(path.join(tarballs, name), path.join(folder, name));
+    for (const name of [runtime, tarball, studies]) copyFileSync(path.join(tarballs, name), path.join(folder, name));
     const unpacked = path.join(folder, 'haptoflow-demo');
     cpSync(demo, unpacked, { recursive: true });
     await runOrFail('tar', ['-czf', `${unpacked}.tgz`, '-C', folder, 'haptoflow-demo']);

@@ -6,7 +6,7 @@ using HaptoFlow.Studies;
 using HaptoFlow.Tests.Support;
 using NUnit.Framework;
 
-namespace HaptoFlow.RepositoryTests
+namespace HaptoFlow.SampleTests
 {
     /// <summary>The plans of the studies equal those of the training package exactly.</summary>
     public sealed class GoldenPlanTests
