@@ -4,11 +4,9 @@ import os from 'node:os';
 import { parseArgs } from 'node:util';
 import { measureTouches } from './bench/web_touches.mjs';
 import { webTables } from './bench/web_tables.mjs';
-import { withMeasuredPart } from './lib/measured_part.mjs';
-import { modelLine, sha256Of, shippedModel } from './lib/model_stamp.mjs';
+import { modelLine, sha256Of, shippedModel, withMeasuredPart } from './lib/measured_part.mjs';
 import { buildNative } from './lib/native_build.mjs';
-import { CommandError, runMain, runOrFail } from './lib/process.mjs';
-import { commandLinePath, inRepository } from './lib/repository.mjs';
+import { CommandError, commandLinePath, inRepository, runMain, runOrFail } from './lib/process.mjs';
 import { setUp } from './lib/setup.mjs';
 
 const report = inRepository('out', 'bench-web.json');
@@ -82,7 +80,7 @@ await runMain('bench:web', async (words) => {
   await buildNative({ targets: ['haptoflow_cli'] });
   // Imported here, since set-up may just have installed the packages that they need.
   const [{ buildEngine }, { pageFolder, stagePage }, { launchChromium }, { serveFolder }] = await Promise.all([
-    import('./web/build_engine.mjs'), import('./web/build_page.mjs'), import('./web/chromium.mjs'), import('./web/static_server.mjs'),
+    import('./web/build.mjs'), import('./web/build.mjs'), import('./web/chromium.mjs'), import('./web/static_server.mjs'),
   ]);
   await buildEngine();
   stagePage();

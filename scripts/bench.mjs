@@ -4,9 +4,8 @@ import { existsSync, mkdirSync, readFileSync, statSync, writeFileSync } from 'no
 import { parseArgs } from 'node:util';
 import { benchArguments, withMeasuredTables, withModelSha256 } from './bench/measured_tables.mjs';
 import { buildNative } from './lib/native_build.mjs';
-import { sha256Of, shippedModel } from './lib/model_stamp.mjs';
-import { CommandError, runMain, runOrFail } from './lib/process.mjs';
-import { commandLinePath, inRepository } from './lib/repository.mjs';
+import { sha256Of, shippedModel } from './lib/measured_part.mjs';
+import { CommandError, commandLinePath, inRepository, runMain, runOrFail } from './lib/process.mjs';
 import { pythonOrFail, setUp } from './lib/setup.mjs';
 
 const report = inRepository('out', 'bench.json');

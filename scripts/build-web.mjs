@@ -1,8 +1,7 @@
 // build:web: builds the engine for browsers and the live page into Web/dist (--help)
 import { runMain } from './lib/process.mjs';
 import { setUp } from './lib/setup.mjs';
-import { buildEngine } from './web/build_engine.mjs';
-import { stagePage } from './web/build_page.mjs';
+import { buildEngine, stagePage } from './web/build.mjs';
 
 const help = `usage: npm run build:web
 

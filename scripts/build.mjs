@@ -1,12 +1,11 @@
 // build: builds the native plugin and the command line (--platform NAME for one of the package's platforms, --help)
 import path from 'node:path';
 import { parseArgs } from 'node:util';
-import { buildAndroid, androidTools } from './build/android_build.mjs';
+import { androidTools, buildAndroid } from './build/android.mjs';
 import { buildNative, presetFolder } from './lib/native_build.mjs';
-import { CommandError, runMain } from './lib/process.mjs';
-import { inRepository } from './lib/repository.mjs';
+import { CommandError, inRepository, runMain } from './lib/process.mjs';
 import { onDebian, setUp } from './lib/setup.mjs';
-import { putIntoPackage } from './natives/into_package.mjs';
+import { putIntoPackage } from './lib/libraries.mjs';
 import { platforms as packaged } from './pack/natives.mjs';
 
 /** The values of --platform: what each needs, and how it is built (a preset, or the Android tools found on the machine). */

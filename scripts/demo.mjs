@@ -1,8 +1,7 @@
 // demo: builds, renders eight labels and a scene, and makes out/demo/index.html
 import os from 'node:os';
 import { buildNative } from './lib/native_build.mjs';
-import { runMain, runOrFail } from './lib/process.mjs';
-import { inRepository } from './lib/repository.mjs';
+import { inRepository, runMain, runOrFail } from './lib/process.mjs';
 import { drawingModules, pythonOrFail, setUp } from './lib/setup.mjs';
 
 const help = `usage: ./run demo

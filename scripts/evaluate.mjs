@@ -1,8 +1,7 @@
 // evaluate: accuracy over time, every row measured through the engine (arguments: those of haptoflow-paper evaluate)
-import { evaluatingPackage } from './lib/evaluating_package.mjs';
+import { evaluatingPackage } from './lib/training_words.mjs';
 import { buildNative } from './lib/native_build.mjs';
-import { run, runMain } from './lib/process.mjs';
-import { inRepository, callerFolder } from './lib/repository.mjs';
+import { callerFolder, inRepository, run, runMain } from './lib/process.mjs';
 import { pythonOrFail, setUp } from './lib/setup.mjs';
 
 const help = `usage: ./run evaluate [ARGUMENTS]

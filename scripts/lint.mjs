@@ -3,14 +3,7 @@ import { parseArgs } from 'node:util';
 import { buildNative } from './lib/native_build.mjs';
 import { CommandError, runMain } from './lib/process.mjs';
 import { setUp } from './lib/setup.mjs';
-import { checkFormat, checkTidy } from './lint/cpp_checks.mjs';
-import { checkCSharpFormat } from './lint/csharp_checks.mjs';
-import { checkContent, checkJson, checkThreadTags } from './lint/house_checks.mjs';
-import { checkNatives } from './lint/native_checks.mjs';
-import { checkPythonSyntax, checkScriptSyntax } from './lint/syntax_checks.mjs';
-import { checkWorkflows } from './lint/workflow_checks.mjs';
-import { checkWarnings } from './lint/warning_checks.mjs';
-import { changedFiles, repositoryFiles } from './lint/files.mjs';
+import { changedFiles, checkCSharpFormat, checkContent, checkFormat, checkJson, checkNatives, checkPythonSyntax, checkScriptSyntax, checkThreadTags, checkTidy, checkWarnings, checkWorkflows, repositoryFiles } from './lint/checks.mjs';
 
 const help = `usage: ./run lint [--all]
 

@@ -2,10 +2,9 @@
 import { copyFileSync, existsSync, readFileSync } from 'node:fs';
 import path from 'node:path';
 import { buildNative, presetFolder } from './lib/native_build.mjs';
-import { CommandError, runMain } from './lib/process.mjs';
-import { inRepository } from './lib/repository.mjs';
+import { CommandError, inRepository, runMain } from './lib/process.mjs';
 import { onDebian, setUp } from './lib/setup.mjs';
-import { committedPlatforms, complaintsOf, fileInPackage, largestBytes, writeRecord } from './natives/committed.mjs';
+import { committedPlatforms, complaintsOf, fileInPackage, largestBytes, writeRecord } from './lib/libraries.mjs';
 
 const help = `usage: npm run natives [-- --help]
 

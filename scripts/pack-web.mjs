@@ -1,8 +1,7 @@
 // pack:web: makes the npm package haptoflow-web in out/ (--help)
 import { runMain } from './lib/process.mjs';
 import { setUp } from './lib/setup.mjs';
-import { buildEngine } from './web/build_engine.mjs';
-import { packEngine } from './web/pack_engine.mjs';
+import { buildEngine, packEngine } from './web/build.mjs';
 
 const help = `usage: npm run pack:web
 

@@ -2,16 +2,13 @@
 import { mkdirSync } from 'node:fs';
 import path from 'node:path';
 import { parseArgs } from 'node:util';
-import { repositoryFiles } from './lint/files.mjs';
-import { CommandError, runMain } from './lib/process.mjs';
-import { inRepository } from './lib/repository.mjs';
-import { committedNatives } from './natives/committed.mjs';
+import { repositoryFiles } from './lint/checks.mjs';
+import { CommandError, inRepository, runMain } from './lib/process.mjs';
+import { committedNatives } from './lib/libraries.mjs';
 import { checkPackage } from './pack/check_package.mjs';
-import { packDependency } from './pack/dependency.mjs';
+import { packDependency, tableOfContents } from './pack/dependency.mjs';
 import { buildNatives, findNatives, foldersFor, platforms } from './pack/natives.mjs';
-import { PackageFiles } from './pack/package_files.mjs';
-import { tableOfContents } from './pack/sizes.mjs';
-import { makeTarball } from './pack/tarball.mjs';
+import { makeTarball, PackageFiles } from './pack/package_files.mjs';
 
 const help = `usage: npm run pack -- [--no-build] [--require NAMES] [--help]
 

@@ -3,8 +3,7 @@ import { spawn } from 'node:child_process';
 import path from 'node:path';
 import { CommandError, runMain } from './lib/process.mjs';
 import { setUp } from './lib/setup.mjs';
-import { buildEngine } from './web/build_engine.mjs';
-import { hasBuiltEngine, pageFolder, stagePage } from './web/build_page.mjs';
+import { buildEngine, hasBuiltEngine, pageFolder, stagePage } from './web/build.mjs';
 import { serveFolder } from './web/static_server.mjs';
 
 const help = `usage: ./run play [--port NUMBER] [--no-open] [--rebuild]

@@ -1,14 +1,12 @@
 // project: says without Unity whether Unity can open and play this folder: packages, references, library, a stroke
 import { existsSync, statSync } from 'node:fs';
 import path from 'node:path';
-import { shippedModel } from './lib/model_stamp.mjs';
-import { CommandError, runMain } from './lib/process.mjs';
-import { repositoryRoot } from './lib/repository.mjs';
-import { fileInPackage } from './natives/committed.mjs';
+import { shippedModel } from './lib/measured_part.mjs';
+import { CommandError, repositoryRoot, runMain } from './lib/process.mjs';
+import { fileInPackage } from './lib/libraries.mjs';
 import { runtimeLibrary } from './pack/dependency.mjs';
 import { commandFor, platforms } from './pack/natives.mjs';
-import { projectFilesOnDisk } from './project/project_files.mjs';
-import { rules } from './project/rules.mjs';
+import { projectFilesOnDisk, rules } from './project/rules.mjs';
 
 const help = `usage: npm run project [-- --help]
 

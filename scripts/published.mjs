@@ -3,15 +3,11 @@ import { existsSync } from 'node:fs';
 import path from 'node:path';
 import { parseArgs } from 'node:util';
 import { buildNative } from './lib/native_build.mjs';
-import { CommandError, run, runMain } from './lib/process.mjs';
-import { callerFolder, inRepository } from './lib/repository.mjs';
+import { CommandError, callerFolder, inRepository, run, runMain } from './lib/process.mjs';
 import { pythonOrFail, setUp } from './lib/setup.mjs';
-import { cacheRoot } from './published/cache.mjs';
-import { bringCheckpoint, localCheckpoint, originLines } from './published/checkpoint.mjs';
-import { bringEncodec, encodecAddress } from './published/encodec.mjs';
+import { bringCheckpoint, bringEncodec, cacheRoot, defaultSpec, encodecAddress, localCheckpoint, originLines, parseSpec } from './published/checkpoint.mjs';
 import { endpointOf } from './published/hub.mjs';
 import { progressBar } from './published/progress.mjs';
-import { defaultSpec, parseSpec } from './published/spec.mjs';
 
 const help = `usage: ./run published [hf://OWNER/REPO/FOLDER[@REVISION] | FOLDER] [-o OUT.haptoflow]
                        [--encodec FILE] [--peak-g G | --dataset-info FILE]

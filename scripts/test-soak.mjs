@@ -1,15 +1,11 @@
 // test:soak: runs the live engine for long: ten minutes on each label, a million observed callbacks (--publish)
 import { readFileSync, writeFileSync } from 'node:fs';
 import os from 'node:os';
-import { judgeJunit, results } from './lib/judge_junit.mjs';
-import { withMeasuredPart } from './lib/measured_part.mjs';
-import { sha256Of, shippedModel } from './lib/model_stamp.mjs';
+import { addCounts, closingLine, judgeJunit, noCounts, results } from './lib/test_results.mjs';
+import { sha256Of, shippedModel, soakTable, withMeasuredPart } from './lib/measured_part.mjs';
 import { buildNative, presetFolder } from './lib/native_build.mjs';
-import { CommandError, runMain } from './lib/process.mjs';
-import { inRepository } from './lib/repository.mjs';
+import { CommandError, inRepository, runMain } from './lib/process.mjs';
 import { setUp } from './lib/setup.mjs';
-import { soakTable } from './lib/soak_table.mjs';
-import { addCounts, closingLine, noCounts } from './lib/test_counts.mjs';
 
 const proofs = [
   { program: 'realtime', filter: '*', env: { HAPTOFLOW_TEST_CALLBACKS: '1000000' }, about: 'a million callbacks, watched' },

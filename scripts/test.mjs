@@ -1,12 +1,9 @@
 // test: runs the tests and sums them into out/test/summary.json (--all: the long form; --only NAME; --help)
 import { mkdirSync, writeFileSync } from 'node:fs';
 import { parseArgs } from 'node:util';
-import { bringDotnet } from './lib/dotnet.mjs';
-import { CommandError, runMain } from './lib/process.mjs';
-import { inRepository } from './lib/repository.mjs';
-import { rootCommand, setUp } from './lib/setup.mjs';
-import { addCounts, closingLine, noCounts } from './lib/test_counts.mjs';
-import { exitCodeOf, runRunners } from './lib/test_run.mjs';
+import { bringDotnet, rootCommand, setUp } from './lib/setup.mjs';
+import { CommandError, inRepository, runMain } from './lib/process.mjs';
+import { addCounts, closingLine, exitCodeOf, noCounts, runRunners } from './lib/test_results.mjs';
 import { chosenRunners, purposesOf, runners } from './lib/test_runners.mjs';
 
 function optionsOf(words) {

@@ -1,10 +1,8 @@
 // train: trains the default model, all tiers, and writes its .haptoflow file (with arguments: haptoflow-training train)
-import { run, runMain, runOrFail } from './lib/process.mjs';
-import { inRepository, callerFolder } from './lib/repository.mjs';
+import { callerFolder, inRepository, run, runMain, runOrFail } from './lib/process.mjs';
 import { pythonOrFail, setUp } from './lib/setup.mjs';
-import { judgementOf } from './lib/judgement.mjs';
-import { shippedModel } from './lib/model_stamp.mjs';
-import { bringRecordings, clusterOptions, trainingWords } from './train/cluster.mjs';
+import { bringRecordings, clusterOptions, judgementOf, trainingWords } from './lib/training_words.mjs';
+import { shippedModel } from './lib/measured_part.mjs';
 
 // One run writes the default model and the reference values that the tests compare it with, so that they match.
 const defaults = [

@@ -4,8 +4,7 @@ import { chmodSync, existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, wr
 import os from 'node:os';
 import path from 'node:path';
 import test from 'node:test';
-import { androidCommands, androidTools, buildAndroid, presetVariables, rebuildAndroid } from '../../scripts/build/android_build.mjs';
-import { findCmake, findJsonHeader, findNdk } from '../../scripts/build/android_tools.mjs';
+import { androidCommands, androidTools, buildAndroid, findCmake, findJsonHeader, findNdk, presetVariables, rebuildAndroid } from '../../scripts/build/android.mjs';
 
 async function inFolder(act) {
   const folder = mkdtempSync(path.join(os.tmpdir(), 'haptoflow-android-'));

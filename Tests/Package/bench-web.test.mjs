@@ -3,7 +3,7 @@ import { spawnSync } from 'node:child_process';
 import test from 'node:test';
 import { spread, webTables } from '../../scripts/bench/web_tables.mjs';
 import { timeOf } from '../../scripts/bench/web_touches.mjs';
-import { inRepository } from '../../scripts/lib/repository.mjs';
+import { inRepository } from '../../scripts/lib/process.mjs';
 
 const times = (median) => ({ count: 9, minimum: median, median, percentile99: median, worst: median });
 const roundOf = (browser, native, touches) => ({

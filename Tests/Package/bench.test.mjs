@@ -4,7 +4,7 @@ import { readFileSync } from 'node:fs';
 import test from 'node:test';
 import { benchArguments, withMeasuredTables, withModelSha256 } from '../../scripts/bench/measured_tables.mjs';
 import { modelOfPage } from './support/model_of_page.mjs';
-import { inRepository } from '../../scripts/lib/repository.mjs';
+import { inRepository } from '../../scripts/lib/process.mjs';
 
 const page = readFileSync(inRepository('Documentation~', 'benchmarks.md'), 'utf8');
 const bench = (...words) => spawnSync(process.execPath, [inRepository('scripts', 'bench.mjs'), ...words], { encoding: 'utf8' });

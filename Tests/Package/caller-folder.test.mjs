@@ -4,8 +4,7 @@ import { mkdtempSync, realpathSync, rmSync } from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
 import test from 'node:test';
-import { run } from '../../scripts/lib/process.mjs';
-import { inRepository, repositoryRoot, callerFolder } from '../../scripts/lib/repository.mjs';
+import { callerFolder, inRepository } from '../../scripts/lib/process.mjs';
 
 const posixOnly = process.platform === 'win32' ? 'run is a POSIX script' : false;
 
@@ -18,13 +17,6 @@ async function elsewhere(body) {
     rmSync(folder, { recursive: true, force: true });
   }
 }
-
-test('a child runs in the folder of the user on request, and in the repository otherwise', () =>
-  elsewhere(async (folder) => {
-    const words = ['-e', 'console.log(process.cwd())'];
-    assert.equal((await run(process.execPath, words, { cwd: folder, quiet: true })).output.trim(), folder);
-    assert.equal((await run(process.execPath, words, { quiet: true })).output.trim(), realpathSync(repositoryRoot));
-  }));
 
 test('the folder of the user is npm\'s INIT_CWD, and without npm the current folder', () => {
   const before = process.env.INIT_CWD;

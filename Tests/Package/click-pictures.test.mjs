@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { readFileSync, readdirSync } from 'node:fs';
 import test from 'node:test';
-import { inRepository } from '../../scripts/lib/repository.mjs';
+import { inRepository } from '../../scripts/lib/process.mjs';
 
 const read = (...parts) => readFileSync(inRepository(...parts), 'utf8');
 const names = readdirSync(inRepository('Documentation~', 'images')).flatMap((file) => file.match(/^((?:install|first-scene)-\d.*)\.svg$/)?.[1] ?? []);

@@ -3,8 +3,8 @@ import { existsSync, mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
 import test from 'node:test';
-import { callerFolder, inRepository } from '../../scripts/lib/repository.mjs';
-import { bringRecordings, clusterOptions, trainingWords } from '../../scripts/train/cluster.mjs';
+import { callerFolder, inRepository } from '../../scripts/lib/process.mjs';
+import { bringRecordings, clusterOptions, trainingWords } from '../../scripts/lib/training_words.mjs';
 import { startHub } from './support/hub_server.mjs';
 
 test('the options of --cluster are taken out, and the others go to train-tiers', () => {

@@ -5,16 +5,14 @@ import { appendFileSync, cpSync, mkdtempSync, readFileSync, rmSync, writeFileSyn
 import os from 'node:os';
 import path from 'node:path';
 import test from 'node:test';
-import { inRepository } from '../../scripts/lib/repository.mjs';
+import { inRepository } from '../../scripts/lib/process.mjs';
 import { testsOfCommitted } from '../../scripts/lib/runtime_tests.mjs';
-import { checkNatives } from '../../scripts/lint/native_checks.mjs';
-import { committedNatives, committedPlatforms, complaintsOf, complaintsOfRecord, fileInPackage, largestBytes, readRecord } from '../../scripts/natives/committed.mjs';
-import { hashOfInterface, hashOfSources, sourceFiles } from '../../scripts/natives/fingerprints.mjs';
-import { importFolder, putIntoPackage } from '../../scripts/natives/into_package.mjs';
+import { checkNatives } from '../../scripts/lint/checks.mjs';
+import { committedNatives, committedPlatforms, complaintsOf, complaintsOfRecord, fileInPackage, hashOfInterface, hashOfSources, importFolder, largestBytes, putIntoPackage, readRecord, sourceFiles } from '../../scripts/lib/libraries.mjs';
 import { findNatives, platforms, pluginsFolder } from '../../scripts/pack/natives.mjs';
 import { PackageFiles } from '../../scripts/pack/package_files.mjs';
-import { checkMetasAreThere, checkMetasAreWanted } from '../../scripts/pack/rules/metas.mjs';
-import { checkPlugins } from '../../scripts/pack/rules/plugins.mjs';
+import { checkMetasAreThere, checkMetasAreWanted } from '../../scripts/pack/rules_of_files.mjs';
+import { checkPlugins } from '../../scripts/pack/rules_of_plugins.mjs';
 import { elfOf } from './support/elf.mjs';
 
 const git = (...words) => spawnSync('git', ['-C', inRepository(), ...words], { encoding: 'utf8' });

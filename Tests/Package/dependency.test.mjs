@@ -4,9 +4,9 @@ import { existsSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, 
 import os from 'node:os';
 import path from 'node:path';
 import test from 'node:test';
-import { inRepository } from '../../scripts/lib/repository.mjs';
+import { inRepository } from '../../scripts/lib/process.mjs';
 import { dependencyName, packDependency } from '../../scripts/pack/dependency.mjs';
-import { readTarball } from '../../scripts/pack/tarball.mjs';
+import { readTarball } from '../../scripts/pack/package_files.mjs';
 
 async function inFolder(act) {
   const folder = mkdtempSync(path.join(os.tmpdir(), 'haptoflow-dependency-'));

@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import { readFileSync, readdirSync } from 'node:fs';
 import test from 'node:test';
-import { inRepository } from '../../scripts/lib/repository.mjs';
+import { inRepository } from '../../scripts/lib/process.mjs';
 
 const pages = [
   'README.md', 'Training/results/default/README.md', 'Training/results/default/label-discrimination.md', 'scripts/demo/page.html',

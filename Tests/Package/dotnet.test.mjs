@@ -4,7 +4,7 @@ import { chmodSync, existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, sy
 import os from 'node:os';
 import path from 'node:path';
 import test from 'node:test';
-import { bringDotnet, dotnetEnvironment, findDotnet } from '../../scripts/lib/dotnet.mjs';
+import { bringDotnet, dotnetEnvironment, findDotnet } from '../../scripts/lib/setup.mjs';
 
 const posixOnly = process.platform === 'win32' ? 'the programs of this test are shell scripts' : false;
 const sdk = (version) => `test "$1" = --list-sdks && echo "${version} [/somewhere]"`;
@@ -72,12 +72,6 @@ test('without an offer of apt the install script puts the SDK into the folder, w
     assert.equal(notes().match(/^curl/gm).length, 1);
   }));
 
-test('without root the install script is used instead of apt', { skip: posixOnly }, () =>
-  onMachine({ 'apt-cache': aptOffers, 'apt-get': aptInstalls, curl: curlBrings }, async ({ place, folder, notes }) => {
-    assert.equal(await bringDotnet({ ...place, asRoot: null }), path.join(folder, 'dotnet'));
-    assert.doesNotMatch(notes(), /^apt /m);
-  }));
-
 for (const [what, curl] of [['cannot be fetched', 'echo "curl: (6) Could not resolve host: dot.net" >&2; exit 6'], ['fails', curlBrings.replace('echo "script', 'echo "no space left"; exit 1; echo "script')]]) {
   test(`where apt has none and the script ${what} one line gives the reasons and the command to run`, { skip: posixOnly }, () =>
     onMachine({ 'apt-cache': noApt, curl }, async ({ place, folder }) => {
@@ -90,8 +84,3 @@ for (const [what, curl] of [['cannot be fetched', 'echo "curl: (6) Could not res
       });
     }));
 }
-
-test('on a machine without curl the message says that curl is missing', { skip: posixOnly }, () =>
-  onMachine({ 'apt-cache': noApt }, async ({ place }) => {
-    await assert.rejects(bringDotnet({ ...place, asRoot: [] }), /cannot start `curl`: it is not installed/);
-  }));

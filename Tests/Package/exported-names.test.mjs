@@ -1,8 +1,8 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import test from 'node:test';
-import { declaredNames, exportedNames } from '../../scripts/lib/exported_names.mjs';
-import { inRepository } from '../../scripts/lib/repository.mjs';
+import { declaredNames, exportedNames } from '../../scripts/lib/libraries.mjs';
+import { inRepository } from '../../scripts/lib/process.mjs';
 import { dllOf } from './support/dll.mjs';
 import { elfWithSymbols } from './support/elf.mjs';
 

@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import test from 'node:test';
-import { inRepository } from '../../scripts/lib/repository.mjs';
+import { inRepository } from '../../scripts/lib/process.mjs';
 
 const read = (...parts) => readFileSync(inRepository(...parts), 'utf8');
 const runtime = ['Packages', 'com.haptoflow.runtime', 'Runtime'];

@@ -2,8 +2,8 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import test from 'node:test';
-import { inRepository } from '../../scripts/lib/repository.mjs';
-import { repositoryFiles } from '../../scripts/lint/files.mjs';
+import { inRepository } from '../../scripts/lib/process.mjs';
+import { repositoryFiles } from '../../scripts/lint/checks.mjs';
 import { checkPackage } from '../../scripts/pack/check_package.mjs';
 import { PackageFiles } from '../../scripts/pack/package_files.mjs';
 

@@ -3,8 +3,8 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import test from 'node:test';
 import { onDebian } from '../../scripts/lib/setup.mjs';
-import { committedPlatforms, fileInPackage } from '../../scripts/natives/committed.mjs';
-import { isNewerThan, needsOf, neededGlibc } from '../../scripts/pack/elf.mjs';
+import { committedPlatforms, fileInPackage } from '../../scripts/lib/libraries.mjs';
+import { isNewerThan, needsOf, neededGlibc } from '../../scripts/pack/binaries.mjs';
 import { findNatives, oldestGlibc } from '../../scripts/pack/natives.mjs';
 import { elfOf } from './support/elf.mjs';
 

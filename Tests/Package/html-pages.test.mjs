@@ -3,8 +3,8 @@ import { mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'n
 import os from 'node:os';
 import path from 'node:path';
 import test from 'node:test';
-import { repositoryFiles } from '../../scripts/lint/files.mjs';
-import { inRepository } from '../../scripts/lib/repository.mjs';
+import { repositoryFiles } from '../../scripts/lint/checks.mjs';
+import { inRepository } from '../../scripts/lib/process.mjs';
 import { htmlPage, writeHtmlPages } from '../../scripts/pack/html_pages.mjs';
 
 const pagesFolder = inRepository('Documentation~');

@@ -3,8 +3,8 @@ import assert from 'node:assert/strict';
 import { readFileSync, readdirSync } from 'node:fs';
 import path from 'node:path';
 import test from 'node:test';
-import { modelLine, sha256Of, shippedModel } from '../../scripts/lib/model_stamp.mjs';
-import { inRepository } from '../../scripts/lib/repository.mjs';
+import { modelLine, sha256Of, shippedModel } from '../../scripts/lib/measured_part.mjs';
+import { inRepository } from '../../scripts/lib/process.mjs';
 import { modelOfPage } from './support/model_of_page.mjs';
 
 const shipped = sha256Of(shippedModel);

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import test from 'node:test';
 import { headerFile, loadLibrary, readHeader } from '../../scripts/lib/c_interface.mjs';
-import { inRepository } from '../../scripts/lib/repository.mjs';
+import { inRepository } from '../../scripts/lib/process.mjs';
 import { runtimeLibrary } from '../../scripts/pack/dependency.mjs';
 import { playStroke } from '../../scripts/project/play_stroke.mjs';
 

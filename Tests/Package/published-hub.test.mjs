@@ -6,10 +6,8 @@ import os from 'node:os';
 import path from 'node:path';
 import { after, beforeEach, test } from 'node:test';
 import * as client from '@huggingface/hub';
-import { cacheRoot, repositoryFolder } from '../../scripts/published/cache.mjs';
-import { bringEncodec } from '../../scripts/published/encodec.mjs';
-import { download, endpointOf, listFiles, resolveRevision } from '../../scripts/published/hub.mjs';
-import { askedWaitSeconds, networkError } from '../../scripts/published/requests.mjs';
+import { bringEncodec, cacheRoot, repositoryFolder } from '../../scripts/published/checkpoint.mjs';
+import { askedWaitSeconds, download, endpointOf, listFiles, networkError, resolveRevision } from '../../scripts/published/hub.mjs';
 import { commit, deafAddress, startHub } from './support/hub_server.mjs';
 
 /** Bytes that look random and are the same every time. */

@@ -5,11 +5,9 @@ import { copyFileSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync
 import os from 'node:os';
 import path from 'node:path';
 import { after, beforeEach, test } from 'node:test';
-import { checkpointNames, localCheckpoint, originLines } from '../../scripts/published/checkpoint.mjs';
-import { encodecAddress } from '../../scripts/published/encodec.mjs';
+import { checkpointNames, defaultSpec, encodecAddress, localCheckpoint, originLines, parseSpec } from '../../scripts/published/checkpoint.mjs';
 import { barText, progressBar } from '../../scripts/published/progress.mjs';
-import { defaultSpec, parseSpec } from '../../scripts/published/spec.mjs';
-import { inRepository } from '../../scripts/lib/repository.mjs';
+import { inRepository } from '../../scripts/lib/process.mjs';
 import { commit, deafAddress, startHub } from './support/hub_server.mjs';
 
 const golden = (name) => readFileSync(inRepository('Tests', 'Golden', 'published', 'heun', name));

@@ -5,7 +5,7 @@ import { mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSyn
 import os from 'node:os';
 import path from 'node:path';
 import test from 'node:test';
-import { inRepository } from '../../scripts/lib/repository.mjs';
+import { inRepository } from '../../scripts/lib/process.mjs';
 import { platforms } from '../../scripts/pack/natives.mjs';
 import { changesOf } from '../../scripts/release/draft.mjs';
 import { elfOf } from './support/elf.mjs';

@@ -4,7 +4,7 @@ import { chmodSync, mkdtempSync, readFileSync, readdirSync, rmSync, symlinkSync,
 import os from 'node:os';
 import path from 'node:path';
 import test from 'node:test';
-import { inRepository } from '../../scripts/lib/repository.mjs';
+import { inRepository } from '../../scripts/lib/process.mjs';
 
 const posixOnly = process.platform === 'win32' ? 'run is a POSIX script' : false;
 const { scripts } = JSON.parse(readFileSync(inRepository('package.json'), 'utf8'));
@@ -60,19 +60,6 @@ test('without root and sudo the one command to type is printed and the exit code
   assert.ok(!result.stdout.includes('INSTALLED'));
 });
 
-test('where apt-get fails its reason and what to do are shown', { skip: posixOnly }, () => {
-  const result = onBareMachine({ id: 'echo 0', 'apt-get': 'echo "E: no such host" >&2; exit 100' }, ['demo']);
-  assert.equal(result.status, 2);
-  assert.match(result.stderr, /E: no such host/);
-  assert.match(result.stderr, /could not install Node and npm .* check the network/);
-});
-
-test('the message of a failing script is shown, and ./run ends with its exit code', { skip: posixOnly }, () => {
-  const result = onBareMachine({ node: 'test "$1" = -e || { echo "demo: no disk" >&2; exit 3; }', npm: 'exit 0' }, ['demo']);
-  assert.equal(result.status, 3);
-  assert.match(result.stderr, /demo: no disk/);
-});
-
 test('every script shows its help with --help and does nothing else', () => {
   for (const name of Object.keys(scripts)) {
     const file = inRepository('scripts', `${name.replace(':', '-')}.mjs`);
@@ -80,14 +67,6 @@ test('every script shows its help with --help and does nothing else', () => {
     assert.equal(result.status, 0, `${name}: ${result.stderr}`);
     assert.match(result.stdout, /^usage: /, name);
     assert.doesNotMatch(result.stdout, /^(setup|build): /m, name);
-  }
-});
-
-test('a word that a script does not know ends with 2 before anything is installed', () => {
-  for (const name of ['demo', 'test', 'test-soak', 'lint', 'bench']) {
-    const result = spawnSync(process.execPath, [inRepository('scripts', `${name}.mjs`), '--no-such-word'], { encoding: 'utf8', env: { ...process.env, PATH: '' } });
-    assert.equal(result.status, 2, `${name}: ${result.stdout}${result.stderr}`);
-    assert.match(result.stderr, /--no-such-word/, name);
   }
 });
 

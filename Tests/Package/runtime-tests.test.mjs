@@ -1,33 +1,6 @@
 import assert from 'node:assert/strict';
-import { readFileSync, readdirSync } from 'node:fs';
-import path from 'node:path';
 import test from 'node:test';
-import { withoutReadOnlyMarks } from '../../scripts/lib/mono_signatures.mjs';
-import { inRepository } from '../../scripts/lib/repository.mjs';
-import { complaintsAboutCore, leftOut, monoProjects } from '../../scripts/lib/runtime_tests.mjs';
-
-const page = readFileSync(inRepository('Documentation~', 'testing.md'), 'utf8');
-
-test('every test project runs under Mono, or the page says why it does not', () => {
-  const projects = readdirSync(inRepository('Tests', 'Dotnet')).filter((name) => /^HaptoFlow\.\w*Tests$/.test(name)).map((name) => name.slice('HaptoFlow.'.length));
-  const others = projects.filter((name) => !monoProjects.includes(name));
-  assert.deepEqual(others, ['AotTests', 'WrongLibraryTests']);
-  assert.ok(page.includes('`HaptoFlow.WrongLibraryTests`'));
-  for (const name of monoProjects) assert.ok(projects.includes(name), name);
-});
-
-test('every test that Mono or the program compiled ahead of time leaves out exists, and the page names it', () => {
-  const sources = ['Dotnet', 'Unity']
-    .flatMap((folder) => readdirSync(inRepository('Tests', folder), { recursive: true }).map((name) => inRepository('Tests', folder, name)))
-    .filter((name) => name.endsWith('.cs') && !name.includes(`${path.sep}obj${path.sep}`)).map((name) => readFileSync(name, 'utf8')).join('\n');
-  for (const { because, tests } of Object.values(leftOut).flat()) {
-    assert.ok(because.length > 30, tests.join());
-    for (const name of tests) {
-      assert.match(sources, new RegExp(`\\b(?:void|IEnumerator|class) ${name.split('.').at(-1)}\\b`), name);
-      assert.ok(page.includes(`\`${name}\``), `Documentation~/testing.md does not name ${name}`);
-    }
-  }
-});
+import { complaintsAboutCore, withoutReadOnlyMarks } from '../../scripts/lib/runtime_tests.mjs';
 
 /** The metadata of an assembly with two streams and these signatures. */
 function assembly(...signatures) {

@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import { readFileSync, readdirSync } from 'node:fs';
 import test from 'node:test';
-import { inRepository } from '../../scripts/lib/repository.mjs';
+import { inRepository } from '../../scripts/lib/process.mjs';
 
 const folder = inRepository('Samples~', 'HeadlessScenes');
 const read = (name) => readFileSync(`${folder}/${name}`, 'utf8');

@@ -2,10 +2,9 @@ import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
 import { readFileSync } from 'node:fs';
 import test from 'node:test';
-import { withMeasuredPart } from '../../scripts/lib/measured_part.mjs';
+import { soakTable, withMeasuredPart } from '../../scripts/lib/measured_part.mjs';
 import { modelOfPage } from './support/model_of_page.mjs';
-import { inRepository } from '../../scripts/lib/repository.mjs';
-import { soakTable } from '../../scripts/lib/soak_table.mjs';
+import { inRepository } from '../../scripts/lib/process.mjs';
 
 const modelSha256 = 'e'.repeat(64);
 const run = { date: '2026-11-22', machine: 'a machine', modelSha256 };
@@ -23,23 +22,12 @@ test('the soak\'s table has the worst and the median of the labels, and the size
   assert.equal(modelOfPage(table), modelSha256);
 });
 
-test('a proof without figures shows its counts only', () => {
-  assert.match(soakTable([{ about: 'random calls', xml: suites(4, 1) }], run), /\| random calls \| 3 of 4 \| 13 \|  \|$/);
-});
-
 test('the stability page has the place that the soak publishes to, and nothing else of it changes', () => {
   const page = readFileSync(inRepository('Documentation~', 'stability.md'), 'utf8');
   const published = withMeasuredPart(page, command, soakTable([{ about: 'a day', xml: suites(1, 0) }], run));
   assert.equal(modelOfPage(published), modelSha256);
   assert.equal(published.split('<!-- measured: begin')[0], page.split('<!-- measured: begin')[0]);
   assert.equal(published.split('<!-- measured: end')[1], page.split('<!-- measured: end')[1]);
-});
-
-test('a misspelt option of the soak ends with 2 before anything is built', () => {
-  const { status, stdout, stderr } = spawnSync(process.execPath, [inRepository('scripts', 'test-soak.mjs'), '--pubish'], { encoding: 'utf8' });
-  assert.equal(status, 2);
-  assert.match(stderr, /--pubish/);
-  assert.equal(stdout, '');
 });
 
 test('the soak accepts --publish, and an unknown option beside it is named', () => {

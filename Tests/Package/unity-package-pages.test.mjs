@@ -3,8 +3,8 @@ import assert from 'node:assert/strict';
 import { readFileSync, readdirSync } from 'node:fs';
 import path from 'node:path';
 import test from 'node:test';
-import { inRepository } from '../../scripts/lib/repository.mjs';
-import { repositoryFiles } from '../../scripts/lint/files.mjs';
+import { inRepository } from '../../scripts/lib/process.mjs';
+import { repositoryFiles } from '../../scripts/lint/checks.mjs';
 
 const read = (...parts) => readFileSync(inRepository(...parts), 'utf8');
 const pageNames = readdirSync(inRepository('Documentation~')).filter((name) => name.endsWith('.md'));

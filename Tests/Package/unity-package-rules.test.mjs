@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 import { checkPackage, rules } from '../../scripts/pack/check_package.mjs';
-import { importedObjectId, xxHash64 } from '../../scripts/pack/imported_ids.mjs';
+import { importedObjectId, xxHash64 } from '../../scripts/pack/rules_of_assets.mjs';
 import { PackageFiles } from '../../scripts/pack/package_files.mjs';
 import { elfOf } from './support/elf.mjs';
 

@@ -4,14 +4,13 @@ import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
 import test, { after, before } from 'node:test';
-import { inRepository } from '../../scripts/lib/repository.mjs';
-import { repositoryFiles } from '../../scripts/lint/files.mjs';
-import { committedNatives } from '../../scripts/natives/committed.mjs';
+import { inRepository } from '../../scripts/lib/process.mjs';
+import { repositoryFiles } from '../../scripts/lint/checks.mjs';
+import { committedNatives } from '../../scripts/lib/libraries.mjs';
 import { checkPackage } from '../../scripts/pack/check_package.mjs';
 import { findNatives, foldersFor, pluginsFolder } from '../../scripts/pack/natives.mjs';
-import { PackageFiles } from '../../scripts/pack/package_files.mjs';
+import { makeTarball, PackageFiles, readTarball } from '../../scripts/pack/package_files.mjs';
 import { stagePackage } from '../../scripts/pack/stage.mjs';
-import { makeTarball, readTarball } from '../../scripts/pack/tarball.mjs';
 
 const read = (...parts) => readFileSync(inRepository(...parts), 'utf8');
 const { found, absent } = findNatives(foldersFor, new Set(), committedNatives());

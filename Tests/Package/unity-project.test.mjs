@@ -3,11 +3,10 @@
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
 import test from 'node:test';
-import { inRepository } from '../../scripts/lib/repository.mjs';
+import { inRepository } from '../../scripts/lib/process.mjs';
 import { PackageFiles } from '../../scripts/pack/package_files.mjs';
-import { guidsByName } from '../../scripts/pack/rules/metas.mjs';
-import { projectFiles } from '../../scripts/project/project_files.mjs';
-import { rules } from '../../scripts/project/rules.mjs';
+import { guidsByName } from '../../scripts/pack/rules_of_files.mjs';
+import { projectFiles, rules } from '../../scripts/project/rules.mjs';
 
 const files = await projectFiles();
 const feature = 'Packages/com.haptoflow.runtime/Runtime/Inputs/OpenXr/MxInkInteraction.cs';

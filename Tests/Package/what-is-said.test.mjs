@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import test from 'node:test';
-import { inRepository } from '../../scripts/lib/repository.mjs';
+import { inRepository } from '../../scripts/lib/process.mjs';
 
 const read = (...words) => readFileSync(inRepository(...words), 'utf8');
 const descriptionOf = (...words) => JSON.parse(read(...words)).description;

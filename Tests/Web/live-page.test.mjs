@@ -3,8 +3,8 @@ import { readFileSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import { after, afterEach, before, describe, test } from 'node:test';
 import { gzipSync } from 'node:zlib';
-import { pageFolder } from '../../scripts/web/build_page.mjs';
-import { hasBrowser } from './support/browser.mjs';
+import { pageFolder } from '../../scripts/web/build.mjs';
+import { hasBrowser, isLong } from './support/browser.mjs';
 import { hasCommandLine, native, wavSamples } from './support/engine.mjs';
 import { recording } from './support/made-recording.mjs';
 import { openLivePage, watch } from './support/page.mjs';
@@ -293,7 +293,7 @@ describe('the live page', { skip: !hasBrowser }, () => {
     await page.waitForFunction(() => document.querySelector('[data-tier="auto"]').textContent === '');
   });
 
-  test('"Measure this device" makes a row with every quality, and the same as JSON', async () => {
+  if (isLong) test('"Measure this device" makes a row with every quality, and the same as JSON', async () => {
     const { page } = opened;
     await page.locator('#measure').click();
     await page.waitForFunction(() => !document.querySelector('#measure').disabled, null, { timeout: 90000 });
@@ -317,7 +317,7 @@ describe('the live page', { skip: !hasBrowser }, () => {
     assert.equal(await page.locator('#learn-progress').isHidden(), true);
   });
 
-  test('a lost worker is told in words, and the page sounds again', async () => {
+  if (isLong) test('a lost worker is told in words, and the page sounds again', async () => {
     await inPage(() => globalThis.haptoflowPage.haptics[Symbol.for('haptoflow.worker')].terminate());
     await opened.page.waitForFunction(() => /started again/.test(document.querySelector('#message-text').textContent), null, { timeout: 20000 });
     await inPage(() => {

@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import { after, before, describe, test } from 'node:test';
-import { hasBrowser, openPage } from './support/browser.mjs';
+import { hasBrowser, isLong, openPage } from './support/browser.mjs';
 import { sample } from './support/engine.mjs';
 
 // In Chromium. The machine may be busy, so that times are judged with room.
@@ -51,7 +51,7 @@ for (const isolated of [true, false]) {
       assert.ok(found.written > 48000);
     });
 
-    test('qualities change while the tip slides', async () => {
+    if (isolated || isLong) test('qualities change while the tip slides', async () => {
       const tiers = await inPage(async () => {
         const { started, hand, slide } = globalThis.tools;
         const { haptics, voice } = await started({ quality: 'sketch' });
@@ -71,7 +71,7 @@ for (const isolated of [true, false]) {
       assert.equal(tiers[3], 'sketch');
     });
 
-    test('two voices sound at once, with settings of their own, and a closed one is refused', async () => {
+    if (isolated || isLong) test('two voices sound at once, with settings of their own, and a closed one is refused', async () => {
       const found = await inPage(async () => {
         const { started, hand, slide, rms, pause } = globalThis.tools;
         const { haptics, voice } = await started({ quality: 'sketch' });
@@ -125,7 +125,7 @@ for (const isolated of [true, false]) {
       assert.ok(found.end < 0.1 * found.loudest, `a step at the end: ${JSON.stringify(found)}`);
     });
 
-    test('a lost worker is told, and the voice sounds again by itself', async () => {
+    if (isolated || isLong) test('a lost worker is told, and the voice sounds again by itself', async () => {
       const found = await inPage(async () => {
         const { started, hand, slide, rms, pause } = globalThis.tools;
         const { haptics, voice, events } = await started({ quality: 'draft' });
@@ -153,7 +153,7 @@ for (const isolated of [true, false]) {
   });
 }
 
-describe('a ring whose worker is busy', { skip: !hasBrowser }, () => {
+if (isLong) describe('a ring whose worker is busy', { skip: !hasBrowser }, () => {
   before(async () => {
     opened = await openPage();
   });

@@ -1,5 +1,4 @@
-import { withMeasuredPart } from '../lib/measured_part.mjs';
-import { modelLine } from '../lib/model_stamp.mjs';
+import { modelLine, withMeasuredPart } from '../lib/measured_part.mjs';
 
 /** `document` with the text between its two markers replaced by the model's SHA-256 and the printed tables. */
 export function withMeasuredTables(document, tables, modelSha256) {

@@ -1,6 +1,6 @@
 import { readFileSync } from 'node:fs';
 import koffi from 'koffi';
-import { inRepository } from './repository.mjs';
+import { inRepository } from './process.mjs';
 
 /** The header of the library's C interface. */
 export const headerFile = inRepository('NativePlugin', 'include', 'haptoflow', 'haptoflow.h');

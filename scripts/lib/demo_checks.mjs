@@ -1,6 +1,6 @@
 import { mkdirSync, writeFileSync } from 'node:fs';
-import { inRepository } from './repository.mjs';
-import { closingLine } from './test_counts.mjs';
+import { inRepository } from './process.mjs';
+import { closingLine } from './test_results.mjs';
 import { runNodeTests } from './test_runners.mjs';
 
 // Checks the files that `npm run demo` wrote to out/demo and writes the counts to out/test/demo-summary.json.

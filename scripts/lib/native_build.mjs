@@ -1,7 +1,6 @@
 import { existsSync, readFileSync } from 'node:fs';
 import os from 'node:os';
-import { CommandError, runOrFail, succeeds } from './process.mjs';
-import { inRepository } from './repository.mjs';
+import { CommandError, inRepository, runOrFail, succeeds } from './process.mjs';
 
 /** The value of a variable in a CMakeCache.txt, null where it is not set. */
 export function cachedVariable(cacheText, name) {

@@ -1,14 +1,125 @@
-import { existsSync } from 'node:fs';
+import { copyFileSync, cpSync, existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
-import { judgeAndroidPages } from './android_pages.mjs';
-import { judgeCommittedTouch } from './committed_touch.mjs';
-import { judgeExportsOfDll } from './exported_names.mjs';
-import { judgeJunit, results } from './judge_junit.mjs';
+import { runtimeLibrary } from '../pack/dependency.mjs';
+import { loadAlignment } from '../pack/binaries.mjs';
+import { androidPageBytes } from '../pack/rules_of_plugins.mjs';
+import { committedPlatforms, fileInPackage, judgeExportsOfDll } from './libraries.mjs';
+import { shippedModel } from './measured_part.mjs';
 import { buildNative, presetFolder } from './native_build.mjs';
-import { runsOnOldGlibc } from './old_glibc.mjs';
-import { runNpmOrFail } from './process.mjs';
-import { inRepository } from './repository.mjs';
-import { addCounts, noCounts } from './test_counts.mjs';
+import { CommandError, inRepository, runNpmOrFail, runOrFail } from './process.mjs';
+import { addCounts, countsOfAttempt, judgeJunit, noCounts, results } from './test_results.mjs';
+
+/** The linker options for the page size in a link command. */
+export const pageOptions = (command) => [...command.matchAll(/-Wl,-z,max-page-size=\S+/g)].map(([option]) => option);
+
+/**
+ * One test: CMake links the Android library with segments that a device with pages of 16 KiB loads. Without an NDK, the
+ * project is configured for a stand-in of Android, and a small library is linked with the link options of that build.
+ */
+export async function judgeAndroidPages() {
+  const folder = inRepository('build', 'android-stand-in');
+  try {
+    rmSync(folder, { recursive: true, force: true });
+    mkdirSync(folder, { recursive: true });
+    const toolchain = inRepository('Tests', 'Platforms', 'android-stand-in.cmake');
+    const words = ['-S', inRepository(), '-B', folder, '-G', 'Ninja', `-DCMAKE_TOOLCHAIN_FILE=${toolchain}`, '-DHAPTOFLOW_BUILD_TESTS=OFF', '-DHAPTOFLOW_BUILD_CLI=OFF'];
+    await runOrFail('cmake', words, { quiet: true });
+    const commands = await runOrFail('ninja', ['-C', folder, '-t', 'commands', 'audioplugin_haptoflow'], { quiet: true });
+    const link = commands.split('\n').find((line) => line.includes('-shared') && line.includes('libaudioplugin_haptoflow.so')) ?? '';
+    const [source, library] = ['page.c', 'page.so'].map((name) => `${folder}/${name}`);
+    writeFileSync(source, 'int page = 1;\n');
+    await runOrFail('aarch64-linux-gnu-gcc', ['-shared', '-fPIC', source, '-o', library, ...pageOptions(link)], { quiet: true });
+    const alignment = loadAlignment(readFileSync(library));
+    if (alignment === androidPageBytes) return { passed: 1, failed: 0, skipped: 0 };
+    console.error(`test: the segments of the Android library are aligned to ${alignment} bytes; expected ${androidPageBytes}`);
+  } catch (error) {
+    if (!(error instanceof CommandError)) throw error;
+    console.error(`test: ${error.message}`);
+  }
+  return { passed: 0, failed: 1, skipped: 0 };
+}
+
+/** The C compiler for each platform, and its ONNX Runtime. */
+const ways = {
+  'windows-x64': { compiler: 'x86_64-w64-mingw32-gcc', runtime: runtimeLibrary('windows-x64') },
+  'linux-arm64': { compiler: 'aarch64-linux-gnu-gcc', runtime: inRepository('Tests', 'Platforms', 'node_modules', 'onnxruntime-node', 'bin', 'napi-v6', 'linux', 'arm64', 'libonnxruntime.so.1') },
+};
+
+/**
+ * One test: a program for a platform opens the library in git by its file, as Unity does, and renders a stroke with the shipped
+ * model, ONNX Runtime and the worker's thread.
+ * @param {string} id of the platform @param {{command: string, args: string[], env: Record<string, string>, suffix: string}} emulator
+ */
+export function judgeCommittedTouch(id, { command, args, env, suffix }) {
+  const { compiler, runtime } = ways[id];
+  const folder = inRepository('build', 'touch', id);
+  mkdirSync(folder, { recursive: true });
+  const program = `${folder}/touch${suffix}`;
+  return countsOfAttempt(async () => {
+    await runOrFail(compiler, ['-std=c11', '-Wall', '-Wextra', '-Werror', `-I${inRepository('NativePlugin', 'include')}`, inRepository('Tests', 'Platforms', 'touch.c'), '-lm', '-o', program], { quiet: true });
+    const library = fileInPackage(committedPlatforms.find((platform) => platform.id === id));
+    const output = await runOrFail(command, [...args, program, library, runtime, shippedModel], { env, quiet: true, limitSeconds: 120 });
+    // wine adds lines of its own.
+    console.log(`test: ${output.split('\n').find((line) => line.includes('of full scale'))}`);
+  });
+}
+
+/** Debian 11: the newest Debian with glibc 2.31, the C library of Ubuntu 20.04. */
+const suite = 'bullseye';
+
+/** Makes a bare Debian 11 with a C compiler in a folder, once (330 MB). */
+async function makeSystem(folder) {
+  if (existsSync(`${folder}/usr/bin/gcc`)) return;
+  console.log('setup: debootstrap of Debian 11');
+  rmSync(folder, { recursive: true, force: true });
+  await runOrFail('debootstrap', ['--variant=minbase', '--include=gcc,libc6-dev', suite, folder], { quiet: true });
+}
+
+/** The Linux x64 libraries that are tried: the one built here, and the one in git, which Unity loads in a clone. */
+const libraries = () => [
+  inRepository(presetFolder('release'), 'libaudioplugin_haptoflow.so'),
+  fileInPackage(committedPlatforms.find(({ id }) => id === 'linux-x64')),
+];
+
+/**
+ * Two tests: in a bare Debian 11 a program opens a Linux x64 library by dlopen, as Unity does, and renders a stroke with the
+ * shipped model, ONNX Runtime and the worker's thread. Skipped with a sentence where that system cannot be made: without root
+ * or without a network.
+ */
+export async function runsOnOldGlibc(folder = inRepository('build', 'debian-11')) {
+  if (process.getuid?.() !== 0) return skipped('chroot needs root');
+  try {
+    await makeSystem(folder);
+  } catch (error) {
+    if (!(error instanceof CommandError)) throw error;
+    return skipped(error.message.trim().split('\n').at(-1));
+  }
+  const place = `${folder}/haptoflow`;
+  rmSync(place, { recursive: true, force: true });
+  mkdirSync(place);
+  cpSync(inRepository('NativePlugin', 'include'), `${place}/include`, { recursive: true });
+  copyFileSync(runtimeLibrary('linux-x64'), `${place}/onnxruntime.so`);
+  copyFileSync(shippedModel, `${place}/default.haptoflow`);
+  copyFileSync(inRepository('Tests', 'Platforms', 'touch.c'), `${place}/touch.c`);
+  let counts = noCounts;
+  for (const library of libraries()) {
+    copyFileSync(library, `${place}/plugin.so`);
+    counts = addCounts(counts, await judgeTouch(folder));
+  }
+  return counts;
+}
+
+function judgeTouch(folder) {
+  const commands = 'cd /haptoflow && gcc -std=c11 -Wall -Wextra -Werror -Iinclude touch.c -lm -ldl -o touch && ./touch ./plugin.so ./onnxruntime.so default.haptoflow';
+  return countsOfAttempt(async () => {
+    console.log(`test: ${(await runOrFail('chroot', [folder, '/bin/sh', '-c', commands], { quiet: true })).trim().split('\n').at(-1)}`);
+  });
+}
+
+function skipped(why) {
+  console.log(`test: the library was not tried with glibc 2.31: ${why}`);
+  return { ...noCounts, skipped: libraries().length };
+}
 
 /** Programs of Tests/Native that run on emulated platforms: parts of the library, then the whole library through its C interface and as a mixer effect. */
 const programs = ['model', 'dsp', 'headless', 'engine', 'capi', 'unity'];

@@ -1,17 +1,13 @@
 import { existsSync, readdirSync, readFileSync, rmSync } from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
-import { dotnetEnvironment, dotnetOrFail } from './dotnet.mjs';
-import { judgePrograms, nativeJob } from './gtest_programs.mjs';
-import { judgeJunit, results } from './judge_junit.mjs';
+import { dotnetEnvironment, dotnetOrFail, pythonOrFail } from './setup.mjs';
+import { addCounts, countsOfTap, countsOfTrx, judgeJunit, judgePrograms, judged, nativeJob, noCounts, results } from './test_results.mjs';
 import { longTestsOf } from './long_tests.mjs';
 import { buildNative, presetFolder } from './native_build.mjs';
 import { bringArmRuntime, platformTests } from './platform_tests.mjs';
-import { CommandError, run, succeeds } from './process.mjs';
-import { inRepository } from './repository.mjs';
+import { CommandError, inRepository, run, succeeds } from './process.mjs';
 import { aot, mono } from './runtime_tests.mjs';
-import { pythonOrFail } from './setup.mjs';
-import { addCounts, countsOfTap, countsOfTrx, judged, noCounts } from './test_counts.mjs';
 
 /** Programs of Tests/Native that every platform builds. */
 const portablePrograms = ['model', 'dsp', 'effects', 'headless', 'inference', 'learning', 'engine', 'capi', 'unity'];
@@ -146,8 +142,8 @@ async function packageTests() {
 }
 
 /** Runs files of node:test, shows what failed, and counts. */
-export async function runNodeTests(files) {
-  const { exitCode, output } = await run(process.execPath, ['--test', '--test-reporter=tap', ...files], { quiet: true });
+export async function runNodeTests(files, env = {}) {
+  const { exitCode, output } = await run(process.execPath, ['--test', '--test-reporter=tap', ...files], { quiet: true, env });
   if (exitCode !== 0) console.log(output);
   return judged(countsOfTap(output), exitCode);
 }
@@ -157,12 +153,12 @@ async function web({ all }) {
   if (!succeeds('emcc', ['--version'])) return { ...noCounts, skipped: 1 };
   await buildNative({ targets: ['haptoflow_cli'] });
   // Imported here, since set-up may just have installed the packages that it needs.
-  const { buildEngine } = await import('../web/build_engine.mjs');
+  const { buildEngine } = await import('../web/build.mjs');
   await buildEngine();
   const folder = inRepository('Tests', 'Web');
   const names = readdirSync(folder).filter((name) => name.endsWith('.test.mjs') && (all || !name.endsWith('.long.test.mjs')));
   const groupOf = (name) => name.match(/^(live|xr)/)?.[0] ?? 'others';
-  const inGroup = (group) => runNodeTests(names.filter((name) => groupOf(name) === group).map((name) => path.join(folder, name)));
+  const inGroup = (group) => runNodeTests(names.filter((name) => groupOf(name) === group).map((name) => path.join(folder, name)), all ? { HAPTOFLOW_LONG_TESTS: '1' } : {});
   const beside = await Promise.all(['xr', 'others'].map(inGroup));
   // What is heard live is judged by time, so that nothing else runs beside it.
   return [...beside, await inGroup('live')].reduce(addCounts, noCounts);

@@ -1,12 +1,8 @@
 import { PackageFiles } from './package_files.mjs';
-import { checkAssemblyNames, checkNamespaces, checkPlatforms, checkPrecompiled, checkReferences, checkScriptsBelong } from './rules/assemblies.mjs';
-import { checkAnchors, checkAssetGuids, checkSceneScripts } from './rules/assets.mjs';
-import { checkLinks } from './rules/links.mjs';
-import { checkManifest } from './rules/manifest.mjs';
-import { checkGuids, checkImporters, checkMetasAreThere, checkMetasAreWanted } from './rules/metas.mjs';
-import { checkModelImporter, checkModelReferences } from './rules/models.mjs';
-import { checkCase, checkPathLengths } from './rules/names.mjs';
-import { checkPlugins } from './rules/plugins.mjs';
+import { checkAssemblyNames, checkNamespaces, checkPlatforms, checkPrecompiled, checkReferences, checkScriptsBelong } from './rules_of_assemblies.mjs';
+import { checkAnchors, checkAssetGuids, checkModelImporter, checkModelReferences, checkSceneScripts } from './rules_of_assets.mjs';
+import { checkCase, checkGuids, checkImporters, checkLinks, checkManifest, checkMetasAreThere, checkMetasAreWanted, checkPathLengths } from './rules_of_files.mjs';
+import { checkPlugins } from './rules_of_plugins.mjs';
 
 /** The rules of a package by name. */
 export const rules = {

@@ -1,4 +1,4 @@
-import { inRepository } from '../lib/repository.mjs';
+import { inRepository } from '../lib/process.mjs';
 
 /** Name of the package, as in its manifest. */
 export const packageName = 'com.haptoflow.runtime';

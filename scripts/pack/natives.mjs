@@ -1,12 +1,10 @@
 import { existsSync, readFileSync } from 'node:fs';
 import path from 'node:path';
-import { androidPreset, buildAndroid, rebuildAndroid } from '../build/android_build.mjs';
-import { findNdk } from '../build/android_tools.mjs';
+import { androidPreset, buildAndroid, findNdk, rebuildAndroid } from '../build/android.mjs';
 import { buildNative, presetFolder } from '../lib/native_build.mjs';
-import { CommandError } from '../lib/process.mjs';
-import { inRepository } from '../lib/repository.mjs';
+import { CommandError, inRepository } from '../lib/process.mjs';
 import { onDebian, setUp } from '../lib/setup.mjs';
-import { isNewerThan, neededGlibc, needsOf } from './elf.mjs';
+import { isNewerThan, neededGlibc, needsOf } from './binaries.mjs';
 
 /** Where the package keeps its native libraries. */
 export const pluginsFolder = 'Runtime/Plugins';

@@ -1,6 +1,6 @@
 import { copyFileSync, existsSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
-import { inRepository } from '../lib/repository.mjs';
+import { inRepository } from '../lib/process.mjs';
 import { writeHtmlPages } from './html_pages.mjs';
 import { folderGuids, folderMeta, packageName, placeInPackage, samplesList, studiesName } from './layout.mjs';
 import { platforms, pluginsFolder } from './natives.mjs';

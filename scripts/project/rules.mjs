@@ -1,13 +1,112 @@
-import { checkAnchors, checkAssetGuids, checkSceneScripts, yamlEndings } from '../pack/rules/assets.mjs';
-import { checkAssemblyNames, checkPlatforms, checkReferences, checkScriptsBelong } from '../pack/rules/assemblies.mjs';
+import { existsSync, readFileSync } from 'node:fs';
+import path from 'node:path';
+import { CommandError, inRepository } from '../lib/process.mjs';
+import { repositoryFiles } from '../lint/checks.mjs';
+import { dependencyName } from '../pack/dependency.mjs';
 import { packageName, studiesName } from '../pack/layout.mjs';
 import { PackageFiles } from '../pack/package_files.mjs';
-import { checkGuids, checkImporters, checkMetasAreThere, checkMetasAreWanted, guidsByName } from '../pack/rules/metas.mjs';
-import { checkModelReferences } from '../pack/rules/models.mjs';
-import { checkCase, checkPathLengths } from '../pack/rules/names.mjs';
-import { packageScripts } from './known_guids.mjs';
-import { modulesOfClasses, modulesOfWords } from './modules.mjs';
-import { manifestName, withDependency, writableFolders } from './project_files.mjs';
+import { checkAssemblyNames, checkPlatforms, checkReferences, checkScriptsBelong } from '../pack/rules_of_assemblies.mjs';
+import { checkAnchors, checkAssetGuids, checkModelReferences, checkSceneScripts, yamlEndings } from '../pack/rules_of_assets.mjs';
+import { checkCase, checkGuids, checkImporters, checkMetasAreThere, checkMetasAreWanted, checkPathLengths, guidsByName } from '../pack/rules_of_files.mjs';
+
+/** Folders of the repository into which Unity writes a .meta for every asset, and deletes every .meta without one. */
+export const writableFolders = ['Assets', `Packages/${packageName}`, `Packages/${studiesName}`, 'Tests/Unity'];
+
+/** The list of the project's packages. */
+export const manifestName = 'Packages/manifest.json';
+
+const isOfProject = (name) => name.startsWith('ProjectSettings/') || name === manifestName || writableFolders.some((folder) => name.startsWith(`${folder}/`));
+
+/** The files of the Unity project in the repository's root that git tracks or would track, by their names in the repository. */
+export async function projectFiles() {
+  const names = (await repositoryFiles()).filter(isOfProject);
+  return new PackageFiles(new Map(names.map((name) => [name, readFileSync(inRepository(name))])));
+}
+
+/** The project as it lies on disk, also where there is no git: with what Unity, a build or a ZIP without .gitignore added. */
+export function projectFilesOnDisk() {
+  const contents = new Map();
+  for (const folder of ['ProjectSettings', ...writableFolders].filter((name) => existsSync(inRepository(name)))) {
+    const files = PackageFiles.inFolder(inRepository(folder));
+    for (const name of files.names) contents.set(`${folder}/${name}`, files.bytes(name));
+  }
+  const manifest = inRepository(manifestName);
+  if (!existsSync(manifest)) throw new CommandError(`${manifest}: is missing`);
+  contents.set(manifestName, readFileSync(manifest));
+  return new PackageFiles(contents);
+}
+
+/**
+ * The project with what `npm ci` brings: of ONNX Runtime for Unity only the manifest, the .meta files and the assembly
+ * definitions, since its libraries are large. Without `npm ci` the same as `files`.
+ * @param {PackageFiles} files
+ */
+export function withDependency(files) {
+  const folder = inRepository('node_modules', dependencyName);
+  if (!existsSync(folder)) return files;
+  const brought = PackageFiles.inFolder(folder, (name) => /\.(meta|asmdef)$|^package\.json$/.test(name));
+  const contents = new Map(files.contents);
+  for (const name of brought.names) contents.set(path.posix.join('node_modules', dependencyName, name), brought.bytes(name));
+  return new PackageFiles(contents);
+}
+
+/** GUIDs of scripts in Unity's packages, from the .meta files of com.unity.xr.openxr 1.14.3 and com.unity.xr.management 4.5.0. */
+export const packageScripts = {
+  f4c3631f5e58749a59194e0cf6baf6d5: 'XRManagerSettings',
+  d236b7d11115f2143951f1e14045df39: 'XRGeneralSettings',
+  d2dc886499c26824283350fa532d087d: 'XRGeneralSettingsPerBuildTarget',
+  d3552e428dc7646a88de3ed3650f87da: 'OpenXRLoader',
+  '975057b4fdcfb8142b3080d19a5cc712': 'OpenXREditorSettings',
+  '9f0ebc320a151d3408ea1e9fce54d40e': 'OpenXRPackageSettings',
+  b5a1f07dc5afe854f9f12a4194aca3fb: 'OpenXRSettings',
+  '486b5e28864f9a94b979b9620ce5006d': 'ConformanceAutomationFeature',
+  f647cc0545697264a9878224faada6d5: 'MetaQuestFeature',
+  '7de993716e042c6499d0c18eed3a773c': 'MockRuntime',
+  '9ef793c31862a37448e907829482ef80': 'OculusQuestFeature',
+  b213d3e3c7f3109449eb46a4c8ee42f0: 'XrPerformanceSettingsFeature',
+  '9c5b5af5107e35a43818d5411328bfc3': 'DPadInteraction',
+  b3cf79659a011bd419c7a2a30eb74e9a: 'EyeGazeInteraction',
+  e5315f812f023cf4ebf26f7e5d2d70f2: 'HPReverbG2ControllerProfile',
+  '274c02963f889a64e90bc2e596e21d13': 'HTCViveControllerProfile',
+  '2a24be4b5ebfe5f4d8ed1de9b25cb7aa': 'HandCommonPosesInteraction',
+  '5019471fb2174e5c852ecd4047163007': 'HandInteractionProfile',
+  '0f6bfdbcb316ed242b30a8798c9eb853': 'KHRSimpleControllerProfile',
+  '2b7365b139f7aec43b23d26b7a48b5a6': 'MetaQuestTouchPlusControllerProfile',
+  c4b862ee14fb479fbfe5fffe655d3ed3: 'MetaQuestTouchProControllerProfile',
+  f928d0d73a35f294fbe357ca17aa3547: 'MicrosoftHandInteraction',
+  '761fdd4502cb7a84e9ec7a2b24f33f37': 'MicrosoftMotionControllerProfile',
+  feeef8d85de8db242bdda70cc7ff5acd: 'OculusTouchControllerProfile',
+  f028123e2efe1d443875bc7609b4a98b: 'PalmPoseInteraction',
+  '0d6ccd3d0ef0f1d458e69421dccbdae1': 'ValveIndexControllerProfile',
+  '056125dd64c0ed540b40a4af74f7b495': 'RuntimeDebuggerOpenXRFeature',
+};
+
+/** Unity's modules by the kinds of objects in scenes and prefabs: the number after "!u!". */
+export const modulesOfClasses = {
+  54: 'physics', 64: 'physics', 65: 'physics', 135: 'physics', 136: 'physics', 143: 'physics',
+  81: 'audio', 82: 'audio',
+  154: 'terrainphysics', 218: 'terrain',
+  196: 'ai',
+};
+
+/** Unity's modules by words of C# that only code which needs the module contains. */
+export const modulesOfWords = {
+  AndroidJavaObject: 'androidjni',
+  AnimationCurve: 'animation',
+  AudioSource: 'audio',
+  BoxCollider: 'physics',
+  GUILayout: 'imgui',
+  ImageConversion: 'imageconversion',
+  JsonUtility: 'jsonserialize',
+  ParticleSystem: 'particlesystem',
+  Physics2D: 'physics2d',
+  SubsystemManager: 'subsystems',
+  TerrainCollider: 'terrainphysics',
+  TerrainData: 'terrain',
+  UIElements: 'uielements',
+  UnityWebRequest: 'unitywebrequest',
+  XRDisplaySubsystem: 'xr',
+};
 
 const buildSettingsName = 'ProjectSettings/EditorBuildSettings.asset';
 

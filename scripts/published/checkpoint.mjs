@@ -1,11 +1,86 @@
-// A published checkpoint: which files of a folder it is, how they come, and where they are from.
 import { existsSync, readFileSync, readdirSync, renameSync, statSync, writeFileSync } from 'node:fs';
+import os from 'node:os';
 import path from 'node:path';
 import { CommandError } from '../lib/process.mjs';
-import { repositoryFolder } from './cache.mjs';
-import { download, endpointOf, listFiles, resolveRevision } from './hub.mjs';
+import { bringFile, download, endpointOf, listFiles, patientFetch, resolveRevision, waitSeconds } from './hub.mjs';
 import { progressBar } from './progress.mjs';
-import { defaultSpec, parseSpec } from './spec.mjs';
+
+// Where downloaded files lie: outside the repository, so that every clone uses them and none carries them.
+
+/** The folder of HaptoFlow's downloads. */
+export function cacheRoot(env = process.env, platform = process.platform) {
+  if (env.XDG_CACHE_HOME) return path.resolve(env.XDG_CACHE_HOME, 'haptoflow');
+  if (platform === 'win32') return path.resolve(env.LOCALAPPDATA ?? path.join(os.homedir(), 'AppData', 'Local'), 'haptoflow', 'cache');
+  return path.resolve(env.HOME ?? os.homedir(), '.cache', 'haptoflow');
+}
+
+/**
+ * The folder in which files of a repository have their paths. It is named by the revision that was asked for: where a branch
+ * has moved on, files that did not change stay.
+ */
+export function repositoryFolder({ type, name }, revision, root = cacheRoot()) {
+  return path.join(root, `${type}s`, ...name.split('/'), encodeURIComponent(revision));
+}
+
+// What the user names: a folder on the hub, or one on this disk.
+
+export const defaultSpec = 'hf://tamago117/HaptoFlow/haptoflow_accel';
+
+const form = 'expected hf://owner/repo/folder or hf://owner/repo/folder@revision, or a folder on this disk';
+const namePattern = /^[\w][\w.-]*$/;
+
+/**
+ * @param {string} spec
+ * @returns {{repo: import('./hub.mjs').Repository, folder: string, revision: string} | null} null for a folder on this disk;
+ *   folder: '' for the repository's root
+ * @throws CommandError where it begins as an address and is none
+ */
+export function parseSpec(spec) {
+  if (!/^[a-z]+:\/\//i.test(spec)) return null;
+  const wrong = (what) => new CommandError(`"${spec}": ${what}; ${form}`, 2);
+  if (!spec.startsWith('hf://')) throw wrong(`only hf:// is read`);
+  const [path, revision = 'main', ...more] = spec.slice('hf://'.length).split('@');
+  if (more.length > 0) throw wrong('more than one @');
+  const [owner, name, ...folders] = path.replace(/\/$/, '').split('/');
+  if (!namePattern.test(owner ?? '') || !namePattern.test(name ?? '')) throw wrong('no owner and repository');
+  if (folders.some((part) => part === '' || part === '.' || part === '..' || /[?#%\\]/.test(part))) throw wrong('no name of a folder');
+  if (!/^[\w][\w./-]*$/.test(revision)) throw wrong(`"${revision}" is no revision`);
+  return { repo: { type: 'model', name: `${owner}/${name}` }, folder: folders.join('/'), revision };
+}
+
+// EnCodec's 24 kHz weights, which the published network works in. The name of the file states what its SHA-256 begins with.
+
+const published = 'https://dl.fbaipublicfiles.com/encodec/v0/encodec_24khz-d7cc33bc.th';
+
+/** The address of the weights: HAPTOFLOW_ENCODEC_URL for a mirror, whose file has the same form of name. */
+export function encodecAddress(env = process.env) {
+  const address = env.HAPTOFLOW_ENCODEC_URL || published;
+  if (!/^https?:\/\/[^?#]+-[0-9a-f]{8}\.th$/.test(address)) {
+    throw new CommandError(`HAPTOFLOW_ENCODEC_URL=${address}: expected an address that ends in -<8 digits of the file's SHA-256>.th, as ${path.posix.basename(published)} does`, 2);
+  }
+  return address;
+}
+
+/**
+ * Brings the weights into the cache.
+ * @returns {Promise<{place: string, address: string, sha256: string, size: number, isNew: boolean}>}
+ */
+export async function bringEncodec({ address = encodecAddress(), root = cacheRoot(), say = console.error, wait = waitSeconds, advance } = {}) {
+  const name = path.posix.basename(new URL(address).pathname);
+  const digest = { kind: 'sha256-start', digits: name.slice(-11, -3), source: 'its name' };
+  const fetchPatiently = patientFetch({ say, wait });
+  const ask = async (from) => {
+    const response = await fetchPatiently(address, { headers: { Range: `bytes=${from}-`, 'Accept-Encoding': 'identity' } });
+    if (!response.ok && response.status !== 416) {
+      throw new CommandError(`${address} answers ${response.status}: HAPTOFLOW_ENCODEC_URL names another place of the file, or --encodec the file itself`);
+    }
+    return response;
+  };
+  const place = path.join(root, 'encodec', name);
+  return { place, address, ...(await bringFile({ ask, place, size: null, digest, say, wait, advance })) };
+}
+
+// A published checkpoint: which files of a folder it is, how they come, and where they are from.
 
 const metaName = 'meta.json';
 const originName = 'origin.json';

@@ -1,7 +1,6 @@
 // Checks that a release's tag is the version that every manifest states; --help
 import { readFileSync } from 'node:fs';
-import { CommandError, runMain } from '../lib/process.mjs';
-import { inRepository } from '../lib/repository.mjs';
+import { CommandError, inRepository, runMain } from '../lib/process.mjs';
 import { packageName, studiesName } from '../pack/layout.mjs';
 
 const help = `usage: node scripts/release/check_tag.mjs TAG

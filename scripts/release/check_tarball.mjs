@@ -2,11 +2,10 @@
 import { existsSync } from 'node:fs';
 import path from 'node:path';
 import { parseArgs } from 'node:util';
-import { CommandError, runMain } from '../lib/process.mjs';
-import { callerFolder } from '../lib/repository.mjs';
+import { CommandError, callerFolder, runMain } from '../lib/process.mjs';
 import { checkPackage } from '../pack/check_package.mjs';
 import { complaintOfGlibc, oldestGlibc, platforms, pluginsFolder } from '../pack/natives.mjs';
-import { readTarball } from '../pack/tarball.mjs';
+import { readTarball } from '../pack/package_files.mjs';
 
 const help = `usage: node scripts/release/check_tarball.mjs FILE [STUDIES] [--require NAMES]
 

@@ -2,8 +2,7 @@
 import { copyFileSync, mkdirSync, readdirSync } from 'node:fs';
 import path from 'node:path';
 import { presetFolder } from '../lib/native_build.mjs';
-import { CommandError, runMain } from '../lib/process.mjs';
-import { inRepository, callerFolder } from '../lib/repository.mjs';
+import { CommandError, callerFolder, inRepository, runMain } from '../lib/process.mjs';
 import { findNatives, platforms } from '../pack/natives.mjs';
 
 const help = `usage: node scripts/release/collect_natives.mjs FOLDER [DESTINATION]

@@ -2,13 +2,12 @@
 import { copyFileSync, cpSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import { parseArgs } from 'node:util';
-import { sha256Of } from '../lib/model_stamp.mjs';
-import { CommandError, runMain, runOrFail } from '../lib/process.mjs';
-import { callerFolder, inRepository } from '../lib/repository.mjs';
+import { sha256Of } from '../lib/measured_part.mjs';
+import { CommandError, callerFolder, inRepository, runMain, runOrFail } from '../lib/process.mjs';
 import { dependencyName } from '../pack/dependency.mjs';
 import { packageName, studiesName } from '../pack/layout.mjs';
 import { platforms, pluginsFolder } from '../pack/natives.mjs';
-import { readTarball } from '../pack/tarball.mjs';
+import { readTarball } from '../pack/package_files.mjs';
 import { tarballOf } from './tarballs.mjs';
 
 const help = `usage: node scripts/release/draft.mjs FOLDER [--tarballs out] [--demo FOLDER]

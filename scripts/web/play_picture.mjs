@@ -1,9 +1,8 @@
 // Draws Documentation~/images/play.png: the live page in Chromium, during a stroke, stamped with the model. Run it after
 // `npm run build:web`.
-import { runOrFail } from '../lib/process.mjs';
-import { inRepository } from '../lib/repository.mjs';
+import { inRepository, runOrFail } from '../lib/process.mjs';
 import { drawingModules, pythonOrFail } from '../lib/setup.mjs';
-import { pageFolder, stagePage } from './build_page.mjs';
+import { pageFolder, stagePage } from './build.mjs';
 import { launchChromium } from './chromium.mjs';
 import { serveFolder } from './static_server.mjs';
 

@@ -1,5 +1,5 @@
 import { pause } from '../../../Web/engine/js/pause.mjs';
-import { pageFolder, stagePage } from '../../../scripts/web/build_page.mjs';
+import { pageFolder, stagePage } from '../../../scripts/web/build.mjs';
 import { chromiumPath } from '../../../scripts/web/chromium.mjs';
 import { startProgram } from './programs.mjs';
 import { serve } from './server.mjs';

@@ -10,6 +10,12 @@ const here = path.dirname(fileURLToPath(import.meta.url));
 /** False skips the tests that need a browser. */
 export const hasBrowser = chromiumPath !== undefined;
 
+/** Whether this is the long form, `./run test --all`. */
+export const isLong = process.env.HAPTOFLOW_LONG_TESTS === '1';
+
+/** The rows of a table of cases that run: all in the long form, by default those of these names. */
+export const casesOf = (/** @type {any[][]} */ rows, /** @type {string[]} */ daily) => (isLong ? rows : rows.filter(([name]) => daily.includes(name)));
+
 /**
  * A page in Chromium with the engine beside it.
  * @param {{isolated?: boolean, needsGesture?: boolean, engine?: string, name?: string, folders?: Record<string, string>, viewport?: {width: number, height: number}}} [options]

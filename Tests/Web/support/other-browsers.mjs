@@ -1,7 +1,7 @@
 import { spawnSync } from 'node:child_process';
 import { existsSync, readdirSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
-import { pageFolder, stagePage } from '../../../scripts/web/build_page.mjs';
+import { pageFolder, stagePage } from '../../../scripts/web/build.mjs';
 import { engineFolder, repository } from './places.mjs';
 import { startProgram } from './programs.mjs';
 import { serve } from './server.mjs';

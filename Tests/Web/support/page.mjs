@@ -1,5 +1,5 @@
 import { existsSync } from 'node:fs';
-import { pageFolder, stagePage } from '../../../scripts/web/build_page.mjs';
+import { pageFolder, stagePage } from '../../../scripts/web/build.mjs';
 import { launchChromium } from '../../../scripts/web/chromium.mjs';
 import { serve } from './server.mjs';
 

@@ -1,10 +1,10 @@
-import { copyFileSync, cpSync, existsSync, mkdirSync, readdirSync, readFileSync, rmSync, statSync } from 'node:fs';
+import { copyFileSync, cpSync, existsSync, mkdirSync, readFileSync, readdirSync, rmSync, statSync } from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
-import { shippedModel } from '../lib/model_stamp.mjs';
+import { shippedModel } from '../lib/measured_part.mjs';
 import { launchers } from '../lib/native_build.mjs';
-import { CommandError, runOrFail, succeeds } from '../lib/process.mjs';
-import { inRepository } from '../lib/repository.mjs';
+import { CommandError, inRepository, runOrFail, succeeds } from '../lib/process.mjs';
+import { makeTarball } from '../pack/package_files.mjs';
 
 /** Where the built engine goes: all that a page needs of it, in one folder. */
 export const engineFolder = () => inRepository('Web', 'dist', 'engine');
@@ -57,4 +57,39 @@ export async function buildEngine() {
   stageEngine();
   const bytes = readdirSync(engineFolder()).reduce((sum, name) => sum + statSync(path.join(engineFolder(), name)).size, 0);
   console.log(`build: Web/dist/engine (${(bytes / 2 ** 20).toFixed(1)} MiB)`);
+}
+
+/** Where the page goes: static files that work under any path, the engine in `engine` beside index.html. */
+export const pageFolder = () => inRepository('Web', 'dist', 'page');
+
+/** What is loaded only in a headset. */
+const drawing = ['three.module.js', 'three.core.js'];
+
+const isForThePage = (/** @type {string} */ file) => !file.endsWith('.md');
+
+/** Puts the page together from Web/page and the built engine. @param {string} [folder] */
+export function stagePage(folder = pageFolder()) {
+  rmSync(folder, { recursive: true, force: true });
+  mkdirSync(folder, { recursive: true });
+  cpSync(inRepository('Web', 'page'), folder, { recursive: true, filter: isForThePage });
+  for (const name of drawing) cpSync(inRepository('node_modules', 'three', 'build', name), path.join(folder, 'three', name));
+  const engine = path.join(folder, 'engine');
+  mkdirSync(engine);
+  for (const name of readdirSync(engineFolder()).filter((file) => !file.endsWith('.d.ts'))) cpSync(path.join(engineFolder(), name), path.join(engine, name));
+}
+
+/** Whether the engine was built; its scripts are copied at every call of `stageEngine`. */
+export const hasBuiltEngine = () => existsSync(path.join(engineFolder(), 'engine.wasm'));
+
+const versionOf = (/** @type {string[]} */ ...names) => JSON.parse(readFileSync(inRepository(...names), 'utf8')).version;
+
+/** Makes the npm package haptoflow-web from the built engine. */
+export async function packEngine(destination = inRepository('out')) {
+  const [own, root] = [versionOf('Web', 'engine', 'package.json'), versionOf('package.json')];
+  if (own !== root) throw new CommandError(`Web/engine/package.json has version ${own}, package.json ${root}: make them the same`);
+  const folder = inRepository('out', 'haptoflow-web');
+  stageEngine(folder);
+  for (const name of ['package.json', 'README.md', 'NOTICES.md']) copyFileSync(inRepository('Web', 'engine', name), path.join(folder, name));
+  copyFileSync(inRepository('LICENSE'), path.join(folder, 'LICENSE'));
+  return makeTarball(folder, destination);
 }

@@ -1,5 +1,5 @@
-import { loadAlignment } from '../elf.mjs';
-import { kindOfLibrary, platforms, pluginsFolder } from '../natives.mjs';
+import { loadAlignment } from './binaries.mjs';
+import { kindOfLibrary, platforms, pluginsFolder } from './natives.mjs';
 
 /** Devices with Android 15 and later may have pages of 16 KiB; they load no library whose segments are aligned to less. */
 export const androidPageBytes = 16384;

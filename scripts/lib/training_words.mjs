@@ -1,11 +1,48 @@
-// ./run train --cluster: brings the recordings of chosen textures of the published data set from the hub and names the
-// training on them.
 import { mkdirSync } from 'node:fs';
 import path from 'node:path';
-import { CommandError } from '../lib/process.mjs';
-import { callerFolder, inRepository } from '../lib/repository.mjs';
 import { download, listFiles, resolveRevision } from '../published/hub.mjs';
 import { progressBar } from '../published/progress.mjs';
+import { CommandError, callerFolder, inRepository } from './process.mjs';
+
+// The comparison that ends a training on recordings of one's own.
+
+/** Arguments of the `haptoflow-benchmark evaluate` that judges a training with the arguments `words`; null if there is
+ * nothing to judge, because the training has no --recordings, writes no model file (--export), or has --no-judgement. */
+export function judgementOf(words) {
+  const recordings = valuesOf(words, '--recordings');
+  const [model] = valuesOf(words, '--export');
+  if (recordings.length === 0 || !model || words.includes('--no-judgement')) {
+    return null;
+  }
+  const [labels] = valuesOf(words, '--labels');
+  return [
+    'evaluate', '--model', model, '--recordings', ...recordings, ...(labels ? ['--labels', labels] : []), '--beside-learn',
+  ];
+}
+
+function valuesOf(words, option) {
+  const whole = words.find((word) => word.startsWith(`${option}=`));
+  if (whole) {
+    return [whole.slice(option.length + 1)];
+  }
+  const place = words.indexOf(option);
+  if (place < 0) {
+    return [];
+  }
+  const after = words.slice(place + 1);
+  const end = after.findIndex((word) => word.startsWith('-'));
+  return end < 0 ? after : after.slice(0, end);
+}
+
+// Which Python package `./run evaluate` runs.
+
+const ofOneModel = /^--(recordings|model|labels)(=|$)/;
+
+/** `haptoflow_benchmark` for arguments that compare one model with recordings, otherwise `haptoflow_paper`, which measures the rows. */
+export const evaluatingPackage = (words) => (words.some((word) => ofOneModel.test(word)) ? 'haptoflow_benchmark' : 'haptoflow_paper');
+
+// ./run train --cluster: brings the recordings of chosen textures of the published data set from the hub and names the
+// training on them.
 
 const repo = { type: 'dataset', name: 'tamago117/cluster-haptic-texture-dataset' };
 const list = 'texture_list.xlsx';
