@@ -5,7 +5,7 @@ import { inRepository } from '../../scripts/lib/process.mjs';
 
 const pages = [
   'README.md', 'Training/results/default/README.md', 'Training/results/default/label-discrimination.md', 'scripts/demo/page.html',
-  'Samples~/StylusTracing/README.md', 'Samples~/TextureGallery/README.md', 'Samples~/Workshop/README.md', 'Samples~/LatencyStudy/README.md', 'Samples~/SimilarityStudy/README.md',
+  'Samples~/StylusTracing/README.md', 'Samples~/TextureGallery/README.md', 'Samples~/Workshop/README.md', 'Packages/com.haptoflow.studies/Samples~/LatencyStudy/README.md', 'Packages/com.haptoflow.studies/Samples~/SimilarityStudy/README.md',
   'Samples~/HeadlessScenes/README.md', 'Samples~/DeviceCheck/README.md',
   ...readdirSync(inRepository('Documentation~')).filter((name) => name.endsWith('.md')).map((name) => `Documentation~/${name}`),
 ];

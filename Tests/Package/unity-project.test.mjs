@@ -182,7 +182,7 @@ test('git ignores what Unity, Rider and Visual Studio write', () => {
 test('git ignores nothing that the project is made of', () => {
   for (const name of [
     'Packages/manifest.json', 'ProjectSettings/ProjectSettings.asset', 'ProjectSettings/GraphicsSettings.asset', 'Assets/Desk.unity', 'Assets/Logs/x.txt', 'Assets/Library/x.asset',
-    'Tests/Dotnet/HaptoFlow.Core/HaptoFlow.Core.csproj', 'Tests/Dotnet/HaptoFlow.slnx', 'Packages/com.haptoflow.runtime/Runtime/Studies/Logs/StudyLog.cs',
+    'Tests/Dotnet/HaptoFlow.Core/HaptoFlow.Core.csproj', 'Tests/Dotnet/HaptoFlow.slnx', 'Packages/com.haptoflow.studies/Runtime/Logs/StudyLog.cs',
   ]) assert.ok(!isIgnored(name), name);
   assert.equal(git('ls-files', '--cached', '--ignored', '--exclude-standard').stdout, '');
 });

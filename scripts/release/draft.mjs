@@ -1,5 +1,5 @@
 // Puts together what a release offers: the tarballs, the demo's page, notes and checksums; --help
-import { copyFileSync, cpSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
+import { copyFileSync, cpSync, existsSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import { parseArgs } from 'node:util';
 import { sha256Of } from '../lib/measured_part.mjs';
@@ -8,7 +8,6 @@ import { dependencyName } from '../pack/dependency.mjs';
 import { packageName, studiesName } from '../pack/layout.mjs';
 import { platforms, pluginsFolder } from '../pack/natives.mjs';
 import { readTarball } from '../pack/package_files.mjs';
-import { tarballOf } from './tarballs.mjs';
 
 const help = `usage: node scripts/release/draft.mjs FOLDER [--tarballs out] [--demo FOLDER]
 
@@ -28,6 +27,13 @@ function optionsOf(words) {
   } catch (error) {
     throw error instanceof CommandError ? error : new CommandError(error.message, 2);
   }
+}
+
+/** The name of the one tarball of a package in a folder. */
+function tarballOf(name, folder) {
+  const found = existsSync(folder) ? readdirSync(folder).filter((file) => file.startsWith(`${name}-`) && file.endsWith('.tgz')) : [];
+  if (found.length !== 1) throw new CommandError(`${folder}: holds ${found.length} tarballs of ${name}; expected one: \`npm run pack\` makes it`);
+  return found[0];
 }
 
 /** The text below a version's heading in CHANGELOG.md. */

@@ -1,5 +1,3 @@
-extern alias Legacy;
-
 using System;
 using System.Collections.Generic;
 using System.Globalization;
@@ -11,8 +9,6 @@ using HaptoFlow.Tests;
 using NUnit.Framework;
 using UnityEngine;
 using UnityShim;
-using LegacyButtons = Legacy::HaptoFlow.Samples.SimilarityStudy.RatingButtons;
-using LegacyPanel = Legacy::HaptoFlow.Samples.SimilarityStudy.RatingPanel;
 
 namespace HaptoFlow.SampleTests.Similarity
 {
@@ -162,22 +158,6 @@ namespace HaptoFlow.SampleTests.Similarity
             Answer(6);
             Assert.That(Rows().Select(row => row["rating"]), Is.EqualTo(new[] { "3", "6" }));
             Assert.That(Rows().Select(row => Number(row, "path_mm")), Has.All.GreaterThan(500.0));
-        }
-
-        [Test]
-        public void KeysAnswerWithoutTheInputSystem()
-        {
-            LegacyPanel panel = LegacyPanel.Create(Vector3.zero, Quaternion.identity);
-            LegacyButtons.Create(panel, Legacy::HaptoFlow.PenHand.Right);
-            var answers = new List<int>();
-            panel.Confirmed += answers.Add;
-            panel.Open();
-            foreach (KeyCode key in new[] { KeyCode.Return, KeyCode.Alpha0 + 8, KeyCode.Alpha0 + 6, KeyCode.Return })
-            {
-                SimulatedInput.KeyDown = key;
-                World.Frame();
-            }
-            Assert.That(answers, Is.EqualTo(new[] { 6 }));
         }
 
         [Test]
