@@ -179,4 +179,128 @@ namespace HaptoFlow.Studies
             }
         }
     }
+
+    /// <summary>A trial of a plan. Properties that the study does not vary are null.</summary>
+    public sealed class PlannedTrial
+    {
+        /// <summary>Value of <see cref="Block"/> for trials to become familiar with the task.</summary>
+        public const string Practice = "practice";
+
+        /// <summary>Value of <see cref="Block"/> for trials that are analysed.</summary>
+        public const string Main = "main";
+
+        internal PlannedTrial(int trial, string block, bool restBefore) =>
+            (Trial, Block, RestBefore) = (trial, block, restBefore);
+
+        /// <summary>Number of the trial in the plan, from 1.</summary>
+        public int Trial { get; }
+
+        /// <summary><see cref="Practice"/> or <see cref="Main"/>.</summary>
+        public string Block { get; }
+
+        /// <summary>True where the study pauses before this trial until the operator continues.</summary>
+        public bool RestBefore { get; }
+
+        /// <summary>Similarity study: true where the previous trial had another material, so that the operator has to
+        /// mount another sample first.</summary>
+        public bool ChangesSample { get; internal set; }
+
+        /// <summary>Latency study: <see cref="StudyPlan.TurnOn"/> or <see cref="StudyPlan.TurnOff"/>.</summary>
+        public string? Condition { get; internal set; }
+
+        /// <summary>Latency study: planned delay from the hand's motion to the vibration's change, in ms.</summary>
+        public double? DelayMilliseconds { get; internal set; }
+
+        /// <summary>Similarity study: the material's name in the settings.</summary>
+        public string? Material { get; internal set; }
+
+        /// <summary>Similarity study: the method's name in the settings.</summary>
+        public string? Method { get; internal set; }
+
+        /// <summary>True for a trial of the practice block.</summary>
+        public bool IsPractice => string.Equals(Block, Practice, StringComparison.Ordinal);
+    }
+
+    /// <summary>Orders of treatments in which each treatment is once at each position and follows each other treatment
+    /// equally often: Williams (1949), Experimental designs balanced for the estimation of residual effects of
+    /// treatments. Any thread.</summary>
+    public static class WilliamsDesign
+    {
+        /// <summary>The rows of the design: as many as treatments for an even number, twice as many for an odd one, and
+        /// one row for one treatment.</summary>
+        /// <param name="count">Number of treatments, 1 or more.</param>
+        /// <exception cref="ArgumentOutOfRangeException">The count is below 1.</exception>
+        public static int[][] Rows(int count)
+        {
+            if (count < 1)
+            {
+                throw new ArgumentOutOfRangeException(nameof(count), count, "a design has at least one treatment");
+            }
+            bool isMirrored = count % 2 == 1 && count > 1;
+            var rows = new int[isMirrored ? 2 * count : count][];
+            for (int shift = 0; shift < count; ++shift)
+            {
+                rows[shift] = Row(count, shift);
+                if (isMirrored)
+                {
+                    rows[count + shift] = (int[])rows[shift].Clone();
+                    Array.Reverse(rows[count + shift]);
+                }
+            }
+            return rows;
+        }
+
+        private static int[] Row(int count, int shift)
+        {
+            var row = new int[count];
+            for (int place = 0; place < count; ++place)
+            {
+                int zigzag = place % 2 == 1 ? (place + 1) / 2 : count - place / 2;
+                row[place] = (zigzag + shift) % count;
+            }
+            return row;
+        }
+    }
+
+    /// <summary>The pseudorandom numbers of study plans: Steele, Lea and Flood (2014), Fast splittable pseudorandom
+    /// number generators. System.Random cannot reproduce the training package's plans; this generator is the same
+    /// there. One thread at a time.</summary>
+    public sealed class SplitMix64
+    {
+        private ulong state;
+
+        /// <summary>Starts the sequence of a seed.</summary>
+        public SplitMix64(ulong seed) => state = seed;
+
+        /// <summary>The numbers 0 to count - 1, shuffled by a seed (Fisher and Yates, from the end).</summary>
+        /// <param name="count">0 or more.</param>
+        public static int[] Shuffle(int count, ulong seed)
+        {
+            var random = new SplitMix64(seed);
+            var order = new int[count];
+            for (int index = 0; index < count; ++index)
+            {
+                order[index] = index;
+            }
+            for (int index = count - 1; index > 0; --index)
+            {
+                int other = (int)(random.Next() % (ulong)(index + 1));
+                (order[index], order[other]) = (order[other], order[index]);
+            }
+            return order;
+        }
+
+        /// <summary>The next number, 0 to 2^64 - 1.</summary>
+        public ulong Next()
+        {
+            unchecked
+            {
+                state += 0x9E3779B97F4A7C15ul;
+                ulong mixed = state;
+                mixed = (mixed ^ (mixed >> 30)) * 0xBF58476D1CE4E5B9ul;
+                mixed = (mixed ^ (mixed >> 27)) * 0x94D049BB133111EBul;
+                return mixed ^ (mixed >> 31);
+            }
+        }
+    }
 }
