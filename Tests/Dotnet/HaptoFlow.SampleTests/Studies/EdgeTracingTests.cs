@@ -1,7 +1,7 @@
 using HaptoFlow.Samples.SimilarityStudy;
 using NUnit.Framework;
 
-namespace HaptoFlow.SampleTests.Similarity
+namespace HaptoFlow.SampleTests
 {
     /// <summary>Tracing of a rectangle of 20 x 15 cm with a tolerance of 1 cm.</summary>
     public sealed class EdgeTracingTests
@@ -31,40 +31,29 @@ namespace HaptoFlow.SampleTests.Similarity
         }
 
         [Test]
-        public void ALineBesideAnEdgeTracesNothing()
+        public void ALineBesideAnEdgeAndPositionsThatAreNoNumbersTraceNothing()
         {
             Line(-0.09, -0.06, 0.09, -0.06);
             Line(-0.09, 0.0, 0.09, 0.0);
+            tracing.Add(double.NaN, double.NaN);
+            tracing.Add(double.PositiveInfinity, 0.0);
             Assert.That(tracing.TracedEdges, Is.Zero);
         }
 
-        [Test]
-        public void PositionsOfAFastHandAreConnected()
+        [TestCase(0.04, false, true, Description = "positions of a fast hand are connected")]
+        [TestCase(0.04, true, false, Description = "parts passed while lifted are not traced")]
+        [TestCase(0.2, false, false, Description = "a jump along an edge traces nothing between")]
+        public void TouchingPositionsAreConnectedUpToTheStepOfAFastHand(double step, bool lifts, bool isTraced)
         {
-            for (double x = -0.1; x <= 0.1001; x += 0.04)
+            for (double x = -0.1; x <= 0.1001; x += step)
             {
                 tracing.Add(x, -0.075);
+                if (lifts)
+                {
+                    tracing.Lift();
+                }
             }
-            Assert.That(tracing.IsTraced(0), Is.True);
-        }
-
-        [Test]
-        public void PartsPassedWhileLiftedAreNotTraced()
-        {
-            for (double x = -0.1; x <= 0.1001; x += 0.04)
-            {
-                tracing.Add(x, -0.075);
-                tracing.Lift();
-            }
-            Assert.That(tracing.IsTraced(0), Is.False);
-        }
-
-        [Test]
-        public void AJumpAlongAnEdgeTracesNothingBetween()
-        {
-            tracing.Add(-0.1, -0.075);
-            tracing.Add(0.1, -0.075);
-            Assert.That(tracing.IsTraced(0), Is.False);
+            Assert.That(tracing.IsTraced(0), Is.EqualTo(isTraced));
         }
 
         [Test]
@@ -72,14 +61,6 @@ namespace HaptoFlow.SampleTests.Similarity
         {
             Line(-0.1, -0.075, 0.1, -0.075);
             tracing.Begin();
-            Assert.That(tracing.TracedEdges, Is.Zero);
-        }
-
-        [Test]
-        public void PositionsThatAreNotNumbersTraceNothing()
-        {
-            tracing.Add(double.NaN, double.NaN);
-            tracing.Add(double.PositiveInfinity, 0.0);
             Assert.That(tracing.TracedEdges, Is.Zero);
         }
 

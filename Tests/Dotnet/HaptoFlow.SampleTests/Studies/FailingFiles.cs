@@ -4,7 +4,7 @@ using System.Collections.Generic;
 using System.IO;
 using HaptoFlow.Studies;
 
-namespace HaptoFlow.Tests
+namespace HaptoFlow.SampleTests
 {
     /// <summary>A file system whose writes can be made to fail.</summary>
     internal sealed class FailingFiles : IStudyFiles

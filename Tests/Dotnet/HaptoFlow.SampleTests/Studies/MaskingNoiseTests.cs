@@ -8,7 +8,7 @@ using UnityEngine;
 using UnityEngine.TestTools;
 using UnityShim;
 
-namespace HaptoFlow.ShimTests
+namespace HaptoFlow.SampleTests
 {
     /// <summary>The masking noise plays in the headphones only.</summary>
     public sealed class MaskingNoiseTests : SceneTest

@@ -8,7 +8,7 @@ using HaptoFlow.Tests;
 using NUnit.Framework;
 using UnityShim;
 
-namespace HaptoFlow.ShimTests
+namespace HaptoFlow.SampleTests
 {
     /// <summary>The operator's view: its lines and buttons.</summary>
     public sealed class OperatorViewTests : SceneTest

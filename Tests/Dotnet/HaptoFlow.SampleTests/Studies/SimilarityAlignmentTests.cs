@@ -6,7 +6,7 @@ using NUnit.Framework;
 using UnityEngine;
 using UnityShim;
 
-namespace HaptoFlow.SampleTests.Similarity
+namespace HaptoFlow.SampleTests
 {
     /// <summary>Alignment with a real sample that is lower than in the scene, and rotated.</summary>
     public sealed class SimilarityAlignmentTests : SimilarityTest
@@ -73,18 +73,6 @@ namespace HaptoFlow.SampleTests.Similarity
         }
 
         [Test]
-        public void ThePlaceIsKeptForTheNextStart()
-        {
-            Align();
-            string name = scene.SaveName;
-            Crash();
-            Open(settings, name);
-            Prepare();
-            Assert.That(scene.CanBegin, Is.True);
-            Assert.That(Vector3.Distance(scene.Real.Frame.position, place), Is.LessThan(1e-3f));
-        }
-
-        [Test]
         public void TheOperatorTakesAndRemovesPointsForAPenWithoutForce()
         {
             scene.Alignment.Begin();
@@ -98,18 +86,6 @@ namespace HaptoFlow.SampleTests.Similarity
             scene.Alignment.TakePoint();
             scene.Alignment.Alignment.Undo();
             Assert.That((scene.Alignment.Alignment.IsAligned, scene.CanBegin), Is.EqualTo((false, false)));
-        }
-
-        [Test]
-        public void OneCornerIsMarkedWhilePointsAreTaken()
-        {
-            int Shown() => FindAll<Transform>().Count(each =>
-                each.name.StartsWith("Mark ", StringComparison.Ordinal) && each.gameObject.activeSelf);
-            Assert.That(Shown(), Is.Zero);
-            scene.Alignment.Begin();
-            Assert.That(Shown(), Is.EqualTo(1));
-            Align();
-            Assert.That(Shown(), Is.Zero);
         }
 
         /// <summary>Waits until everything but the alignment is ready.</summary>

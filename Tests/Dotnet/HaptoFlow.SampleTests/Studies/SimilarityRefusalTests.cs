@@ -11,63 +11,49 @@ using NUnit.Framework;
 using UnityEngine;
 using UnityShim;
 
-namespace HaptoFlow.SampleTests.Similarity
+namespace HaptoFlow.SampleTests
 {
     /// <summary>Problems that stop the study before it begins, and their messages.</summary>
     public sealed class SimilarityRefusalTests : SimilarityTest
     {
-        [Test]
-        public void AModelThatDoesNotLoadStopsTheStudyAndNamesMethodAndFile()
+        private static IEnumerable<TestCaseData> Methods()
         {
-            SimilarityStudySettings settings = Settings(1, 2);
-            settings.Compare(settings.Materials, settings.Methods.Append(
-                new StudyMethod("DSTN", Named(EditedModel.Damaged(), "dstn-1"), HapticQuality.Standard)));
-            Refused(settings, "method \"DSTN\"", "dstn-1.haptoflow", "checksum");
+            TestCaseData Case(string name, Func<StudyMethod> method, params string[] words) =>
+                new TestCaseData(method, words).SetArgDisplayNames(name);
+            yield return Case("damaged file", () => new StudyMethod("DSTN", Named(EditedModel.Damaged(), "dstn-1"),
+                HapticQuality.Standard), "method \"DSTN\"", "dstn-1.haptoflow", "checksum");
+            yield return Case("no model", () => new StudyMethod("SPSI", null, HapticQuality.Standard),
+                "method \"SPSI\"", "has no model");
+            yield return Case("Auto", () => new StudyMethod("SPSI", DefaultModel.Asset(), HapticQuality.Auto),
+                "method \"SPSI\"", "quality Auto");
+            // The second is the quality of a settings asset of an earlier version.
+            foreach (HapticQuality quality in new[] { HapticQuality.Standard, (HapticQuality)3 })
+            {
+                yield return Case("twice, " + quality, () => new StudyMethod("Best", DefaultModel.Asset(), quality),
+                    "\"Ours\" and \"Best\" are the same tier \"standard\"");
+            }
+            foreach (string name in new[] { "Ours", "", "a,b" })
+            {
+                yield return Case("name " + name, () => new StudyMethod(name, EditedModel.OfAnotherSpace(),
+                    HapticQuality.Standard), $"\"{name}\"");
+            }
         }
 
-        [Test]
-        public void AMethodWithoutAModelStopsTheStudy()
-        {
-            SimilarityStudySettings settings = Settings(1, 2);
-            settings.Compare(settings.Materials, settings.Methods.Append(
-                new StudyMethod("SPSI", null, HapticQuality.Standard)));
-            Refused(settings, "method \"SPSI\"", "has no model");
-        }
-
-        [Test]
-        public void AutomaticQualityStopsTheStudy()
-        {
-            SimilarityStudySettings settings = Settings(1, 1);
-            settings.Compare(settings.Materials, settings.Methods.Append(
-                new StudyMethod("SPSI", DefaultModel.Asset(), HapticQuality.Auto)));
-            Refused(settings, "method \"SPSI\"", "quality Auto");
-        }
-
-        [TestCase(HapticQuality.Standard)]
-        [TestCase((HapticQuality)3, Description = "a settings asset of an earlier version")]
-        public void TheSameTierUnderTwoNamesStopsTheStudy(HapticQuality quality)
+        [TestCaseSource(nameof(Methods))]
+        public void AMethodThatCannotBeComparedStopsTheStudy(Func<StudyMethod> method, string[] words)
         {
             SimilarityStudySettings settings = Settings(1, 3);
-            settings.Compare(settings.Materials, settings.Methods.Append(
-                new StudyMethod("Best", DefaultModel.Asset(), quality)));
-            Refused(settings, "\"Ours\" and \"Best\" are the same tier \"standard\"");
+            settings.Compare(settings.Materials, settings.Methods.Append(method()));
+            Refused(settings, words);
         }
 
-        [Test]
-        public void ALabelThatAModelDoesNotHaveStopsTheStudy()
+        [TestCase("Hemp cloth", "hemp", "method \"Ours quick\" has no label \"hemp\"", "wood, plywood")]
+        [TestCase("Void", " ", "material \"Void\"", "neither a label nor a Haptic Material")]
+        public void AMaterialThatNoModelHasStopsTheStudy(string name, string label, params string[] words)
         {
             SimilarityStudySettings settings = Settings(1, 2);
-            settings.Compare(settings.Materials.Append(new StudyMaterial("Hemp cloth", "hemp")), settings.Methods);
-            Refused(settings, "material \"Hemp cloth\"", "method \"Ours quick\" has no label \"hemp\"",
-                "wood, plywood");
-        }
-
-        [Test]
-        public void AMaterialWithoutALabelStopsTheStudy()
-        {
-            SimilarityStudySettings settings = Settings(1, 2);
-            settings.Compare(settings.Materials.Append(new StudyMaterial("Void", " ")), settings.Methods);
-            Refused(settings, "material \"Void\"", "neither a label nor a Haptic Material");
+            settings.Compare(settings.Materials.Append(new StudyMaterial(name, label)), settings.Methods);
+            Refused(settings, words);
         }
 
         [Test]
@@ -90,17 +76,6 @@ namespace HaptoFlow.SampleTests.Similarity
                 new StudyMethod("Foreign", EditedModel.OfAnotherSpace(), HapticQuality.Standard)));
             Refused(settings, "material \"Denim\"", "method \"Foreign\"", "another model");
             UnityEngine.Object.DestroyImmediate(denim);
-        }
-
-        [TestCase("Ours")]
-        [TestCase("")]
-        [TestCase("a,b")]
-        public void ANameThatIsInvalidInALogStopsTheStudy(string name)
-        {
-            SimilarityStudySettings settings = Settings(1, 3);
-            settings.Compare(settings.Materials, settings.Methods.Append(
-                new StudyMethod(name, EditedModel.OfAnotherSpace(), HapticQuality.Standard)));
-            Refused(settings, $"\"{name}\"");
         }
 
         [Test]

@@ -8,7 +8,7 @@ using NUnit.Framework;
 using UnityEngine;
 using UnityShim;
 
-namespace HaptoFlow.SampleTests.Similarity
+namespace HaptoFlow.SampleTests
 {
     /// <summary>The output of a trial: its model, its material, its delay.</summary>
     public sealed class SimilaritySoundTests : SimilarityTest
@@ -48,41 +48,6 @@ namespace HaptoFlow.SampleTests.Similarity
                 ++trials;
             }
             Assert.That(trials, Is.EqualTo(4 + 8));
-        }
-
-        [Test]
-        public void ATrialHasTheSameLevelAsTheMaterialInAnyOtherScene()
-        {
-            SimilarityStudySettings settings = Settings(
-                Two.Select(label => new StudyMaterial("Sample of " + label, label)), Settings(1, 2).Methods);
-            var expected = new Dictionary<string, double>();
-            foreach (StudyMethod method in settings.Methods)
-            {
-                foreach (string label in Two)
-                {
-                    expected.Add(label + method.Name, LevelElsewhere(method.Model!, label));
-                }
-            }
-            Assert.That(expected.Values.Min(), Is.GreaterThan(Audible));
-            Assert.That(expected.Values.Max(), Is.GreaterThan(2.0 * expected.Values.Min()), "the cases must differ");
-            World.FrameRateHz = 90.0;
-            Begin(settings);
-            while (scene.Session!.Phase != StudyPhase.Finished)
-            {
-                scene.Session.Continue();
-                if (scene.Session.Phase != StudyPhase.Task)
-                {
-                    continue;
-                }
-                PlannedTrial trial = scene.Session.Trial!;
-                TraceReal();
-                TraceVirtual();
-                double level = LevelOfCircle(scene.Virtual.Frame.position, scene.Output.Channel);
-                string label = settings.Materials.Single(each => each.Name == trial.Material).Label;
-                double expectedLevel = expected[label + trial.Method];
-                Assert.That(level, Is.EqualTo(expectedLevel).Within(0.1 * expectedLevel), $"{label}, {trial.Method}");
-                Answer(4);
-            }
         }
 
         [Test]
@@ -136,66 +101,6 @@ namespace HaptoFlow.SampleTests.Similarity
             double slowest = scene.Settings.Methods.Max(each => scene.Delay!.Of(each.Name).TotalMilliseconds);
             Assert.That(scene.Delay!.Milliseconds, Is.InRange(slowest + 2.0, slowest + 3.0));
         }
-
-        [Test]
-        public void TheNoisePlaysInTheHeadphonesAndNotOnTheActuator()
-        {
-            Open(Settings(1, 2));
-            PlayFor(0.5);
-            AudioDevice.Forget();
-            PlayFor(0.5);
-            Assert.That(Loudest(), Is.GreaterThan(Audible));
-            Assert.That(LoudestFelt(), Is.Zero);
-        }
-
-        /// <summary>The root mean square of the actuator's channel while the pen draws circles.</summary>
-        private double LevelOfCircle(Vector3 middle, int channel)
-        {
-            Vector3 At(int frame) => middle + 0.001f * Vector3.up + new Vector3(
-                0.04f * (float)Math.Cos(0.05 * frame), 0f, 0.04f * (float)Math.Sin(0.05 * frame));
-            for (int frame = 0; frame < 60; ++frame)
-            {
-                Hold(At(frame));
-            }
-            AudioDevice.Forget();
-            for (int frame = 60; frame < 240; ++frame)
-            {
-                Hold(At(frame));
-            }
-            double level = Level(channel);
-            Hold(At(240) + 0.05f * Vector3.up);
-            return level;
-        }
-
-        /// <summary>Draws the same circles in a scene without a study.</summary>
-        private double LevelElsewhere(HapticModelAsset model, string label)
-        {
-            Haptics.Restart();
-            if (FindAll<AudioListener>().Length == 0)
-            {
-                Make("Listener").AddComponent<AudioListener>();
-            }
-            HaptoFlowSettings.Active.Model = model;
-            FinishLoading();
-            HapticSurface board = Board(label);
-            board.Material.Effects = HapticEffects.Texture;
-            Output(out HapticOutput output);
-            HapticStylus stylus = StylusAlong(seconds =>
-            {
-                double angle = 0.05 * World.FrameRateHz * seconds;
-                return new Vector3(0.04f * (float)Math.Cos(angle), 0.001f, 0.04f * (float)Math.Sin(angle));
-            });
-            World.Frames(60);
-            AudioDevice.Forget();
-            World.Frames(180);
-            double level = Level(0);
-            Crash();
-            HaptoFlowSettings.Active.Model = DefaultModel.Asset();
-            return level;
-        }
-
-        private static double Level(int channel) => Math.Sqrt(Enumerable.Range(0, AudioDevice.RecordedFrames)
-            .Average(frame => AudioDevice.Sample(frame, channel) * (double)AudioDevice.Sample(frame, channel)));
 
         /// <summary>The time from the frame of a touch-down to the first vibration.</summary>
         private double OnsetMilliseconds()

@@ -11,7 +11,7 @@ using NUnit.Framework;
 using UnityEngine;
 using UnityShim;
 
-namespace HaptoFlow.SampleTests.Similarity
+namespace HaptoFlow.SampleTests
 {
     /// <summary>A test of the similarity study with a simulated participant, who holds the pen in the right hand and
     /// answers with the left one.</summary>

@@ -4,7 +4,7 @@ using System.IO;
 using System.Linq;
 using HaptoFlow.Studies;
 
-namespace HaptoFlow.Tests
+namespace HaptoFlow.SampleTests
 {
     /// <summary>A temporary folder with the logs of a small latency study.</summary>
     internal sealed class StudyFolder : IDisposable

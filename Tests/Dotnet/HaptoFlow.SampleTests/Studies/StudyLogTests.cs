@@ -7,7 +7,7 @@ using HaptoFlow.Model;
 using HaptoFlow.Studies;
 using NUnit.Framework;
 
-namespace HaptoFlow.Tests
+namespace HaptoFlow.SampleTests
 {
     /// <summary>The logs of a study survive file errors and are never overwritten.</summary>
     public sealed class StudyLogTests
@@ -114,17 +114,6 @@ namespace HaptoFlow.Tests
             Assert.That(folder.Rows.Select(row => row.Split(',')[0]), Is.EqualTo(new[] { "1", "2", "3" }));
         }
 
-        [Test]
-        public void EachInterruptionAtATrialAddsAnAttempt()
-        {
-            folder.Leave(answered: 2);
-            folder.Open();
-            StudyLog log = folder.Open();
-            Assert.That((log.Resumptions, log.AttemptsAt(3)), Is.EqualTo((2, 3)));
-            JsonValue sidecar = JsonValue.Parse(File.ReadAllText(folder.Sidecar));
-            Assert.That(sidecar["resumptions"].AsInteger(), Is.EqualTo(2));
-        }
-
         [TestCase(0)]
         [TestCase(17)]
         [TestCase(int.MaxValue)]
@@ -173,16 +162,6 @@ namespace HaptoFlow.Tests
         public void AnInvalidFolderPathIsRefused(string path) => Assert.That(
             () => StudyLog.Open(path, StudyFolder.Description(), folder.Files),
             Throws.TypeOf<StudyException>().With.Message.Contains("choose a writable folder"));
-
-        [Test]
-        public void AFileInPlaceOfTheFolderIsRefusedByTheFileSystem()
-        {
-            string blocked = Path.Combine(folder.Path, "not a folder");
-            Directory.CreateDirectory(folder.Path);
-            File.WriteAllText(blocked, "");
-            Assert.That(() => StudyLog.Open(blocked, StudyFolder.Description()),
-                Throws.TypeOf<StudyException>().With.Message.StartsWith(blocked));
-        }
 
         [Test]
         public void AParticipantWhoHasFinishedIsRefusedAndNothingIsTouched()

@@ -2,7 +2,7 @@
 using HaptoFlow.Studies;
 using NUnit.Framework;
 
-namespace HaptoFlow.Tests
+namespace HaptoFlow.SampleTests
 {
     /// <summary>The delay that must be added to the system's for a delay level.</summary>
     public sealed class SystemDelayTests

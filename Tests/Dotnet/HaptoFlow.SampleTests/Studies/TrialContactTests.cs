@@ -6,7 +6,7 @@ using NUnit.Framework;
 using UnityEngine;
 using UnityShim;
 
-namespace HaptoFlow.Tests
+namespace HaptoFlow.SampleTests
 {
     /// <summary>Statistics of a trial for a stroke of known length, time and force.</summary>
     public sealed class TrialContactTests : SceneTest
