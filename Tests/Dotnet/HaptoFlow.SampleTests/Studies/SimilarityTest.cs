@@ -7,6 +7,7 @@ using System.Threading.Tasks;
 using HaptoFlow.Samples.SimilarityStudy;
 using HaptoFlow.Studies;
 using HaptoFlow.Tests;
+using HaptoFlow.Tests.Support;
 using NUnit.Framework;
 using UnityEngine;
 using UnityShim;
@@ -257,5 +258,29 @@ namespace HaptoFlow.SampleTests
         private protected static T[] FindAll<T>()
             where T : UnityEngine.Object =>
             UnityEngine.Object.FindObjectsByType<T>(FindObjectsInactive.Include, FindObjectsSortMode.None);
+    }
+
+    /// <summary>Keeps the session of a test for the tests of the training package, if an environment variable is set.
+    /// </summary>
+    internal static class RecordedSession
+    {
+        /// <summary>If HAPTOFLOW_RECORD_SESSIONS is set, replaces the sessions of the study in
+        /// Tests/Golden/studies/sessions by the only session of the folder.</summary>
+        public static void Keep(string folder, string study)
+        {
+            if (string.IsNullOrEmpty(Environment.GetEnvironmentVariable("HAPTOFLOW_RECORD_SESSIONS")))
+            {
+                return;
+            }
+            string sessions = RepositoryFiles.In("Tests", "Golden", "studies", "sessions");
+            foreach (string old in Directory.GetFiles(sessions, study + "-*"))
+            {
+                File.Delete(old);
+            }
+            foreach (string file in Directory.GetFiles(folder))
+            {
+                File.Copy(file, Path.Combine(sessions, Path.GetFileName(file)));
+            }
+        }
     }
 }

@@ -1,5 +1,4 @@
 #nullable enable
-#if HAPTOFLOW_OUTSIDE_UNITY
 using System;
 using HaptoFlow.Studies;
 using NUnit.Framework;
@@ -101,4 +100,3 @@ namespace HaptoFlow.SampleTests
         }
     }
 }
-#endif
