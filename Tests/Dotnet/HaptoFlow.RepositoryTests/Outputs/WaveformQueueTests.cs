@@ -46,7 +46,7 @@ namespace HaptoFlow.RepositoryTests.Outputs
 
         [Test]
         public void AHitchCausesAGapWithAFadeAtBothEnds([Values(0.003, 0.2, 1.0)] double hitchSeconds,
-            [Values(0, 1, 2, 3, 4, 5, 6, 7)] int moment)
+            [Values(0, 3, 5)] int moment)
         {
             var device = new SimulatedWaveDevice(2000.0);
             var queue = new WaveformQueue(device, SimulatedWave.Sine(50.0, 0.5));
@@ -75,7 +75,7 @@ namespace HaptoFlow.RepositoryTests.Outputs
 
         [Test]
         public void AHitchOfAQueueingDeviceEndsAtASmallSampleAndFadesIn(
-            [Values(0, 1, 2, 3, 4, 5, 6, 7)] int moment)
+            [Values(0, 3, 5)] int moment)
         {
             var device = new SimulatedWaveDevice(2000.0, 0.0, false);
             var queue = new WaveformQueue(device, SimulatedWave.Sine(200.0, 0.5));
@@ -190,7 +190,7 @@ namespace HaptoFlow.RepositoryTests.Outputs
 
         [Test]
         public void RandomStrokesHitchesStopsAndLossesLeaveNoStuckVibration([Values] bool replaces,
-            [Range(1, 12)] int seed)
+            [Range(1, 4)] int seed)
         {
             var random = new Random(seed);
             double[] rates = { 45.0, 320.0, 1000.0, 2000.0 };
