@@ -186,4 +186,156 @@ namespace HaptoFlow.RepositoryTests.Outputs
             }
         }
     }
+
+    /// <summary>A controller with its own clock. It plays submitted samples one after another, and 0 when it has none.
+    /// A submission that replaces the previous one is played from the moment of the call.</summary>
+    internal sealed class SimulatedWaveDevice : IWaveformSink
+    {
+        private readonly Queue<float> waiting = new Queue<float>();
+        private double nextSampleSeconds;
+        private double rateHz;
+
+        public SimulatedWaveDevice(double rateHz, double drift = 0.0, bool replacesWithoutGap = true)
+        {
+            RateHz = rateHz;
+            Drift = drift;
+            ReplacesWithoutGap = replacesWithoutGap;
+        }
+
+        public string Name => "simulated";
+
+        /// <summary>Changing the rate simulates another device, which has no samples.</summary>
+        public double RateHz
+        {
+            get => rateHz;
+            set
+            {
+                rateHz = value;
+                waiting.Clear();
+            }
+        }
+
+        public double Drift { get; set; }
+
+        public bool ReplacesWithoutGap { get; }
+
+        public bool IsThere { get; set; } = true;
+
+        public int Capacity { get; set; } = 4000;
+
+        /// <summary>The time and value of each played sample.</summary>
+        public List<(double Seconds, float Sample)> Played { get; } = new List<(double, float)>();
+
+        /// <summary>The number of samples that were due while the queue was empty.</summary>
+        public int Starved { get; private set; }
+
+        public double DepthSeconds => waiting.Count / (RateHz * (1.0 + Drift));
+
+        public int Submissions { get; private set; }
+
+        public int Stops { get; private set; }
+
+        public bool Records { get; set; } = true;
+
+        public void AdvanceTo(double seconds)
+        {
+            double step = 1.0 / (RateHz * (1.0 + Drift));
+            for (; nextSampleSeconds <= seconds; nextSampleSeconds += step)
+            {
+                bool has = waiting.Count > 0;
+                Starved += has ? 0 : 1;
+                float sample = has ? waiting.Dequeue() : 0f;
+                if (Records)
+                {
+                    Played.Add((nextSampleSeconds, sample));
+                }
+            }
+            Now = seconds;
+        }
+
+        public void ForgetStarvation() => Starved = 0;
+
+        public bool TryGetCapabilities(out HapticSinkCapabilities capabilities)
+        {
+            capabilities = new HapticSinkCapabilities(RateHz, 4000);
+            return IsThere;
+        }
+
+        public int Submit(ReadOnlySpan<float> samples, bool replace)
+        {
+            if (!IsThere)
+            {
+                return -1;
+            }
+            ++Submissions;
+            if (replace)
+            {
+                waiting.Clear();
+                nextSampleSeconds = Now;
+            }
+            int taken = Math.Min(samples.Length, Capacity - waiting.Count);
+            for (int index = 0; index < taken; ++index)
+            {
+                waiting.Enqueue(samples[index]);
+            }
+            return taken;
+        }
+
+        public void Stop()
+        {
+            ++Stops;
+            waiting.Clear();
+        }
+
+        private double Now { get; set; }
+    }
+
+    /// <summary>A wave that can be evaluated at every position.</summary>
+    internal sealed class SimulatedWave : IWaveSource
+    {
+        private readonly Func<double, double> wave;
+
+        /// <param name="wave">Maps a time in seconds to a sample.</param>
+        public SimulatedWave(Func<double, double> wave) => this.wave = wave;
+
+        public static SimulatedWave Sine(double hertz, double amplitude = 0.3) =>
+            new SimulatedWave(seconds => amplitude * Math.Sin(2.0 * Math.PI * hertz * seconds));
+
+        /// <summary>Noise between two frequencies as a sum of sines, reproducible at every position.</summary>
+        public static SimulatedWave Noise(double lowHz, double highHz, double rms)
+        {
+            const int partials = 40;
+            var random = new Random(5);
+            var phases = new double[partials];
+            for (int index = 0; index < partials; ++index)
+            {
+                phases[index] = 2.0 * Math.PI * random.NextDouble();
+            }
+            double each = rms * Math.Sqrt(2.0 / partials);
+            return new SimulatedWave(seconds =>
+            {
+                double sum = 0.0;
+                for (int index = 0; index < partials; ++index)
+                {
+                    double hertz = lowHz + (highHz - lowHz) * (index + 0.37) / partials;
+                    sum += each * Math.Sin(2.0 * Math.PI * hertz * seconds + phases[index]);
+                }
+                return sum;
+            });
+        }
+
+        public long Position { get; private set; }
+
+        public bool IsSilent { get; set; }
+
+        public bool IsStopped { get; set; }
+
+        public void Render(Span<float> samples)
+        {
+            for (int index = 0; index < samples.Length; ++index, ++Position)
+            {
+                samples[index] = IsSilent ? 0f : (float)wave(Position / WaveHistory.RateHz);
+            }
+        }
+    }
 }
