@@ -7,7 +7,7 @@ using HaptoFlow.Tests.Support;
 using Newtonsoft.Json.Linq;
 using NUnit.Framework;
 
-namespace HaptoFlow.Tests
+namespace HaptoFlow.RepositoryTests
 {
     public sealed class LabelSpellingTests
     {

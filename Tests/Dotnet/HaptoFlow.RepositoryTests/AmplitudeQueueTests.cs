@@ -4,7 +4,7 @@ using System.Linq;
 using HaptoFlow.Outputs;
 using NUnit.Framework;
 
-namespace HaptoFlow.RepositoryTests.Outputs
+namespace HaptoFlow.RepositoryTests
 {
     /// <summary>The commands that a simulated motor receives.</summary>
     public sealed class AmplitudeQueueTests

@@ -3,7 +3,7 @@ using System;
 using HaptoFlow.Outputs;
 using NUnit.Framework;
 
-namespace HaptoFlow.RepositoryTests.Outputs
+namespace HaptoFlow.RepositoryTests
 {
     /// <summary>The spectrum of a wave after decimation to a device's rate.</summary>
     public sealed class WaveDecimatorTests

@@ -4,7 +4,7 @@ using System.Linq;
 using HaptoFlow.Outputs;
 using NUnit.Framework;
 
-namespace HaptoFlow.RepositoryTests.Outputs
+namespace HaptoFlow.RepositoryTests
 {
     /// <summary>The samples that reach a simulated device with its own clock.</summary>
     public sealed class WaveformQueueTests

@@ -9,7 +9,7 @@ using HaptoFlow.Outputs;
 using HaptoFlow.Tests.Support;
 using NUnit.Framework;
 
-namespace HaptoFlow.RepositoryTests.Outputs
+namespace HaptoFlow.RepositoryTests
 {
     /// <summary>How strongly each kind of device plays every label of the shipped model at an ordinary stroke, through
     /// the queues that a scene uses.</summary>

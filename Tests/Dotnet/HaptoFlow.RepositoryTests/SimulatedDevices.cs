@@ -3,7 +3,7 @@ using System;
 using System.Collections.Generic;
 using HaptoFlow.Outputs;
 
-namespace HaptoFlow.RepositoryTests.Outputs
+namespace HaptoFlow.RepositoryTests
 {
     /// <summary>A motor that plays each command for its duration.</summary>
     internal sealed class SimulatedMotor : IAmplitudeSink

@@ -4,7 +4,7 @@ using System.Linq;
 using HaptoFlow.Outputs;
 using NUnit.Framework;
 
-namespace HaptoFlow.RepositoryTests.Outputs
+namespace HaptoFlow.RepositoryTests
 {
     /// <summary>The stream of a simulated device that plays amplitude and frequency over time. The device throws if a
     /// rule of streams is violated.</summary>
