@@ -7,6 +7,11 @@ namespace HaptoFlow.Samples.SimilarityStudy
     /// the left object moves there. Main thread.</summary>
     public sealed class SampleAlignment : MonoBehaviour
     {
+        private const float Left = 660f;
+        private const float Top = 10f;
+        private const float Width = 150f;
+        private const float Height = 33f;
+
         private XrRig rig = null!;
         private CornerMarks? corners;
         private bool forceDecides;
@@ -16,6 +21,10 @@ namespace HaptoFlow.Samples.SimilarityStudy
 
         /// <summary>The next step, for the operator.</summary>
         public string Text { get; private set; } = "";
+
+        /// <summary>Whether the operator sees the buttons of the alignment. They are drawn with Unity's immediate mode,
+        /// which the screen shows and the headset does not.</summary>
+        public bool HasButtons { get; set; }
 
         /// <summary>Adds the alignment to the pair of objects.</summary>
         /// <param name="pair">The object that moves. The plane y = 0 of its space is the top of both objects.</param>
@@ -62,6 +71,32 @@ namespace HaptoFlow.Samples.SimilarityStudy
         private void Show(HapticAlignment alignment) => Text = alignment.IsTaking && corners != null
             ? $"{alignment.Message} It is the {corners.NextCorner} corner."
             : alignment.Message;
+
+        private void OnGUI()
+        {
+            if (!HasButtons)
+            {
+                return;
+            }
+            if (!Alignment.IsTaking)
+            {
+                if (Button(0, "Align"))
+                {
+                    Begin();
+                }
+            }
+            else if (Button(0, "Take point"))
+            {
+                TakePoint();
+            }
+            if (Button(1, "Take back"))
+            {
+                Alignment.Undo();
+            }
+        }
+
+        private static bool Button(int row, string text) =>
+            GUI.Button(new Rect(Left, Top + 1.2f * row * Height, Width, Height), text);
 
         private void Update()
         {

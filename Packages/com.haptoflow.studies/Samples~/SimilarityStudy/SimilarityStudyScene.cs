@@ -10,9 +10,9 @@ namespace HaptoFlow.Samples.SimilarityStudy
 {
     /// <summary>Builds the study when it wakes: two grey objects side by side, a pen, a panel for the answers, a view
     /// for the operator. It loads every method's model and measures its delay, waits for the alignment and the
-    /// operator, and then leads one participant through the plan.</summary>
-    [RequireComponent(typeof(PipelineMaterial))]
-    public sealed class SimilarityStudyScene : MonoBehaviour
+    /// operator, and then leads one participant through the plan. The scene's camera has to carry the Audio
+    /// Listener.</summary>
+    public sealed class SimilarityStudyScene : BuiltScene
     {
         private static readonly Vector3 InstructionPlace = new Vector3(0.13f, 0.195f, 0.2f);
         private static readonly Vector3 PanelPlace = new Vector3(0.13f, 0.12f, 0.2f);
@@ -21,10 +21,6 @@ namespace HaptoFlow.Samples.SimilarityStudy
 
         [SerializeField, Tooltip("The settings hold the materials, the methods and the set-up.")]
         private SimilarityStudySettings? settings;
-
-        [SerializeField, Tooltip("The camera shows the scene. It carries the Audio Listener, and the mouse pen " +
-            "points through it.")]
-        private Camera? view;
 
         private TrialParts? parts;
         private GameObject pair = null!;
@@ -35,9 +31,6 @@ namespace HaptoFlow.Samples.SimilarityStudy
 
         /// <summary>The materials, the methods and the set-up. Set them before the component wakes.</summary>
         public SimilarityStudySettings? Settings { get => settings; set => settings = value; }
-
-        /// <summary>The scene's camera, with the Audio Listener. Set it before the component wakes.</summary>
-        public Camera? View { get => view; set => view = value; }
 
         /// <summary>The name under which the place of the virtual object is kept between sessions; empty to keep
         /// nothing. Set it before the component wakes.</summary>
@@ -106,6 +99,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
                 parts = new TrialParts(
                     settings!, Models!, Delay!, Real, Virtual, rig, Output, Panel, instruction);
                 Session = new StudySession(log);
+                Alignment.HasButtons = false;
                 Procedure = SimilarityProcedure.Create(Session, parts);
                 Operator.Session = Session;
                 Operator.Problem = null;
@@ -116,8 +110,8 @@ namespace HaptoFlow.Samples.SimilarityStudy
             }
         }
 
-        /// <summary>Draws both objects in the scene view before the scene is played.</summary>
-        public void Sketch()
+        /// <inheritdoc/>
+        public override void Sketch()
         {
             if (settings != null)
             {
@@ -128,23 +122,16 @@ namespace HaptoFlow.Samples.SimilarityStudy
             }
         }
 
-        private void OnDrawGizmos()
-        {
-            if (!Application.isPlaying)
-            {
-                Sketch();
-            }
-        }
-
         private void Awake()
         {
             // Before the first trial, the pen feels by the model of the project's settings, if they name one.
-            HaptoFlowSettings active = HaptoFlowSettings.Active;
-            if (active.Model == null && settings != null)
+            if (Model == null && settings != null)
             {
-                active.Model = settings.Methods.Select(each => each.Model).FirstOrDefault(each => each != null);
+                Model = settings.Methods.Select(each => each.Model).FirstOrDefault(each => each != null);
             }
-            Quaternion facing = view!.transform.rotation;
+            UseModelIfNoneIsSet();
+            Camera view = View!;
+            Quaternion facing = view.transform.rotation;
             // The scene is built even without settings, so that the operator can read the problem.
             SimilarityStudySettings chosen = settings != null
                 ? settings
@@ -163,7 +150,6 @@ namespace HaptoFlow.Samples.SimilarityStudy
             Operator.Begin = Begin;
             Operator.Advice = number => settings == null
                 ? "" : StudyLog.NumbersLeftOut(settings.Folder, StudyKind.Similarity, number);
-            AlignmentButtons.Create(this);
             pair = new GameObject("Objects");
             Alignment = SampleAlignment.Create(pair, rig, SaveName);
             Prepare();
@@ -181,6 +167,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
                 MakeObjects(settings);
                 Alignment.SetSample(settings.SampleMetres, settings.PlateUnderVirtual);
                 Models = new MethodModels(settings, MeasureInference);
+                Alignment.HasButtons = true;
             }
             catch (StudyException refusal)
             {
