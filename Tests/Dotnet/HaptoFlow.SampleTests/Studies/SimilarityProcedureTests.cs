@@ -99,42 +99,6 @@ namespace HaptoFlow.SampleTests
         }
 
         [Test]
-        public void APenThatLosesTrackingContinuesTheTrialLater()
-        {
-            Begin(Settings(1, 2));
-            scene.Session!.Continue();
-            Trace(scene.Real.Frame, 2);
-            SimulatedInput.SetControl(Right + "isTracked", 0f);
-            PlayFor(1.0);
-            Assert.That((Procedure.Stage, scene.Real.Tracing.TracedEdges), Is.EqualTo((TrialStage.RealEdges, 2)));
-            TraceReal();
-            TraceVirtual();
-            Answer(2);
-            Assert.That(Rows().Single()["rating"], Is.EqualTo("2"));
-        }
-
-        [Test]
-        public void TheMousePenTakesPartUntilAPenIsTracked()
-        {
-            Open(Settings(1, 2), hasPen: false);
-            Prepare();
-            scene.Begin(7);
-            scene.Session!.Continue();
-            TraceByMouse(scene.Real.Frame);
-            Assert.That(Procedure.Stage, Is.EqualTo(TrialStage.VirtualEdges));
-            AudioDevice.Forget();
-            TraceByMouse(scene.Virtual.Frame);
-            Assert.That(LoudestFelt(), Is.GreaterThan(Audible));
-            Hold(new Vector3(0f, 0.1f, 0f));
-            Answer(3);
-            TraceReal();
-            TraceVirtual();
-            Answer(6);
-            Assert.That(Rows().Select(row => row["rating"]), Is.EqualTo(new[] { "3", "6" }));
-            Assert.That(Rows().Select(row => Number(row, "path_mm")), Has.All.GreaterThan(500.0));
-        }
-
-        [Test]
         public void APauseForANewSampleMutesTheOutputAndClosesTheQuestion()
         {
             Begin(Settings(2, 2));
@@ -268,25 +232,6 @@ namespace HaptoFlow.SampleTests
                 }
             }
             Assert.That(looks, Has.Count.EqualTo(1));
-        }
-
-        private void TraceByMouse(Transform frame)
-        {
-            SimulatedInput.MouseButton = false;
-            PointAt(scene.View!, Corner(frame, 0));
-            PlayFor(0.3);
-            SimulatedInput.MouseButton = true;
-            for (int corner = 0; corner < 4; ++corner)
-            {
-                for (int step = 0; step <= 40; ++step)
-                {
-                    Vector3 to = Corner(frame, (corner + 1) % 4);
-                    PointAt(scene.View!, Vector3.Lerp(Corner(frame, corner), to, step / 40f));
-                    PlayFor(0.02);
-                }
-            }
-            SimulatedInput.MouseButton = false;
-            PlayFor(0.3);
         }
 
         /// <summary>Checks that both objects have the same colour and size, and that no text or name reveals anything.

@@ -66,32 +66,6 @@ namespace HaptoFlow.SampleTests
             Assert.That((onLeft.Starts, onLeft.Stops, onRight.IsMoving), Is.EqualTo((1, 1, true)));
         }
 
-        [Test]
-        public void TheRecordHasTheColumnsOfAllStudies()
-        {
-            Board();
-            using var contact = new TrialContact(Circling());
-            FinishLoading();
-            World.Frames(30);
-            TrialRecord record = contact.AddTo(new TrialRecord());
-            foreach (string column in new[] { "contact_seconds", "path_mm", "mean_speed_mmps", "mean_force_newtons" })
-            {
-                Assert.That(double.Parse(record[column], System.Globalization.CultureInfo.InvariantCulture),
-                    Is.GreaterThan(0.0), column);
-            }
-            Assert.That(record["underruns"], Is.EqualTo("0"));
-        }
-
-        [Test]
-        public void ADisposedContactStopsCounting()
-        {
-            Board();
-            var contact = new TrialContact(Circling());
-            contact.Dispose();
-            World.Frames(30);
-            Assert.That(contact.ContactSeconds, Is.Zero);
-        }
-
         private static Vector3 Stops(double seconds)
         {
             double slides = Math.Min(seconds, 0.5) + Math.Max(0.0, Math.Min(seconds, 1.5) - 1.0);
