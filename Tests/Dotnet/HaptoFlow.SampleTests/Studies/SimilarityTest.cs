@@ -85,7 +85,7 @@ namespace HaptoFlow.SampleTests
         }
 
         /// <summary>Builds the scene with the camera of the scene file.</summary>
-        private protected void Open(SimilarityStudySettings? settings, string saveName = "", bool hasPen = true)
+        private protected void Open(SimilarityStudySettings? settings, string saveName = "")
         {
             Camera camera = CameraOf(new SceneFile("SimilarityStudy"));
             // The camera carries the Audio Listener, as in the scene file.
@@ -101,10 +101,7 @@ namespace HaptoFlow.SampleTests
                 bootstrap.SaveName = saveName;
                 bootstrap.MeasureInference = measure ?? bootstrap.MeasureInference;
             });
-            if (hasPen)
-            {
-                Hold(new Vector3(0f, 0.1f, 0f));
-            }
+            Hold(new Vector3(0f, 0.1f, 0f));
         }
 
         /// <summary>Waits until the models are loaded, or the study has refused to begin.</summary>
