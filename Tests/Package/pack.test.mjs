@@ -173,7 +173,7 @@ test('files go to their places in the package or in that of the studies, and oth
     ['Tests/Unity/Runtime.meta', 'Tests/Runtime.meta', null],
     ['Assets/Workshop.unity', 'Samples~/Workshop/Workshop.unity', null],
     ['Documentation~/index.md', 'Documentation~/index.md', null],
-    ...['latency-study.md', 'study-logs.md', 'images/delay-budget.png'].map((name) => [`Documentation~/${name}`, null, `Documentation~/${name}`]),
+    ...['studies.md', 'study-files.md', 'images/delay-budget.png'].map((name) => [`Documentation~/${name}`, null, `Documentation~/${name}`]),
     ...['README.md', 'Assets/Desk.unity', 'Samples~/samples.json', 'Tests/Native/CMakeLists.txt', 'Tests/Unity/package.json', 'Samples~/.editorconfig'].map((name) => [name, null, null]),
   ];
   assert.deepEqual(rows.map(([name]) => [name, placeInPackage(name), placeInPackage(name, studiesName)]), rows);

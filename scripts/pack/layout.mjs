@@ -10,7 +10,7 @@ export const studiesName = 'com.haptoflow.studies';
 export const manifestPath = inRepository('Packages', packageName, 'package.json');
 
 /** Pages about the studies, and their pictures: they go into the studies' package. */
-const isOfStudies = (name) => /^Documentation~\/(images\/)?([a-z]+-study|study-[a-z]+|delay-budget)\.[a-z]+$/.test(name);
+const isOfStudies = (name) => /^Documentation~\/(images\/)?(studies|[a-z]+-study|study-[a-z]+|delay-budget)\.[a-z]+$/.test(name);
 
 /** Folders of the repository and their places in each package. */
 const parts = {
