@@ -1,6 +1,7 @@
 #nullable enable
 using System;
 using HaptoFlow.Studies;
+using HaptoFlow.Tests;
 using NUnit.Framework;
 using UnityEngine;
 using UnityShim;
