@@ -130,6 +130,7 @@ namespace HaptoFlow.RepositoryTests
                 HapticForm.Parametric => new ParametricQueue(parametric, source),
                 _ => new WaveformQueue(device, source),
             };
+            queue.TrueLevel = false;
             queue.Gain = gain;
             queue.FullScaleMps2 = FullScaleMps2;
             for (double now = 1.0 / frameHz; now < wave.Length / WaveHistory.RateHz; now += 1.0 / frameHz)
