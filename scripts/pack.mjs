@@ -1,4 +1,4 @@
-// pack: makes the Unity package's tarball and ONNX Runtime's beside it, in out/ (--no-build, --help)
+// pack: makes the tarballs of both Unity packages and ONNX Runtime's beside them, in out/ (--no-build, --help)
 import { mkdirSync } from 'node:fs';
 import path from 'node:path';
 import { parseArgs } from 'node:util';
@@ -6,17 +6,16 @@ import { repositoryFiles } from './lint/checks.mjs';
 import { CommandError, inRepository, runMain } from './lib/process.mjs';
 import { committedNatives } from './lib/libraries.mjs';
 import { checkPackage } from './pack/check_package.mjs';
-import { packDependency } from './pack/dependency.mjs';
+import { packDependency, tableOfContents } from './pack/dependency.mjs';
 import { buildNatives, findNatives, foldersFor, platforms } from './pack/natives.mjs';
-import { PackageFiles } from './pack/package_files.mjs';
-import { tableOfContents } from './pack/sizes.mjs';
-import { makeTarball } from './pack/tarball.mjs';
+import { makeTarball, PackageFiles } from './pack/package_files.mjs';
 
 const help = `usage: npm run pack -- [--no-build] [--require NAMES] [--help]
 
 Builds the native libraries that this machine can build, puts the package together in out/package, checks it as Unity would
-read it, and makes out/com.haptoflow.runtime-VERSION.tgz. Beside it goes the tarball of com.github.asus4.onnxruntime (ONNX
-Runtime for Unity), which the package needs. Two lines at the end say where to click in Unity.
+read it, and makes out/com.haptoflow.runtime-VERSION.tgz. Beside it go the tarball of com.github.asus4.onnxruntime (ONNX Runtime
+for Unity), which the package needs, and that of com.haptoflow.studies, the user studies. Lines at the end say where to click in
+Unity.
 
   --no-build   pack the libraries that are in build/ (HAPTOFLOW_NATIVE_DIR replaces build/native), or in git
   --require    names of platforms whose library must go in, for example linux-x64,windows-x64,android-arm64: without one of
@@ -28,7 +27,7 @@ On Debian for x64 the libraries of Linux x64, Linux arm64 and Windows x64 are bu
 compiles each library for up to five minutes of one core; later runs compile what changed.
 
 What goes in: Packages/com.haptoflow.runtime with the model, Samples~ (with the scene Workshop of Assets), Documentation~, the
-tests in Tests/Unity, and a native library for each platform that has one. One command adds one library, then pack again:
+tests in Tests/Unity, and a native library for each platform that has one; the pages of the studies go with them. One command adds one library, then pack again:
 
 ${platforms.map(({ name, id, where }) => `  ${name.padEnd(15)} npm run build -- --platform ${id.padEnd(14)} ${where}`).join('\n')}
 
@@ -73,21 +72,23 @@ await runMain('pack', async (words) => {
   requireNatives({ found, absent }, options.required);
   const folder = inRepository('out', 'package');
   // Imported here, since set-up may just have installed the package that it needs.
-  const { stagePackage } = await import('./pack/stage.mjs');
-  stagePackage(folder, await repositoryFiles(), found);
-  const files = PackageFiles.inFolder(folder);
-  const complaints = checkPackage(files);
+  const { stagePackage, stageStudies } = await import('./pack/stage.mjs');
+  const [names, ofStudies] = [await repositoryFiles(), inRepository('out', 'studies')];
+  stagePackage(folder, names, found);
+  stageStudies(ofStudies, names);
+  const [files, studies] = [folder, ofStudies].map((each) => PackageFiles.inFolder(each));
+  const complaints = [...checkPackage(files), ...checkPackage(studies, files)];
   if (complaints.length > 0) {
     throw new CommandError(`${complaints.join('\n')}\n${complaints.length} things that Unity would refuse, leave out or lose; no tarball was made`);
   }
-  console.log(`pack: ${files.names.length} files, checked`);
+  console.log(`pack: ${files.names.length} files and ${studies.names.length} of the studies, checked`);
 
   mkdirSync(inRepository('out'), { recursive: true });
   console.log('pack: packing ONNX Runtime (385 MB) and HaptoFlow');
   const runtime = await packDependency(inRepository('out'));
-  const tarball = await makeTarball(folder, inRepository('out'));
+  const tarballs = [runtime, await makeTarball(folder, inRepository('out')), await makeTarball(ofStudies, inRepository('out'))];
   console.log(`\n${tableOfContents({ found, absent }).join('\n')}\n`);
-  console.log('In Unity: Window > Package Manager > + > Install package from tarball... (2022.3: Add package from tarball...), twice:');
-  for (const [index, { file, bytes }] of [runtime, tarball].entries()) console.log(`  ${index + 1}. ${file} (${mebibytes(bytes)})`);
+  console.log('In Unity: Window > Package Manager > + > Install package from tarball... (2022.3: Add package from tarball...), in this order:');
+  for (const [index, { file, bytes }] of tarballs.entries()) console.log(`  ${index + 1}. ${file} (${mebibytes(bytes)})${index === 2 ? ', for user studies only' : ''}`);
   return 0;
 }, { help });

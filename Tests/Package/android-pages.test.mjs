@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 import { pageOptions } from '../../scripts/lib/platform_tests.mjs';
-import { loadAlignment } from '../../scripts/pack/elf.mjs';
+import { loadAlignment } from '../../scripts/pack/binaries.mjs';
 
 /** A 64-bit ELF with nothing but program headers: [type, alignment] each. */
 function elf(...segments) {

@@ -11,8 +11,8 @@ import { checkNatives } from '../../scripts/lint/checks.mjs';
 import { committedNatives, committedPlatforms, complaintsOf, complaintsOfRecord, fileInPackage, hashOfInterface, hashOfSources, importFolder, largestBytes, putIntoPackage, readRecord, sourceFiles } from '../../scripts/lib/libraries.mjs';
 import { findNatives, platforms, pluginsFolder } from '../../scripts/pack/natives.mjs';
 import { PackageFiles } from '../../scripts/pack/package_files.mjs';
-import { checkMetasAreThere, checkMetasAreWanted } from '../../scripts/pack/rules/metas.mjs';
-import { checkPlugins } from '../../scripts/pack/rules/plugins.mjs';
+import { checkMetasAreThere, checkMetasAreWanted } from '../../scripts/pack/rules_of_files.mjs';
+import { checkPlugins } from '../../scripts/pack/rules_of_plugins.mjs';
 import { elfOf } from './support/elf.mjs';
 
 const git = (...words) => spawnSync('git', ['-C', inRepository(), ...words], { encoding: 'utf8' });

@@ -4,7 +4,7 @@ import { readFileSync } from 'node:fs';
 import test from 'node:test';
 import { onDebian } from '../../scripts/lib/setup.mjs';
 import { committedPlatforms, fileInPackage } from '../../scripts/lib/libraries.mjs';
-import { isNewerThan, needsOf, neededGlibc } from '../../scripts/pack/elf.mjs';
+import { isNewerThan, needsOf, neededGlibc } from '../../scripts/pack/binaries.mjs';
 import { findNatives, oldestGlibc } from '../../scripts/pack/natives.mjs';
 import { elfOf } from './support/elf.mjs';
 

@@ -21,7 +21,7 @@ const pages = {
   'Training/results/benchmarks.md': 'npm run bench -- --publish, and by hand the figures of Documentation~/live-engine.md',
   'Training/results/delay-budget.md': 'haptoflow-training study budget --page',
   'Training/results/device-loudness.md': '/usr/bin/python3 scripts/pack/device_levels.py',
-  'Training/results/effects.md': '/usr/bin/python3 scripts/pack/effect_pictures.py',
+  'Training/results/effects.md': '/usr/bin/python3 scripts/pack/pictures.py',
   'Training/haptoflow_paper/results/accuracy-and-time.md': 'npm run evaluate',
   'Training/haptoflow_paper/results/few-shot.md': 'haptoflow-paper few-shot --page',
   'Training/haptoflow_paper/results/place.md': 'haptoflow-paper place --page',

@@ -6,9 +6,9 @@ import path from 'node:path';
 import test from 'node:test';
 import { inRepository } from '../../scripts/lib/process.mjs';
 import { findNatives, foldersFor, kindOfLibrary, platforms, presetsToBuild } from '../../scripts/pack/natives.mjs';
-import { placeInPackage } from '../../scripts/pack/layout.mjs';
+import { placeInPackage, studiesName } from '../../scripts/pack/layout.mjs';
 import { stagePackage } from '../../scripts/pack/stage.mjs';
-import { filesOfZip, runtimeBytes, tableOfContents } from '../../scripts/pack/sizes.mjs';
+import { filesOfZip, runtimeBytes, tableOfContents } from '../../scripts/pack/dependency.mjs';
 import { elfOf } from './support/elf.mjs';
 
 const pack = (...words) => spawnSync(process.execPath, [inRepository('scripts', 'pack.mjs'), ...words], { encoding: 'utf8' });
@@ -41,32 +41,21 @@ function macho(machine) {
   return bytes;
 }
 
-test('--help explains the command and builds nothing', () => {
-  const { status, stdout } = pack('--help');
-  assert.equal(status, 0);
-  for (const word of ['--no-build', 'ANDROID_NDK_ROOT', 'HAPTOFLOW_NATIVE_DIR']) assert.ok(stdout.includes(word), word);
-  for (const { name, id, where } of platforms) assert.match(stdout, new RegExp(`^ {2}${name} +npm run build -- --platform ${id} +${where}$`, 'm'));
-});
-
-test('the command starts in a fresh checkout, in which no npm package is installed yet', () => {
+test('the help starts in a fresh checkout without npm packages, and names the command of each platform', () => {
   inFolder((folder) => {
     for (const name of ['scripts', 'package.json', 'CMakePresets.json']) cpSync(inRepository(name), path.join(folder, name), { recursive: true });
-    const { status, stderr } = spawnSync(process.execPath, [path.join(folder, 'scripts', 'pack.mjs'), '--help'], { encoding: 'utf8' });
+    const { status, stdout, stderr } = spawnSync(process.execPath, [path.join(folder, 'scripts', 'pack.mjs'), '--help'], { encoding: 'utf8' });
     assert.equal(status, 0, stderr);
+    for (const { name, id, where } of platforms) assert.match(stdout, new RegExp(`^ {2}${name} +npm run build -- --platform ${id} +${where}$`, 'm'));
   });
 });
 
-test('an option that does not exist ends with 2 before anything is built', () => {
-  const { status, stdout, stderr } = pack('--no-biuld');
-  assert.equal(status, 2);
-  assert.match(stderr, /--no-biuld/);
-  assert.equal(stdout, '');
-});
-
-test('a platform that does not exist cannot be required', () => {
-  const { status, stderr } = pack('--no-build', '--require', 'linux-x64,andriod-arm64');
-  assert.equal(status, 2);
-  assert.match(stderr, /--require andriod-arm64: expected some of linux-x64, linux-arm64, windows-x64, macos, android-arm64/);
+test('an option or a platform that does not exist ends with 2 before anything is built', () => {
+  for (const [words, message] of [[['--no-biuld'], /--no-biuld/], [['--require', 'andriod-arm64'], /--require andriod-arm64: expected some of linux-x64, linux-arm64, windows-x64, macos, android-arm64/]]) {
+    const { status, stdout, stderr } = pack(...words);
+    assert.deepEqual([status, stdout], [2, '']);
+    assert.match(stderr, message);
+  }
 });
 
 test('without the library of a required platform, or without any, no tarball is made', () => {
@@ -119,13 +108,8 @@ test('each platform takes a library of its own kind from the folders of its own 
       ['Windows x86-64', path.join('windows-msvc', 'Release', 'audioplugin_haptoflow.dll')],
     ]);
     assert.deepEqual(absent.map(({ platform }) => platform.name), ['Linux x86-64', 'macOS arm64', 'Android arm64']);
+    assert.equal(absent[1].why, 'not built; `npm run build -- --platform macos` on a Mac adds it');
   });
-});
-
-test('a platform without a library is listed with the one command that adds it, and where that runs', () => {
-  const { absent } = findNatives(() => []);
-  assert.equal(absent.length, platforms.length);
-  assert.equal(absent.find(({ platform }) => platform.id === 'macos').why, 'not built; `npm run build -- --platform macos` on a Mac adds it');
 });
 
 test('the presets are those of CMakePresets.json, and HAPTOFLOW_NATIVE_DIR stands for the release build\'s folder', () => {
@@ -181,15 +165,18 @@ test('ONNX Runtime takes on each device what its package holds for it: uncompres
   assert.throws(() => filesOfZip(Buffer.from('no archive')), /no ZIP archive/);
 });
 
-test('files of the package go to their places, and other files of the repository are not packed', () => {
-  assert.equal(placeInPackage('Packages/com.haptoflow.runtime/Runtime/HaptoFlow.asmdef'), 'Runtime/HaptoFlow.asmdef');
-  assert.equal(placeInPackage('Samples~/StylusTracing/README.md'), 'Samples~/StylusTracing/README.md');
-  assert.equal(placeInPackage('Tests/Unity/Runtime/Support/SceneTest.cs'), 'Tests/Runtime/Support/SceneTest.cs');
-  assert.equal(placeInPackage('Tests/Unity/Runtime.meta'), 'Tests/Runtime.meta');
-  for (const ending of ['', '.meta']) assert.equal(placeInPackage(`Assets/Workshop.unity${ending}`), `Samples~/Workshop/Workshop.unity${ending}`);
-  for (const name of ['README.md', 'Assets/Desk.unity', 'Samples~/samples.json', 'Tests/Native/CMakeLists.txt', 'Tests/Unity/package.json', 'Tests/Unity/package.json.meta', 'NativePlugin/include/haptoflow/haptoflow.h', 'Samples~/.editorconfig']) {
-    assert.equal(placeInPackage(name), null, name);
-  }
+test('files go to their places in the package or in that of the studies, and other files of the repository are not packed', () => {
+  const rows = [
+    ['Packages/com.haptoflow.runtime/Runtime/HaptoFlow.asmdef', 'Runtime/HaptoFlow.asmdef', null],
+    ['Packages/com.haptoflow.studies/Samples~/LatencyStudy/Marker.cs', null, 'Samples~/LatencyStudy/Marker.cs'],
+    ['Samples~/StylusTracing/README.md', 'Samples~/StylusTracing/README.md', null],
+    ['Tests/Unity/Runtime.meta', 'Tests/Runtime.meta', null],
+    ['Assets/Workshop.unity', 'Samples~/Workshop/Workshop.unity', null],
+    ['Documentation~/index.md', 'Documentation~/index.md', null],
+    ...['studies.md', 'study-files.md', 'images/delay-budget.png'].map((name) => [`Documentation~/${name}`, null, `Documentation~/${name}`]),
+    ...['README.md', 'Assets/Desk.unity', 'Samples~/samples.json', 'Tests/Native/CMakeLists.txt', 'Tests/Unity/package.json', 'Samples~/.editorconfig'].map((name) => [name, null, null]),
+  ];
+  assert.deepEqual(rows.map(([name]) => [name, placeInPackage(name), placeInPackage(name, studiesName)]), rows);
 });
 
 test('a staged package has the .meta of a library exactly where it has the library', () => {

@@ -9,17 +9,17 @@ import { repositoryFiles } from '../../scripts/lint/checks.mjs';
 const read = (...parts) => readFileSync(inRepository(...parts), 'utf8');
 const pageNames = readdirSync(inRepository('Documentation~')).filter((name) => name.endsWith('.md'));
 const pages = pageNames.map((name) => ({ name, text: read('Documentation~', name) }));
-const unityPages = [...pages, ...['StylusTracing', 'TextureGallery', 'Workshop', 'LatencyStudy', 'SimilarityStudy', 'DeviceCheck'].map((sample) => ({ name: sample, text: read('Samples~', sample, 'README.md') }))];
 const files = await repositoryFiles();
+const readmes = files.filter((name) => /Samples~\/.*README\.md$/.test(name) && !name.includes('HeadlessScenes')).map((name) => ({ name, text: read(name) }));
+const unityPages = [...pages, ...readmes];
 const sources = files
-  .filter((name) => name.startsWith('Packages/com.haptoflow.runtime/') && name.endsWith('.cs'))
+  .filter((name) => name.startsWith('Packages/') && name.endsWith('.cs'))
   .map((name) => ({ name, text: read(name) }));
-const runtime = sources.filter(({ name }) => name.includes('/Runtime/'));
+const runtime = sources.filter(({ name }) => !name.includes('/Editor/'));
 
 test('every menu that a page names is a menu of the package', () => {
   const menus = sources.flatMap(({ text }) => [...text.matchAll(/"((?:Window|GameObject)\/HaptoFlow\/[^"]+)"/g)].map(([, menu]) => menu.replace(/ _?[%#&].*$/, '')));
-  const samples = files.filter((name) => name.startsWith('Samples~/') && name.endsWith('.cs')).map((name) => ({ text: read(name) }));
-  const assets = [...sources, ...samples].flatMap(({ text }) => [...text.matchAll(/menuName = "([^"]+)"/g)].map(([, menu]) => `Assets/Create/${menu}`));
+  const assets = sources.flatMap(({ text }) => [...text.matchAll(/menuName = "([^"]+)"/g)].map(([, menu]) => `Assets/Create/${menu}`));
   const known = [...menus, ...assets];
   for (const { name, text } of unityPages) {
     const words = text.replace(/\s+/g, ' ');
@@ -41,14 +41,12 @@ test('every component that a page adds is in the component menu', () => {
 
 test('every type and member of HaptoFlow that a page names exists and is public', () => {
   const all = runtime.map(({ text }) => text).join('\n');
-  const sampleNames = files.filter((name) => name.startsWith('Samples~/') && name.endsWith('.cs')).map((name) => path.basename(name, '.cs'));
   const types = new Set([...all.matchAll(/public (?:(?:sealed|abstract|static|readonly|unsafe) )*(?:class|struct|enum|delegate \w+) (\w+)/g)].map(([, type]) => type));
-  const isKnown = (type) => types.has(type) || sampleNames.includes(type);
   for (const { name, text } of unityPages) {
     const code = [...text.matchAll(/`([^`\n]+)`/g), ...text.matchAll(/```csharp\n([\s\S]*?)```/g)].map(([, words]) => words).join('\n');
     for (const [, type, member] of code.matchAll(/\b(Haptics|Haptic[A-Z]\w*|HaptoFlow[A-Z]\w*|(?:Voice|Engine)Statistics|(?:Pressure|InputAction|MetaAction)TipForce|TipForceSource|OutputRoute|ContactState)(?:\.(\w+))?/g)) {
       if (['HaptoFlowChannel', 'HaptoFlowStrength', 'HaptoFlowVoice'].includes(type)) continue;
-      assert.ok(isKnown(type), `${name}: ${type}`);
+      assert.ok(types.has(type), `${name}: ${type}`);
       if (member !== undefined && !['cs', 'asset'].includes(member)) assert.match(all, new RegExp(`(public|protected)[^;={(]*\\b${member}\\b|^ +${member}( = \\d+)?,$`, 'm'), `${name}: ${type}.${member}`);
     }
   }

@@ -5,7 +5,7 @@ import { spawnSync } from 'node:child_process';
 import test from 'node:test';
 import { inRepository } from '../../scripts/lib/process.mjs';
 import { PackageFiles } from '../../scripts/pack/package_files.mjs';
-import { guidsByName } from '../../scripts/pack/rules/metas.mjs';
+import { guidsByName } from '../../scripts/pack/rules_of_files.mjs';
 import { projectFiles, rules } from '../../scripts/project/rules.mjs';
 
 const files = await projectFiles();
@@ -182,7 +182,7 @@ test('git ignores what Unity, Rider and Visual Studio write', () => {
 test('git ignores nothing that the project is made of', () => {
   for (const name of [
     'Packages/manifest.json', 'ProjectSettings/ProjectSettings.asset', 'ProjectSettings/GraphicsSettings.asset', 'Assets/Desk.unity', 'Assets/Logs/x.txt', 'Assets/Library/x.asset',
-    'Tests/Dotnet/HaptoFlow.Core/HaptoFlow.Core.csproj', 'Tests/Dotnet/HaptoFlow.slnx', 'Packages/com.haptoflow.runtime/Runtime/Studies/Logs/StudyLog.cs',
+    'Tests/Dotnet/HaptoFlow.Core/HaptoFlow.Core.csproj', 'Tests/Dotnet/HaptoFlow.slnx', 'Packages/com.haptoflow.studies/Runtime/Logs/StudyLog.cs',
   ]) assert.ok(!isIgnored(name), name);
   assert.equal(git('ls-files', '--cached', '--ignored', '--exclude-standard').stdout, '');
 });

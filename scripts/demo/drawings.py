@@ -12,8 +12,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.patches import Polygon
 from matplotlib.patheffects import withStroke
-from renders import TOP_HZ, Render, colour_of, labels_of
-from scene_view import outline, rest_of
+from renders import TOP_HZ, Render, colour_of, labels_of, outline, rest_of
 from scipy.interpolate import CubicHermiteSpline
 from scipy.signal import stft
 

@@ -2,10 +2,9 @@ import { createHash } from 'node:crypto';
 import { copyFileSync, existsSync, mkdirSync, readFileSync, readdirSync, statSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import { dependencyName } from '../pack/dependency.mjs';
-import { namesExportedByElf } from '../pack/elf.mjs';
+import { namesExportedByElf, namesExportedByPe } from '../pack/binaries.mjs';
 import { packageName } from '../pack/layout.mjs';
 import { complaintOfGlibc, kindOfLibrary, platforms, pluginsFolder } from '../pack/natives.mjs';
-import { namesExportedByPe } from '../pack/pe.mjs';
 import { sha256OfBytes } from './measured_part.mjs';
 import { inRepository, repositoryRoot } from './process.mjs';
 

@@ -1,8 +1,8 @@
 import { copyFileSync, cpSync, existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import { runtimeLibrary } from '../pack/dependency.mjs';
-import { loadAlignment } from '../pack/elf.mjs';
-import { androidPageBytes } from '../pack/rules/plugins.mjs';
+import { loadAlignment } from '../pack/binaries.mjs';
+import { androidPageBytes } from '../pack/rules_of_plugins.mjs';
 import { committedPlatforms, fileInPackage, judgeExportsOfDll } from './libraries.mjs';
 import { shippedModel } from './measured_part.mjs';
 import { buildNative, presetFolder } from './native_build.mjs';

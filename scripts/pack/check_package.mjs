@@ -1,11 +1,8 @@
-import { checkAssemblyNames, checkNamespaces, checkPlatforms, checkPrecompiled, checkReferences, checkScriptsBelong } from './rules/assemblies.mjs';
-import { checkAnchors, checkAssetGuids, checkSceneScripts } from './rules/assets.mjs';
-import { checkLinks } from './rules/links.mjs';
-import { checkManifest } from './rules/manifest.mjs';
-import { checkGuids, checkImporters, checkMetasAreThere, checkMetasAreWanted } from './rules/metas.mjs';
-import { checkModelImporter, checkModelReferences } from './rules/models.mjs';
-import { checkCase, checkPathLengths } from './rules/names.mjs';
-import { checkPlugins } from './rules/plugins.mjs';
+import { PackageFiles } from './package_files.mjs';
+import { checkAssemblyNames, checkNamespaces, checkPlatforms, checkPrecompiled, checkReferences, checkScriptsBelong } from './rules_of_assemblies.mjs';
+import { checkAnchors, checkAssetGuids, checkModelImporter, checkModelReferences, checkSceneScripts } from './rules_of_assets.mjs';
+import { checkCase, checkGuids, checkImporters, checkLinks, checkManifest, checkMetasAreThere, checkMetasAreWanted, checkPathLengths } from './rules_of_files.mjs';
+import { checkPlugins } from './rules_of_plugins.mjs';
 
 /** The rules of a package by name. */
 export const rules = {
@@ -31,9 +28,17 @@ export const rules = {
   'native libraries': checkPlugins,
 };
 
+// Sorts before every file of the package, so that of two files with one GUID or name the package's own is complained of.
+const besides = '.needed/';
+
 /**
  * Checks a package for what Unity would refuse, leave out or lose.
- * @param {import('./package_files.mjs').PackageFiles} files
+ * @param {PackageFiles} files
+ * @param {PackageFiles | null} needed the package that it depends on, to whose assemblies and assets it may refer
  * @returns {string[]} one line for each complaint: the file, what is wrong, what was expected; empty for a good package
  */
-export const checkPackage = (files) => Object.values(rules).flatMap((rule) => rule(files));
+export function checkPackage(files, needed = null) {
+  const brought = (needed?.names ?? []).map((name) => [`${besides}${name}`, needed.contents.get(name)]);
+  const all = new PackageFiles(new Map([...files.contents, ...brought]));
+  return Object.values(rules).flatMap((rule) => rule(all)).filter((complaint) => !complaint.startsWith(besides));
+}

@@ -3,18 +3,30 @@ import { inRepository } from '../lib/process.mjs';
 /** Name of the package, as in its manifest. */
 export const packageName = 'com.haptoflow.runtime';
 
+/** Name of the package with the user studies, which depends on the other one. Its folder has its samples, since it needs no library. */
+export const studiesName = 'com.haptoflow.studies';
+
 /** Path of the package's manifest in the repository. */
 export const manifestPath = inRepository('Packages', packageName, 'package.json');
 
-/** Folders of the repository and their places in the package. */
-export const parts = [
-  { from: `Packages/${packageName}`, to: '' },
-  // The .meta files of the libraries that are not in git.
-  { from: 'NativePlugin/import', to: 'Runtime/Plugins' },
-  { from: 'Samples~', to: 'Samples~' },
-  { from: 'Documentation~', to: 'Documentation~' },
-  { from: 'Tests/Unity', to: 'Tests' },
-];
+/** Pages about the studies, and their pictures: they go into the studies' package. */
+const isOfStudies = (name) => /^Documentation~\/(images\/)?(studies|[a-z]+-study|study-[a-z]+|delay-budget)\.[a-z]+$/.test(name);
+
+/** Folders of the repository and their places in each package. */
+const parts = {
+  [packageName]: [
+    { from: `Packages/${packageName}`, to: '' },
+    // The .meta files of the libraries that are not in git.
+    { from: 'NativePlugin/import', to: 'Runtime/Plugins' },
+    { from: 'Samples~', to: 'Samples~' },
+    { from: 'Documentation~', to: 'Documentation~', has: (name) => !isOfStudies(name) },
+    { from: 'Tests/Unity', to: 'Tests' },
+  ],
+  [studiesName]: [
+    { from: `Packages/${studiesName}`, to: '' },
+    { from: 'Documentation~', to: 'Documentation~', has: isOfStudies },
+  ],
+};
 
 /** GUIDs of folders that exist only in the package; git has no .meta for them. */
 export const folderGuids = { Tests: 'b5f0a2d1c6e84f6f9a3d0c7e51482b96' };
@@ -45,12 +57,12 @@ const places = {
 };
 
 /**
- * The place of a repository file in the package; null for a file that is not packed.
+ * The place of a repository file in a package; null for a file that is not packed.
  * @param {string} name relative to the repository, with slashes
  */
-export function placeInPackage(name) {
-  if (name in places) return places[name];
-  const part = parts.find(({ from }) => name.startsWith(`${from}/`));
+export function placeInPackage(name, ofPackage = packageName) {
+  if (name in places) return ofPackage === packageName ? places[name] : null;
+  const part = parts[ofPackage].find(({ from, has = () => true }) => name.startsWith(`${from}/`) && has(name));
   if (!part) return null;
   const place = [part.to, name.slice(part.from.length + 1)].filter((piece) => piece !== '').join('/');
   const isHidden = place.split('/').some((piece) => piece.startsWith('.'));

@@ -4,7 +4,7 @@ import { androidPreset, buildAndroid, findNdk, rebuildAndroid } from '../build/a
 import { buildNative, presetFolder } from '../lib/native_build.mjs';
 import { CommandError, inRepository } from '../lib/process.mjs';
 import { onDebian, setUp } from '../lib/setup.mjs';
-import { isNewerThan, neededGlibc, needsOf } from './elf.mjs';
+import { isNewerThan, neededGlibc, needsOf } from './binaries.mjs';
 
 /** Where the package keeps its native libraries. */
 export const pluginsFolder = 'Runtime/Plugins';

@@ -2,8 +2,33 @@ import { copyFileSync, existsSync, mkdirSync, readFileSync, readdirSync, rmSync,
 import path from 'node:path';
 import { inRepository } from '../lib/process.mjs';
 import { writeHtmlPages } from './html_pages.mjs';
-import { folderGuids, folderMeta, placeInPackage, samplesList } from './layout.mjs';
+import { folderGuids, folderMeta, packageName, placeInPackage, samplesList, studiesName } from './layout.mjs';
 import { platforms, pluginsFolder } from './natives.mjs';
+
+/** Empties a folder and copies there what belongs to a package, by the place of each file. */
+function copyPackage(folder, files, ofPackage, isLeftOut = () => false) {
+  rmSync(folder, { recursive: true, force: true });
+  mkdirSync(folder, { recursive: true });
+  for (const name of files) {
+    const place = placeInPackage(name, ofPackage);
+    if (place !== null && !isLeftOut(place)) copyTo(inRepository(name), path.join(folder, place));
+  }
+}
+
+/** A link to a page that is in another package becomes the page's name: no path leads there. */
+function nameOtherPages(pages, owner) {
+  for (const file of existsSync(pages) ? readdirSync(pages).filter((name) => name.endsWith('.md')) : []) {
+    const named = readFileSync(path.join(pages, file), 'utf8').replace(/\[([^\]]*)\]\(([\w-]+\.md)(#[^)]*)?\)/g, (link, text, page) =>
+      existsSync(path.join(pages, page)) ? link : `${text} (\`${page}\` of ${owner})`);
+    writeFileSync(path.join(pages, file), named);
+  }
+}
+
+/** Assembles the package of the studies in a folder, as `stagePackage` does the other. */
+export function stageStudies(folder, files) {
+  copyPackage(folder, files, studiesName);
+  nameOtherPages(path.join(folder, 'Documentation~'), 'HaptoFlow');
+}
 
 /**
  * Assembles the package in a folder. The folder is emptied first.
@@ -11,16 +36,12 @@ import { platforms, pluginsFolder } from './natives.mjs';
  * @param {{platform: object, file: string}[]} natives the libraries
  */
 export function stagePackage(folder, files, natives) {
-  rmSync(folder, { recursive: true, force: true });
-  mkdirSync(folder, { recursive: true });
-  for (const name of files) {
-    const place = placeInPackage(name);
-    // The libraries are those that were chosen; git may have older ones.
-    if (place !== null && !isLibrary(place)) copyTo(inRepository(name), path.join(folder, place));
-  }
+  // The libraries are those that were chosen; git may have older ones.
+  copyPackage(folder, files, packageName, isLibrary);
   if (files.includes(samplesList)) listSamples(path.join(folder, 'package.json'), inRepository(samplesList));
   for (const { platform, file } of natives) copyTo(file, path.join(folder, pluginsFolder, platform.place));
   dropMetasOfAbsent(path.join(folder, pluginsFolder));
+  nameOtherPages(path.join(folder, 'Documentation~'), 'HaptoFlow Studies');
   if (existsSync(path.join(folder, 'Documentation~'))) writeHtmlPages(path.join(folder, 'Documentation~'));
   for (const [place, guid] of Object.entries(folderGuids)) {
     if (existsSync(path.join(folder, place))) writeFileSync(path.join(folder, `${place}.meta`), folderMeta(guid));

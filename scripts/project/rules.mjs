@@ -3,16 +3,14 @@ import path from 'node:path';
 import { CommandError, inRepository } from '../lib/process.mjs';
 import { repositoryFiles } from '../lint/checks.mjs';
 import { dependencyName } from '../pack/dependency.mjs';
-import { packageName } from '../pack/layout.mjs';
+import { packageName, studiesName } from '../pack/layout.mjs';
 import { PackageFiles } from '../pack/package_files.mjs';
-import { checkAssemblyNames, checkPlatforms, checkReferences, checkScriptsBelong } from '../pack/rules/assemblies.mjs';
-import { checkAnchors, checkAssetGuids, checkSceneScripts, yamlEndings } from '../pack/rules/assets.mjs';
-import { checkGuids, checkImporters, checkMetasAreThere, checkMetasAreWanted, guidsByName } from '../pack/rules/metas.mjs';
-import { checkModelReferences } from '../pack/rules/models.mjs';
-import { checkCase, checkPathLengths } from '../pack/rules/names.mjs';
+import { checkAssemblyNames, checkPlatforms, checkReferences, checkScriptsBelong } from '../pack/rules_of_assemblies.mjs';
+import { checkAnchors, checkAssetGuids, checkModelReferences, checkSceneScripts, yamlEndings } from '../pack/rules_of_assets.mjs';
+import { checkCase, checkGuids, checkImporters, checkMetasAreThere, checkMetasAreWanted, checkPathLengths, guidsByName } from '../pack/rules_of_files.mjs';
 
 /** Folders of the repository into which Unity writes a .meta for every asset, and deletes every .meta without one. */
-export const writableFolders = ['Assets', `Packages/${packageName}`, 'Tests/Unity'];
+export const writableFolders = ['Assets', `Packages/${packageName}`, `Packages/${studiesName}`, 'Tests/Unity'];
 
 /** The list of the project's packages. */
 export const manifestName = 'Packages/manifest.json';
@@ -126,7 +124,7 @@ function checkPackages(files) {
   const complaints = [];
   const { dependencies, testables } = JSON.parse(files.text(manifestName));
   const all = withDependency(files);
-  const local = new Map([[packageName, `Packages/${packageName}`]]);
+  const local = new Map([packageName, studiesName].map((name) => [name, `Packages/${name}`]));
   for (const [name, version] of Object.entries(dependencies)) {
     if (!version.startsWith('file:')) continue;
     const folder = version.startsWith('file:../') ? version.slice('file:../'.length) : `Packages/${version.slice('file:'.length)}`;

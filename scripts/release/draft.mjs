@@ -1,19 +1,18 @@
-// Puts together what a release offers: both tarballs, the demo's page, notes and checksums; --help
-import { copyFileSync, cpSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
+// Puts together what a release offers: the tarballs, the demo's page, notes and checksums; --help
+import { copyFileSync, cpSync, existsSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import { parseArgs } from 'node:util';
 import { sha256Of } from '../lib/measured_part.mjs';
 import { CommandError, callerFolder, inRepository, runMain, runOrFail } from '../lib/process.mjs';
 import { dependencyName } from '../pack/dependency.mjs';
-import { packageName } from '../pack/layout.mjs';
+import { packageName, studiesName } from '../pack/layout.mjs';
 import { platforms, pluginsFolder } from '../pack/natives.mjs';
-import { readTarball } from '../pack/tarball.mjs';
-import { tarballOf } from './tarballs.mjs';
+import { readTarball } from '../pack/package_files.mjs';
 
 const help = `usage: node scripts/release/draft.mjs FOLDER [--tarballs out] [--demo FOLDER]
 
-Empties FOLDER and puts there what a release offers: the two tarballs of \`npm run pack\`, haptoflow-demo.tgz, SHA256SUMS of
-all three, and notes.md: how to install, which platforms have a library, and the version's section of CHANGELOG.md.
+Empties FOLDER and puts there what a release offers: the tarballs of \`npm run pack\`, haptoflow-demo.tgz, SHA256SUMS of
+all, and notes.md: how to install, which platforms have a library, and the version's section of CHANGELOG.md.
 
   --tarballs FOLDER  where the tarballs lie (out)
   --demo FOLDER      the demo's page, as \`npm run demo\` makes it (out/demo)`;
@@ -30,6 +29,13 @@ function optionsOf(words) {
   }
 }
 
+/** The name of the one tarball of a package in a folder. */
+function tarballOf(name, folder) {
+  const found = existsSync(folder) ? readdirSync(folder).filter((file) => file.startsWith(`${name}-`) && file.endsWith('.tgz')) : [];
+  if (found.length !== 1) throw new CommandError(`${folder}: holds ${found.length} tarballs of ${name}; expected one: \`npm run pack\` makes it`);
+  return found[0];
+}
+
 /** The text below a version's heading in CHANGELOG.md. */
 export function changesOf(changelog, version) {
   const sections = changelog.split(/^(?=## )/m);
@@ -38,10 +44,10 @@ export function changesOf(changelog, version) {
   return section.slice(section.indexOf('\n')).trim();
 }
 
-function notesOf({ runtime, tarball, files, version }) {
+function notesOf({ runtime, tarball, studies, files, version }) {
   const rows = platforms.map(({ name, place }) => `| ${name} | ${files.has(`${pluginsFolder}/${place}`) ? 'yes' : 'no'} |`);
-  return `Download both tarballs. In Unity: Window > Package Manager > + > Install package from tarball... (2022.3: Add package
-from tarball...), first \`${runtime}\`, then \`${tarball}\`. \`sha256sum --check SHA256SUMS\` compares what was downloaded.
+  return `Download the tarballs. In Unity: Window > Package Manager > + > Install package from tarball... (2022.3: Add package
+from tarball...), first \`${runtime}\`, then \`${tarball}\`, for user studies also \`${studies}\`. \`sha256sum --check SHA256SUMS\` compares what was downloaded.
 \`haptoflow-demo.tgz\` is a page to look at and listen to.
 
 | platform | library in the package |
@@ -57,13 +63,13 @@ ${changesOf(readFileSync(inRepository('CHANGELOG.md'), 'utf8'), version)}
 if (process.argv[1]?.endsWith('draft.mjs')) {
   await runMain('draft', async (words) => {
     const { folder, tarballs, demo } = optionsOf(words);
-    const [runtime, tarball] = [dependencyName, packageName].map((name) => tarballOf(name, tarballs));
+    const [runtime, tarball, studies] = [dependencyName, packageName, studiesName].map((name) => tarballOf(name, tarballs));
     const files = await readTarball(path.join(tarballs, tarball));
     const { version } = JSON.parse(files.text('package.json'));
-    const notes = notesOf({ runtime, tarball, files, version });
+    const notes = notesOf({ runtime, tarball, studies, files, version });
     rmSync(folder, { recursive: true, force: true });
     mkdirSync(folder, { recursive: true });
-    for (const name of [runtime, tarball]) copyFileSync(path.join(tarballs, name), path.join(folder, name));
+    for (const name of [runtime, tarball, studies]) copyFileSync(path.join(tarballs, name), path.join(folder, name));
     const unpacked = path.join(folder, 'haptoflow-demo');
     cpSync(demo, unpacked, { recursive: true });
     await runOrFail('tar', ['-czf', `${unpacked}.tgz`, '-C', folder, 'haptoflow-demo']);

@@ -4,7 +4,7 @@ import os from 'node:os';
 import path from 'node:path';
 import { parseArgs } from 'node:util';
 import { CommandError, callerFolder, inRepository, run, runMain, runOrFail } from '../lib/process.mjs';
-import { readTarball } from '../pack/tarball.mjs';
+import { readTarball } from '../pack/package_files.mjs';
 
 const help = `usage: node scripts/release/upm_branch.mjs TARBALL --remote URL [--branch upm] [--dry-run]
 

@@ -4,7 +4,7 @@ import path from 'node:path';
 import { shippedModel } from '../lib/measured_part.mjs';
 import { launchers } from '../lib/native_build.mjs';
 import { CommandError, inRepository, runOrFail, succeeds } from '../lib/process.mjs';
-import { makeTarball } from '../pack/tarball.mjs';
+import { makeTarball } from '../pack/package_files.mjs';
 
 /** Where the built engine goes: all that a page needs of it, in one folder. */
 export const engineFolder = () => inRepository('Web', 'dist', 'engine');

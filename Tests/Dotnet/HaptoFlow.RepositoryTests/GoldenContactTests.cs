@@ -4,6 +4,7 @@ using System.IO;
 using System.Linq;
 using HaptoFlow.Contact;
 using HaptoFlow.Model;
+using HaptoFlow.Numerics;
 using HaptoFlow.Tests.Support;
 using NUnit.Framework;
 
@@ -61,5 +62,246 @@ namespace HaptoFlow.RepositoryTests
             Assert.That(statistics.ClockRestarts, Is.EqualTo((ulong)expected["clock_restarts"].AsInteger()));
             Assert.That(statistics.TouchDowns, Is.EqualTo((ulong)expected["touch_downs"].AsInteger()));
         }
+    }
+
+    /// <summary>A case of the golden file, run through the tracker frame by frame.</summary>
+    internal sealed class GoldenScene : IContactGeometry
+    {
+        private readonly JsonValue testCase;
+        private readonly List<GoldenSurface> surfaces = new List<GoldenSurface>();
+        private readonly ContactSettings settings;
+        private int played;
+
+        public GoldenScene(JsonValue testCase)
+        {
+            this.testCase = testCase;
+            settings = SettingsOf(testCase["settings"]);
+            JsonValue scene = testCase["scene"];
+            Tracker = new ContactTracker(settings, scene["stylus"]["tip_radius"].AsNumber()) { Geometry = this };
+            foreach (JsonValue surface in scene["surfaces"].AsArray())
+            {
+                surfaces.Add(new GoldenSurface(surface, testCase["label_stiffness"]));
+            }
+            foreach (JsonValue moving in testCase["surface_poses"].AsArray())
+            {
+                surfaces[moving["surface_index"].AsInteger()].Poses = moving["poses"];
+            }
+        }
+
+        public ContactTracker Tracker { get; }
+
+        public bool TryClosest(ContactBody surface, Double3 tipMetres, out SurfacePoint found)
+        {
+            SurfacePoint? closest = surfaces.Find(each => each.Tracked == surface)!.Closest(Tracker, played, tipMetres);
+            found = closest ?? default;
+            return closest.HasValue;
+        }
+
+        public ContactReading Play(int frame)
+        {
+            played = frame;
+            JsonValue row = testCase["stroke"]["samples"][frame];
+            var position = new Double3(NumberOrNaN(row[1]), NumberOrNaN(row[2]), NumberOrNaN(row[3]));
+            double? force = row[4].IsNull ? (double?)null : row[4].AsNumber();
+            if (Tracker.BeginFrame(new TipSample(NumberOrNaN(row[0]), position, force)))
+            {
+                foreach (GoldenSurface surface in surfaces)
+                {
+                    surface.Offer(Tracker, frame);
+                }
+            }
+            return Tracker.EndFrame();
+        }
+
+        public double ValueOf(in ContactReading reading, string column)
+        {
+            ContactBody? touched = reading.Surface;
+            return column switch
+            {
+                "t" => reading.TimeSeconds,
+                "surface_index" => touched == null ? -1 : surfaces.FindIndex(surface => surface.Tracked == touched),
+                "touching" => reading.State.Touching ? 1.0 : 0.0,
+                "touch_counter" => reading.State.TouchCounter,
+                "px" => reading.PointMetres.X,
+                "py" => reading.PointMetres.Y,
+                "pz" => reading.PointMetres.Z,
+                "nx" => reading.Normal.X,
+                "ny" => reading.Normal.Y,
+                "nz" => reading.Normal.Z,
+                "penetration_m" => reading.PenetrationMetres,
+                "vx_mps" => reading.State.FirstVelocityMps,
+                "vy_mps" => reading.State.SecondVelocityMps,
+                "approach_mps" => reading.State.ApproachSpeedMps,
+                "force_n" => reading.State.ForceNewtons,
+                "landing_counter" => reading.State.LandingCounter,
+                "edge_counter" => reading.State.EdgeCounter,
+                "edge_height_m" => reading.State.EdgeHeightMetres,
+                "place_x" => reading.State.PlaceMetres.X,
+                "place_y" => reading.State.PlaceMetres.Y,
+                "place_z" => reading.State.PlaceMetres.Z,
+                "first_x" => reading.State.FirstAxis.X,
+                "first_y" => reading.State.FirstAxis.Y,
+                "first_z" => reading.State.FirstAxis.Z,
+                "second_x" => reading.State.SecondAxis.X,
+                "second_y" => reading.State.SecondAxis.Y,
+                "second_z" => reading.State.SecondAxis.Z,
+                _ => throw new KeyNotFoundException($"the golden file has a column \"{column}\" that this test does not know"),
+            };
+        }
+
+        private static double NumberOrNaN(JsonValue value) => value.IsNull ? double.NaN : value.AsNumber();
+
+        private static ContactSettings SettingsOf(JsonValue json)
+        {
+            var settings = new ContactSettings
+            {
+                MaximumForceNewtons = json["maximum_force_newtons"].AsNumber(),
+                DefaultStiffnessNewtonsPerMetre = json["default_stiffness_newtons_per_metre"].AsNumber(),
+                ReleaseDistanceMetres = json["release_distance_metres"].AsNumber(),
+                SwitchMarginMetres = json["switch_margin_metres"].AsNumber(),
+                OpenMeshDepthMetres = json["open_mesh_depth_metres"].AsNumber(),
+                LostSeconds = json["lost_seconds"].AsNumber(),
+            };
+            settings.Velocity.WindowSeconds = json["velocity_window_seconds"].AsNumber();
+            settings.Velocity.ApproachSeconds = json["velocity_approach_seconds"].AsNumber();
+            settings.Velocity.HoldSeconds = json["velocity_hold_seconds"].AsNumber();
+            settings.Velocity.StopSeconds = json["velocity_stop_seconds"].AsNumber();
+            settings.Velocity.MaximumGapSeconds = json["velocity_longest_gap_seconds"].AsNumber();
+            settings.Velocity.MinimumStepSeconds = json["velocity_shortest_step_seconds"].AsNumber();
+            settings.Velocity.MinimumMoveMetres = json["velocity_smallest_move_metres"].AsNumber();
+            settings.Velocity.MaximumSpeedMps = json["velocity_fastest_mps"].AsNumber();
+            settings.Velocity.JumpGainMps = json["velocity_jump_gain_mps"].AsNumber();
+            settings.Velocity.JumpAccelerationMps2 = json["velocity_jump_acceleration_mps2"].AsNumber();
+            settings.Velocity.MinimumJumpSeconds = json["velocity_shortest_jump_seconds"].AsNumber();
+            return settings;
+        }
+    }
+
+    /// <summary>A surface of a golden scene: its shape, and its pose at each sample.</summary>
+    internal sealed class GoldenSurface
+    {
+        private readonly JsonValue shape;
+        private readonly RigidPose restingPose;
+        private readonly GoldenMesh? mesh;
+
+        public GoldenSurface(JsonValue surface, JsonValue labelStiffness)
+        {
+            shape = surface["shape"];
+            JsonValue? rotation = surface.Find("rotation");
+            restingPose = new RigidPose(
+                VectorOr(surface.Find("position"), Double3.Zero),
+                rotation == null ? Rotation.Identity : RotationOf(rotation, 0));
+            mesh = shape.Find("mesh") is { } raw ? new GoldenMesh(raw) : null;
+            Tracked = new ContactBody(VectorOr(surface.Find("grain"), Double3.Right), StiffnessOf(surface, labelStiffness));
+        }
+
+        public ContactBody Tracked { get; }
+
+        public JsonValue? Poses { private get; set; }
+
+        public void Offer(ContactTracker tracker, int frame)
+        {
+            RigidPose pose = PoseAt(frame);
+            Tracked.Track.Record(tracker.NowSeconds, pose);
+            Double3? from = tracker.AdvancePath(Tracked, pose);
+            Double3 tip = pose.PointToLocal(tracker.TipMetres);
+            SurfaceEntry? entry = from.HasValue ? EntryInto(from.Value, tip) : null;
+            HeldFace held = tracker.HeldFaceOf(Tracked);
+            held = entry.HasValue ? held.EnteredBy(entry.Value) : held;
+            SurfacePoint? local = Closest(tip, held, tracker.Settings);
+            if (entry.HasValue && !held.IsTouched &&
+                !(local.HasValue && local.Value.BeyondMetres <= 0.0 && local.Value.SignedDistanceMetres <= 0.0))
+            {
+                local = entry.Value.PassedBy(tip);
+            }
+            if (local.HasValue && local.Value.SignedDistanceMetres <= tracker.ReachMetresOf(Tracked))
+            {
+                tracker.Consider(new ContactCandidate(Tracked, pose, local.Value, entry?.Share ?? 2.0));
+            }
+        }
+
+        public SurfacePoint? Closest(ContactTracker tracker, int frame, Double3 tipMetres) =>
+            Closest(PoseAt(frame).PointToLocal(tipMetres), tracker.HeldFaceOf(Tracked), tracker.Settings);
+
+        private RigidPose PoseAt(int frame) => Poses == null
+            ? restingPose
+            : new RigidPose(VectorAt(Poses[frame], 0), RotationOf(Poses[frame], 3));
+
+        private SurfacePoint? Closest(Double3 tip, in HeldFace held, ContactSettings settings)
+        {
+            if (shape.Find("box") is { } box)
+            {
+                return Shapes.OnBox(VectorAt(box["size"], 0), tip, held);
+            }
+            if (RoundSize() is { } round)
+            {
+                return Shapes.OnCapsule(round.Radius, round.Height, tip, held);
+            }
+            return mesh == null ? Shapes.OnPlane(tip) : mesh.Closest(tip, held);
+        }
+
+        private SurfaceEntry? EntryInto(Double3 from, Double3 tip)
+        {
+            if (shape.Find("box") is { } box)
+            {
+                return Shapes.EntryOfBox(VectorAt(box["size"], 0), from, tip);
+            }
+            if (RoundSize() is { } round)
+            {
+                return Shapes.EntryOfCapsule(round.Radius, round.Height, from, tip);
+            }
+            return mesh == null ? Shapes.EntryOfPlane(from, tip) : mesh.EntryInto(from, tip);
+        }
+
+        /// <summary>Radius and height of a sphere or a capsule.</summary>
+        private (double Radius, double Height)? RoundSize()
+        {
+            if (shape.Find("sphere") is { } sphere)
+            {
+                return (sphere["radius"].AsNumber(), 0.0);
+            }
+            return shape.Find("capsule") is { } capsule
+                ? (capsule["radius"].AsNumber(), capsule["height"].AsNumber())
+                : ((double, double)?)null;
+        }
+
+        private static double StiffnessOf(JsonValue surface, JsonValue labelStiffness)
+        {
+            if (surface.Find("stiffness") is { } own)
+            {
+                return own.AsNumber();
+            }
+            double weighted = 0.0;
+            double weights = 0.0;
+            foreach ((string label, double weight) in MaterialOf(surface["material"]))
+            {
+                if (labelStiffness.Find(label) is { } stiffness)
+                {
+                    weighted += weight * stiffness.AsNumber();
+                    weights += weight;
+                }
+            }
+            return weights > 0.0 ? weighted / weights : 0.0;
+        }
+
+        private static IEnumerable<(string, double)> MaterialOf(JsonValue material)
+        {
+            try
+            {
+                return new[] { (material.AsText(), 1.0) };
+            }
+            catch (System.FormatException)
+            {
+                return material.AsObject().Select(entry => (entry.Key, entry.Value.AsNumber()));
+            }
+        }
+
+        private static Double3 VectorOr(JsonValue? value, Double3 fallback) => value == null ? fallback : VectorAt(value, 0);
+
+        private static Double3 VectorAt(JsonValue row, int start) =>
+            new Double3(row[start].AsNumber(), row[start + 1].AsNumber(), row[start + 2].AsNumber());
+
+        private static Rotation RotationOf(JsonValue row, int start) => new Rotation(
+            row[start].AsNumber(), row[start + 1].AsNumber(), row[start + 2].AsNumber(), row[start + 3].AsNumber());
     }
 }

@@ -58,39 +58,6 @@ namespace HaptoFlow.SampleTests
         }
 
         [Test]
-        public void TheGrilleSlidesOnTheAlignedTable()
-        {
-            Hover(0);
-            Press("<Keyboard>/a");
-            for (int corner = 0; corner < 3; ++corner)
-            {
-                Rest(corner);
-            }
-            Transform exhibits = Step().transform;
-            Transform grille = exhibits.Find("Sliding Grille")!;
-            float minimum = float.MaxValue;
-            float maximum = float.MinValue;
-            for (int frame = 0; frame < 2.5 * World.FrameRateHz; ++frame)
-            {
-                World.Frame();
-                Vector3 local = exhibits.InverseTransformPoint(grille.position);
-                minimum = Math.Min(minimum, local.x);
-                maximum = Math.Max(maximum, local.x);
-                Assert.That(local.y, Is.EqualTo(0.016f).Within(1e-4f));
-                Assert.That(local.z, Is.EqualTo(0.12f).Within(1e-4f));
-            }
-            Assert.That(minimum, Is.EqualTo(0.26f).Within(2e-3f));
-            Assert.That(maximum, Is.EqualTo(0.34f).Within(2e-3f));
-        }
-
-        [Test]
-        public void WithoutAPenThatMeasuresForceTheTextSaysSo()
-        {
-            Press("<Keyboard>/a");
-            Assert.That(Step().Text, Does.Contain("no stylus"));
-        }
-
-        [Test]
         public void UndoRemovesThePointsAndThenTheAlignment()
         {
             Hover(0);

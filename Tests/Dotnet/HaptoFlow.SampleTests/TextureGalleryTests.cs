@@ -90,19 +90,6 @@ namespace HaptoFlow.SampleTests
             Assert.That(boards.Single().Text, Does.Contain("no model is chosen"));
         }
 
-        [Test]
-        public void NoTwoTilesHaveTheSamePlace()
-        {
-            for (int count = 1; count <= 60; ++count)
-            {
-                var wall = new Wall(count);
-                List<Vector3> places = Enumerable.Range(0, count).Select(wall.Place).ToList();
-                Assert.That(places.Distinct().Count(), Is.EqualTo(count), $"{count} tiles");
-                Assert.That(places.Max(place => Math.Abs(place.x)), Is.LessThanOrEqualTo(0.5f * wall.Size.x));
-                Assert.That(places.Max(place => Math.Abs(place.y)), Is.LessThanOrEqualTo(0.5f * wall.Size.y));
-            }
-        }
-
         private GalleryScene Open() => Wake<GalleryScene>(bootstrap => bootstrap.View = camera);
     }
 }

@@ -84,18 +84,6 @@ namespace HaptoFlow.SampleTests
                 Is.EquivalentTo(Enumerable.Range(0, scene.Map.Rules.Count)));
         }
 
-        [TestCase("AddMaterialPanel.cs")]
-        [TestCase("Recordings/doormat.wav.bytes")]
-        [TestCase("Recordings/doormat.json")]
-        [TestCase("Recordings/doormat.motion.csv")]
-        public void TheSceneFileRefersToThePanelAndItsRecording(string name)
-        {
-            string meta = File.ReadAllText(RepositoryFiles.In(
-                "Packages", "com.haptoflow.runtime", "Runtime", "SampleScenes", "Workshop", name + ".meta"));
-            string guid = Regex.Match(meta, "guid: (\\w{32})").Groups[1].Value;
-            Assert.That(File.ReadAllText(SampleFiles.Scene("Workshop")), Does.Contain(guid));
-        }
-
         [Test]
         public void TheSceneDestroysTheAssetsThatItCreated()
         {

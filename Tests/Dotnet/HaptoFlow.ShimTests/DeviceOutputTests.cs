@@ -249,7 +249,7 @@ namespace HaptoFlow.ShimTests
         }
 
         /// <summary>Runs only when selected: <c>dotnet test Tests/Dotnet/HaptoFlow.ShimTests --filter
-        /// TestCategory=DocumentationPicture</c> writes the two waves for <c>scripts/pack/effect_pictures.py</c>.
+        /// TestCategory=DocumentationPicture</c> writes the two waves for <c>scripts/pack/pictures.py</c>.
         /// </summary>
         [Test, Explicit, Category("DocumentationPicture")]
         public void WavesForTheDocumentationAreWritten()

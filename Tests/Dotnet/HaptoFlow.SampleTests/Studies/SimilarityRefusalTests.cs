@@ -1,0 +1,245 @@
+using System;
+using System.Collections.Generic;
+using System.IO;
+using System.Linq;
+using System.Reflection;
+using System.Text.RegularExpressions;
+using System.Threading.Tasks;
+using HaptoFlow.Model;
+using HaptoFlow.Samples.SimilarityStudy;
+using HaptoFlow.Studies;
+using HaptoFlow.Tests;
+using HaptoFlow.Tests.Support;
+using NUnit.Framework;
+using UnityEngine;
+using UnityShim;
+
+namespace HaptoFlow.SampleTests
+{
+    /// <summary>Problems that stop the study before it begins, and their messages.</summary>
+    public sealed class SimilarityRefusalTests : SimilarityTest
+    {
+        private static IEnumerable<TestCaseData> Methods()
+        {
+            TestCaseData Case(string name, Func<StudyMethod> method, params string[] words) =>
+                new TestCaseData(method, words).SetArgDisplayNames(name);
+            yield return Case("damaged file", () => new StudyMethod("DSTN", Named(EditedModel.Damaged(), "dstn-1"),
+                HapticQuality.Standard), "method \"DSTN\"", "dstn-1.haptoflow", "checksum");
+            yield return Case("no model", () => new StudyMethod("SPSI", null, HapticQuality.Standard),
+                "method \"SPSI\"", "has no model");
+            yield return Case("Auto", () => new StudyMethod("SPSI", DefaultModel.Asset(), HapticQuality.Auto),
+                "method \"SPSI\"", "quality Auto");
+            // The second is the quality of a settings asset of an earlier version.
+            foreach (HapticQuality quality in new[] { HapticQuality.Standard, (HapticQuality)3 })
+            {
+                yield return Case("twice, " + quality, () => new StudyMethod("Best", DefaultModel.Asset(), quality),
+                    "\"Ours\" and \"Best\" are the same tier \"standard\"");
+            }
+            foreach (string name in new[] { "Ours", "", "a,b" })
+            {
+                yield return Case("name " + name, () => new StudyMethod(name, EditedModel.OfAnotherSpace(),
+                    HapticQuality.Standard), $"\"{name}\"");
+            }
+        }
+
+        [TestCaseSource(nameof(Methods))]
+        public void AMethodThatCannotBeComparedStopsTheStudy(Func<StudyMethod> method, string[] words)
+        {
+            SimilarityStudySettings settings = Settings(1, 3);
+            settings.Compare(settings.Materials, settings.Methods.Append(method()));
+            Refused(settings, words);
+        }
+
+        [TestCase("Hemp cloth", "hemp", "method \"Ours quick\" has no label \"hemp\"", "wood, plywood")]
+        [TestCase("Void", " ", "material \"Void\"", "neither a label nor a Haptic Material")]
+        public void AMaterialThatNoModelHasStopsTheStudy(string name, string label, params string[] words)
+        {
+            SimilarityStudySettings settings = Settings(1, 2);
+            settings.Compare(settings.Materials.Append(new StudyMaterial(name, label)), settings.Methods);
+            Refused(settings, words);
+        }
+
+        [Test]
+        public void OnlyALearntMaterialOfAnotherModelStopsTheStudy()
+        {
+            HapticMaterial denim =
+                HapticMaterial.Create(MaterialText.OfLabel(DefaultModel.Asset().File, "glass"), "cotton");
+            SimilarityStudySettings settings = Settings(
+                new[] { new StudyMaterial("Denim", "", denim) }, Settings(1, 2).Methods);
+            Begin(settings);
+            scene.Session!.Continue();
+            TraceReal();
+            AudioDevice.Forget();
+            TraceVirtual();
+            Assert.That(Haptics.LearntMaterials, Is.EqualTo(1));
+            Assert.That(LoudestFelt(), Is.GreaterThan(Audible));
+            Crash();
+            Directory.Delete(folder, true);
+            settings.Compare(settings.Materials, settings.Methods.Append(
+                new StudyMethod("Foreign", EditedModel.OfAnotherSpace(), HapticQuality.Standard)));
+            Refused(settings, "material \"Denim\"", "method \"Foreign\"", "another model");
+            UnityEngine.Object.DestroyImmediate(denim);
+        }
+
+        [Test]
+        public void MissingSettingsMaterialsOrMethodsStopTheStudy()
+        {
+            Refused(Settings(0, 2), "materials: a study needs at least one");
+            Crash();
+            Refused(Settings(1, 0), "methods: a study needs at least one");
+            Crash();
+            Refused(null, "no settings are chosen");
+        }
+
+        [Test]
+        public void AMethodSlowerThanTheEqualDelayStopsTheStudyAndIsNamed()
+        {
+            SimilarityStudySettings settings = Settings(1, 2);
+            settings.EqualDelayMilliseconds = 60f;
+            inference = new Dictionary<string, double> { ["Rival quick"] = 80.0 };
+            Open(settings);
+            Prepare();
+            scene.Begin(7);
+            Assert.That(scene.Problem, Does.Contain("method \"Rival quick\" cannot have a delay of 60 ms"));
+            Assert.That((scene.Session, Directory.Exists(folder)), Is.EqualTo(((StudySession?)null, false)));
+        }
+
+        [Test]
+        public void AFailedMeasurementStopsTheStudyAndNamesTheMethod()
+        {
+            measure = (_, _) => Task.FromException<double>(new InvalidOperationException("no voice is free"));
+            Open(Settings(1, 2));
+            Prepare();
+            Assert.That(scene.Problem,
+                Does.Contain("method \"Ours quick\": its delay could not be measured: no voice"));
+        }
+
+        [Test]
+        public void AFinishedParticipantIsRefusedAndAnotherCanBegin()
+        {
+            SimilarityStudySettings settings = Settings(1, 1);
+            Begin(settings);
+            TakePart();
+            Crash();
+            Open(settings);
+            Prepare();
+            scene.Begin(7);
+            Assert.That(scene.Problem, Does.Contain("participant 7 has finished this study"));
+            scene.Begin(8);
+            Assert.That((scene.Problem, scene.Session!.Plan.Participant), Is.EqualTo(((string?)null, 8)));
+        }
+
+        [Test]
+        public void WithoutUnitysAudioTheStudyIsRefusedWithTheReason()
+        {
+            AudioDevice.IsSwitchedOff = true;
+            Open(Settings(1, 2));
+            Prepare();
+            scene.Begin(7);
+            Assert.That(scene.Problem, Does.Contain("Disable Unity Audio"));
+            Assert.That(scene.Session, Is.Null);
+            Assert.That(Directory.Exists(folder), Is.False, "nothing was begun");
+        }
+
+        [Test]
+        public void AResumedSessionKeepsItsDelay()
+        {
+            SimilarityStudySettings settings = Settings(1, 2);
+            inference = new Dictionary<string, double> { ["Ours quick"] = 20.0 };
+            Begin(settings);
+            TakePart(3);
+            double planned = scene.Delay!.Milliseconds;
+            Crash();
+            inference = new Dictionary<string, double> { ["Ours quick"] = 21.5 };
+            Begin(settings);
+            Assert.That(scene.Delay!.Milliseconds, Is.EqualTo(planned));
+            TakePart();
+            Assert.That(Rows().Select(row => Number(row, "delay_ms")), Is.All.EqualTo(planned));
+            Assert.That(Rows().Where(row => row["method"] == "Ours quick").Select(row => row["system_delay_ms"])
+                .Distinct().Count(), Is.EqualTo(2));
+        }
+
+        [Test]
+        public void AnInterruptedSessionIsNotResumedWhenAMethodHasBecomeTooSlow()
+        {
+            SimilarityStudySettings settings = Settings(1, 2);
+            Begin(settings);
+            TakePart(3);
+            byte[] before = File.ReadAllBytes(Csv);
+            Crash();
+            inference = new Dictionary<string, double> { ["Ours quick"] = 90.0 };
+            Open(settings);
+            Prepare();
+            scene.Begin(7);
+            Assert.That(scene.Problem, Does.Contain("method \"Ours quick\" cannot have a delay of"));
+            Assert.That(File.ReadAllBytes(Csv), Is.EqualTo(before));
+        }
+
+        [TestCase(0.25f, 0f, "would overlap")]
+        [TestCase(0.01f, 0.3f, "at least 0.02")]
+        public void ObjectsThatCannotBeTracedStopTheStudy(float width, float aside, string expected)
+        {
+            SimilarityStudySettings settings = Settings(1, 2);
+            Set(settings, "sampleMetres", new Vector3(width, 0.01f, 0.15f));
+            Set(settings, "virtualMetres", new Vector3(aside, 0f, 0f));
+            Refused(settings, expected);
+        }
+
+        private void Refused(SimilarityStudySettings? settings, params string[] words)
+        {
+            Open(settings);
+            Prepare();
+            Assert.That(scene.Problem, Is.Not.Null);
+            foreach (string word in words)
+            {
+                Assert.That(scene.Problem, Does.Contain(word));
+            }
+            scene.Begin(7);
+            PlayFor(0.5);
+            Assert.That(scene.Session, Is.Null);
+            Assert.That(scene.Operator.Lines, Has.Some.StartsWith("STOPPED: "));
+            Assert.That(Directory.Exists(folder), Is.False, "nothing was begun");
+        }
+
+        private static void Set(SimilarityStudySettings settings, string field, object value) => settings.GetType()
+            .GetField(field, System.Reflection.BindingFlags.NonPublic | System.Reflection.BindingFlags.Instance)!
+            .SetValue(settings, value);
+    }
+
+    /// <summary>The scene file and the settings asset of the sample.</summary>
+    public sealed class SimilarityAssetTests : SimilarityTest
+    {
+        private static string Asset => File.ReadAllText(SampleFiles.In("SimilarityStudy", "SimilarityStudySettings.asset"));
+
+        [Test]
+        public void TheSettingsAssetContainsEveryFieldExactlyOnce()
+        {
+            IEnumerable<string> keys = Regex.Matches(Asset, @"^  ([a-z]\w*):", RegexOptions.Multiline)
+                .Select(match => match.Groups[1].Value).Where(key => !key.StartsWith("m_"));
+            Assert.That(keys, Is.EquivalentTo(FieldsOf<SimilarityStudySettings>().Concat(FieldsOf<StudySettings>())));
+            Assert.That(KeysOfEntries("materials"), Is.EquivalentTo(FieldsOf<StudyMaterial>()));
+            Assert.That(KeysOfEntries("methods"), Is.EquivalentTo(FieldsOf<StudyMethod>()));
+        }
+
+        [TestCase("SimilarityStudyScene.cs")]
+        [TestCase("SimilarityStudySettings.asset")]
+        public void TheSceneFileRefersToItsScriptAndItsSettings(string name)
+        {
+            string meta = File.ReadAllText(SampleFiles.In("SimilarityStudy", name + ".meta"));
+            string guid = Regex.Match(meta, "guid: (\\w{32})").Groups[1].Value;
+            Assert.That(File.ReadAllText(SampleFiles.In("SimilarityStudy", "SimilarityStudy.unity")), Does.Contain(guid));
+        }
+
+        private static IEnumerable<string> KeysOfEntries(string list)
+        {
+            string text = Regex.Match(
+                Asset, $@"^  {list}:\n((?:  [- ] .*\n)+)", RegexOptions.Multiline).Groups[1].Value;
+            return Regex.Matches(text, @"^  [- ] (\w+):", RegexOptions.Multiline)
+                .Select(match => match.Groups[1].Value).Distinct();
+        }
+
+        private static IEnumerable<string> FieldsOf<T>() => typeof(T)
+            .GetFields(BindingFlags.Instance | BindingFlags.NonPublic)
+            .Where(field => field.GetCustomAttribute<SerializeField>() != null).Select(field => field.Name);
+    }
+}

@@ -1,0 +1,123 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using HaptoFlow.Samples.SimilarityStudy;
+using HaptoFlow.Studies;
+using HaptoFlow.Tests;
+using NUnit.Framework;
+using UnityEngine;
+using UnityShim;
+
+namespace HaptoFlow.SampleTests
+{
+    /// <summary>The output of a trial: its model, its material, its delay.</summary>
+    public sealed class SimilaritySoundTests : SimilarityTest
+    {
+        private const int OutputHz = 48000;
+        private const int BlockFrames = 512;
+        private static readonly string[] Two = { "wood", "metal mesh" };
+
+        [Test]
+        public void EveryTrialUsesOnlyThePlannedModelAndTier()
+        {
+            Begin(Settings(2, 4));
+            int trials = 0;
+            while (scene.Session!.Phase != StudyPhase.Finished)
+            {
+                scene.Session.Continue();
+                if (scene.Session.Phase != StudyPhase.Task)
+                {
+                    continue;
+                }
+                PlannedTrial trial = scene.Session.Trial!;
+                TraceReal();
+                HapticEngine before = HapticSession.Current.Engine!;
+                ulong segments = before.Statistics().Segments;
+                TraceVirtual();
+                HapticLoadedModel planned = scene.Models!.Of(trial.Method!);
+                StudyMethod method = scene.Settings!.Methods.Single(each => each.Name == trial.Method);
+                Assert.That(planned.IsInUse, Is.True, $"trial {trial.Trial}");
+                Assert.That(planned.Model, Is.SameAs(method.Model));
+                Assert.That(planned.TierName, Is.EqualTo(method.Quality == HapticQuality.Draft ? "draft" : "standard"));
+                Assert.That(HapticSession.Current.Engine, Is.SameAs(before));
+                Assert.That(before.Statistics().Segments, Is.GreaterThan(segments), $"trial {trial.Trial}");
+                StudyMaterial material = scene.Settings.Materials.Single(each => each.Name == trial.Material);
+                Assert.That(scene.Pen.Contact.Material!.Label, Is.EqualTo(material.Label));
+                Assert.That(scene.Virtual.Surface.SharedDescription.Effects, Is.EqualTo(HapticEffects.Texture));
+                Answer(4);
+                ++trials;
+            }
+            Assert.That(trials, Is.EqualTo(4 + 8));
+        }
+
+        [Test]
+        public void EveryMethodIsDelayedToTheSlowestOne()
+        {
+            inference = new Dictionary<string, double> { ["Ours quick"] = 3.0, ["Rival quick"] = 33.0 };
+            // One audio block per frame, so that a touch comes at the same position of a block in every trial.
+            World.FrameRateHz = OutputHz / (double)BlockFrames;
+            Begin(Settings(1, 2));
+            var onset = new Dictionary<string, double>();
+            var artificial = new Dictionary<string, double>();
+            double block = 1000.0 * BlockFrames / OutputHz;
+            while (scene.Session!.Phase != StudyPhase.Finished)
+            {
+                scene.Session.Continue();
+                if (scene.Session.Phase != StudyPhase.Task)
+                {
+                    continue;
+                }
+                string method = scene.Session.Trial!.Method!;
+                TraceReal();
+                TraceVirtual();
+                onset[method] = OnsetMilliseconds();
+                float set = scene.Output.Processing.DelayMilliseconds;
+                Answer(4);
+                Dictionary<string, string> row = Rows().Last();
+                artificial[method] = Number(row, "artificial_delay_ms");
+                double system = Number(row, "system_delay_ms");
+                // The sum of frame, method, block, and the device delay of 20 ms in the settings.
+                Assert.That(system, Is.EqualTo(block + inference[method] + block + 20.0).Within(0.1));
+                Assert.That(Number(row, "delay_ms"), Is.EqualTo(Math.Ceiling(2.0 * block + 33.0 + 20.0 + 2.0)));
+                Assert.That(set, Is.EqualTo(artificial[method]).Within(1e-3));
+            }
+            Assert.That(artificial["Ours quick"] - artificial["Rival quick"], Is.EqualTo(30.0).Within(0.01));
+            Assert.That(onset["Ours quick"] - onset["Rival quick"], Is.EqualTo(30.0).Within(1.5));
+            Assert.That(artificial["Rival quick"], Is.InRange(EqualDelay.ReserveMilliseconds,
+                EqualDelay.ReserveMilliseconds + 1.0));
+        }
+
+        [Test]
+        public void EveryMethodIsMeasuredLiveByDefault()
+        {
+            measure = null;
+            Open(Settings(1, 2));
+            Prepare();
+            scene.Begin(7);
+            foreach (StudyMethod method in scene.Settings!.Methods)
+            {
+                Assert.That(scene.Models!.InferenceMilliseconds(method.Name), Is.GreaterThan(0.0), method.Name);
+            }
+            double slowest = scene.Settings.Methods.Max(each => scene.Delay!.Of(each.Name).TotalMilliseconds);
+            Assert.That(scene.Delay!.Milliseconds, Is.InRange(slowest + 2.0, slowest + 3.0));
+        }
+
+        /// <summary>The time from the frame of a touch-down to the first vibration.</summary>
+        private double OnsetMilliseconds()
+        {
+            Vector3 place = Corner(scene.Virtual.Frame, 0);
+            Vector3 down = 0.001f * Vector3.up;
+            Hold(place + 0.02f * Vector3.up);
+            PlayFor(0.3);
+            AudioDevice.Forget();
+            for (int frame = 0; frame < 20; ++frame)
+            {
+                Hold(place + down + 0.004f * (frame + 1) * Vector3.right);
+            }
+            Hold(place + 0.05f * Vector3.up);
+            int first = Enumerable.Range(0, AudioDevice.RecordedFrames)
+                .First(frame => Math.Abs(AudioDevice.Sample(frame, scene.Output.Channel)) > 0f);
+            return 1000.0 * first / OutputHz;
+        }
+    }
+}

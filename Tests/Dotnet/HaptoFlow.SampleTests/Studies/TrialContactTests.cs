@@ -1,0 +1,124 @@
+#nullable enable
+using System;
+using HaptoFlow.Studies;
+using HaptoFlow.Tests;
+using NUnit.Framework;
+using UnityEngine;
+using UnityShim;
+
+namespace HaptoFlow.SampleTests
+{
+    /// <summary>Statistics of a trial for a stroke of known length, time and force.</summary>
+    public sealed class TrialContactTests : SceneTest
+    {
+        [Test]
+        public void PathTimeSpeedAndForceAreMeasuredOverTheStroke()
+        {
+            Board();
+            // 0.15 m/s, 1 mm below the surface with a tip of 2 mm radius: the penetration depth is 3 mm.
+            HapticStylus stylus = StylusAlong(seconds => new Vector3(-0.15f + 0.15f * (float)seconds, 0.001f, 0f));
+            FinishLoading();
+            World.Frames(10);
+            using var contact = new TrialContact(stylus);
+            World.Frames(90);
+            Assert.That(contact.ContactSeconds, Is.EqualTo(1.0).Within(0.012));
+            Assert.That(contact.PathMillimetres, Is.EqualTo(150.0).Within(3.0));
+            Assert.That(contact.MeanSpeedMmps, Is.EqualTo(150.0).Within(1.0));
+            Assert.That(contact.MeanForceNewtons, Is.EqualTo(stylus.Contact.ForceNewtons).Within(0.01));
+            Assert.That(contact.IsMoving, Is.True);
+            contact.Begin();
+            Assert.That((contact.ContactSeconds, contact.PathMillimetres), Is.EqualTo((0.0, 0.0)));
+        }
+
+        [Test]
+        public void StartsAndStopsAreCountedAlsoWhenThePenLifts()
+        {
+            Board();
+            HapticStylus stylus = StylusAlong(Stops);
+            FinishLoading();
+            using var contact = new TrialContact(stylus);
+            World.Frames(45);
+            Assert.That((contact.Starts, contact.Stops), Is.EqualTo((1, 0)), "the tip slides");
+            World.Frames(45);
+            Assert.That((contact.Starts, contact.Stops), Is.EqualTo((1, 1)), "it rests");
+            World.Frames(45);
+            Assert.That((contact.Starts, contact.Stops), Is.EqualTo((2, 1)), "the tip slides again");
+            World.Frames(45);
+            Assert.That((contact.Starts, contact.Stops), Is.EqualTo((2, 2)), "the tip was lifted");
+            Assert.That(contact.ContactSeconds, Is.EqualTo(1.5).Within(0.05));
+        }
+
+        [Test]
+        public void OnlyTheChosenSurfaceOfAStrokeCounts()
+        {
+            HapticSurface left = Board();
+            HapticSurface right = Board("fur");
+            right.transform.position = new Vector3(0.4f, 0f, 0f);
+            // 20 cm on the left board, then 10 cm on the right one.
+            HapticStylus stylus = StylusAlong(seconds => new Vector3(0.2f * (float)seconds, 0.001f, 0f));
+            FinishLoading();
+            using var all = new TrialContact(stylus);
+            using var onLeft = new TrialContact(stylus, left);
+            using var onRight = new TrialContact(stylus, right);
+            World.Frames(136);
+            Assert.That(onLeft.PathMillimetres, Is.EqualTo(200.0).Within(6.0));
+            Assert.That(onRight.PathMillimetres, Is.EqualTo(100.0).Within(6.0));
+            Assert.That(onLeft.ContactSeconds + onRight.ContactSeconds, Is.EqualTo(all.ContactSeconds).Within(1e-9));
+            Assert.That((onLeft.Starts, onLeft.Stops, onRight.IsMoving), Is.EqualTo((1, 1, true)));
+        }
+
+        private static Vector3 Stops(double seconds)
+        {
+            double slides = Math.Min(seconds, 0.5) + Math.Max(0.0, Math.Min(seconds, 1.5) - 1.0);
+            float height = seconds < 1.5 ? 0.001f : 0.05f;
+            return new Vector3(-0.1f + 0.1f * (float)slides, height, 0f);
+        }
+    }
+
+    /// <summary>The delay that must be added to the system's for a delay level.</summary>
+    public sealed class SystemDelayTests
+    {
+        private static readonly SystemDelay System = new SystemDelay(13.9, 0.0, 10.7, 5.0);
+
+        [Test]
+        public void TheArtificialDelayIsWhatRemainsAfterTheFourParts()
+        {
+            Assert.That(System.TotalMilliseconds, Is.EqualTo(29.6).Within(1e-12));
+            Assert.That(System.ArtificialMilliseconds(50.0), Is.EqualTo(20.4).Within(1e-12));
+            Assert.That(System.ArtificialMilliseconds(System.TotalMilliseconds), Is.Zero);
+        }
+
+        [Test]
+        public void UnreachableLevelsAreRefusedWithThePartsOfTheSystemDelay()
+        {
+            var slow = new SystemDelay(13.9, 0.0, 21.3, 25.0);
+            Assert.That(() => slow.CheckReaches(new[] { 50.0, 60.0, 70.0, 570.0 }), Throws.TypeOf<StudyException>().With
+                .Message.Contains("level 50, 60, 570 ms cannot be reached").And
+                .Message.Contains("60.2 ms (pose interval 13.9 + inference 0.0 + block 21.3 + device 25.0)").And
+                .Message.Contains("levels_ms"));
+            Assert.That(() => slow.CheckReaches(new[] { 70.0, 560.0 }), Throws.Nothing);
+            Assert.That(() => slow.ArtificialMilliseconds(50.0), Throws.TypeOf<StudyException>());
+        }
+
+        [TestCase(double.NaN)]
+        [TestCase(-1.0)]
+        [TestCase(double.PositiveInfinity)]
+        public void AnInvalidPartIsRefusedByName(double milliseconds) => Assert.That(
+            () => new SystemDelay(1.0, 1.0, 1.0, milliseconds),
+            Throws.TypeOf<StudyException>().With.Message.StartsWith("device_ms"));
+
+        [Test]
+        public void ALateFrameDoesNotChangeThePoseInterval()
+        {
+            var interval = new PoseInterval();
+            for (int frame = 0; frame < 200; ++frame)
+            {
+                interval.Add(frame % 10 == 9 ? 0.5 : 1.0 / 72.0);
+            }
+            interval.Add(double.NaN);
+            interval.Add(-3.0);
+            interval.Add(1e9);
+            Assert.That(interval.MedianMilliseconds, Is.EqualTo(1000.0 / 72.0).Within(1e-9));
+        }
+    }
+}
