@@ -88,7 +88,7 @@ constexpr double shelfEndHz = 1500.0;
 // Envelope of the brightened wave in m/s^2 that is played at this share of the full scale, and the slope around it.
 // scripts/pack/device_levels.py prints the levels that result.
 constexpr float middleEnvelopeMps2 = 12.0F;
-constexpr float middleShare = 0.4F;
+constexpr float listenShare = 0.4F;
 constexpr float exponent = 0.4F;
 constexpr float softKnee = 0.7F;
 constexpr float ceiling = 0.9F;
@@ -99,7 +99,7 @@ constexpr float largestMps2 = 1e6F;
 constexpr float loudEnvelopeMps2 = 200.0F;
 
 float shareOf(float envelopeMps2) noexcept {
-    const float share = middleShare * std::pow(envelopeMps2 / middleEnvelopeMps2, exponent);
+    const float share = listenShare * std::pow(envelopeMps2 / middleEnvelopeMps2, exponent);
     constexpr float room = ceiling - softKnee;
     return share <= softKnee ? share : ceiling - room * room / (room + share - softKnee);
 }

@@ -273,7 +273,9 @@ void LiveEngine::setQuality(const QualitySettings& quality) {
     }
     requireServedQuality(quality, settings_.hasWorker);
     if (!isLoaded(quality)) {
-        throw std::invalid_argument("quality: the tier needs ONNX Runtime, which this engine was created without");
+        const std::string tier =
+            quality.fixedTier ? '"' + model_->header().tiers[*quality.fixedTier].name + '"' : "auto";
+        throw std::invalid_argument("quality: " + tier + " needs ONNX Runtime, which this engine was created without");
     }
     {
         const std::lock_guard lock(qualityMutex_);

@@ -404,8 +404,8 @@ TEST_F(HandleTest, ACopyOfAClosedHandleIsRefusedEvenAfterAnotherIsOpened) {
 
 TEST_F(HandleTest, AStructOfAnotherSizeIsRefusedAndKeepsItsContent) {
     haptoflow_tier_info info{};
-    for (const std::size_t size : {std::size_t{0}, sizeof(info) - 8, sizeof(info) + 8}) {
-        auto options = generatorOptions();
+    auto options = generatorOptions();
+    for (const std::size_t size : {std::size_t{0}, sizeof(info) + 8, sizeof(options) - 8, sizeof(options) + 16}) {
         options.struct_size = static_cast<uint32_t>(size);
         haptoflow_generator* generator = nullptr;
         EXPECT_EQ(haptoflow_generator_create(&options, &generator), HAPTOFLOW_INVALID_ARGUMENT) << size;

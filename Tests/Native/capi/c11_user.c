@@ -16,7 +16,7 @@ int generateOneSegmentFromC(const char* onnxRuntimePath, const char* modelPath, 
     float embedding[HAPTOFLOW_EMBEDDING_SIZE];
     float motion[HAPTOFLOW_MOTION_SIZE] = {0.1F, 0.0F, 1.0F};
     float previous[HAPTOFLOW_SEGMENT_SAMPLES] = {0.0F};
-    float noise[HAPTOFLOW_SEGMENT_SAMPLES];
+    float noise[HAPTOFLOW_SEGMENT_SAMPLES] = {0.0F};
     haptoflow_status status;
 
     memset(&runtimeOptions, 0, sizeof runtimeOptions);
