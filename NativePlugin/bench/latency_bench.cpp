@@ -150,7 +150,7 @@ skeleton::NativeParts markingParts(const model::ModelFile& model, std::uint32_t 
                 skeleton::OutputLayers{
                     .filter = zeros(skeleton::filterOrder + 1, 1),
                     .families = {zeros(familyOutputs, 1), zeros(familyOutputs, 1), zeros(familyOutputs, 1)},
-                    .rungs = zeros(skeleton::RungImpulses::gainCount, 1)})};
+                    .impulseGains = zeros(skeleton::TailImpulses::gainCount, 1)})};
 }
 
 namespace {

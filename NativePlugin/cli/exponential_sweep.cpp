@@ -43,11 +43,11 @@ std::vector<float> ExponentialSweep::samples(double rateHz) const {
     std::vector<float> result(static_cast<std::size_t>(std::llround(seconds * rateHz)));
     for (std::size_t i = 0; i < result.size(); ++i) {
         const double time = static_cast<double>(i) / rateHz;
-        const double turns = fromHz * neper * std::expm1(time / neper);
+        const double cycles = fromHz * neper * std::expm1(time / neper);
         const double share = std::clamp(std::min(time, seconds - time) / fade, 0.0, 1.0);
         const double gain = 0.5 - 0.5 * std::cos(std::numbers::pi * share);
         // Only the fraction of the turns: the sine of a large number is slower and no more accurate.
-        result[i] = static_cast<float>(level * gain * std::sin(2.0 * std::numbers::pi * (turns - std::floor(turns))));
+        result[i] = static_cast<float>(level * gain * std::sin(2.0 * std::numbers::pi * (cycles - std::floor(cycles))));
     }
     return result;
 }

@@ -95,7 +95,7 @@ void printGeneral(std::ostream& stream, const std::string& path, const model::Mo
 std::string wanderOf(const model::Label& label) {
     std::string text;
     for (const model::RibWander& each : label.ribWander) {
-        text += (text.empty() ? "" : ", ") + shortNumber(each.turns);
+        text += (text.empty() ? "" : ", ") + shortNumber(each.cycles);
     }
     return text.empty() ? "-" : text;
 }

@@ -739,7 +739,7 @@ typedef struct haptoflow_voice_statistics {
     /* 0 if the newest block's rate is outside 8 to 192 kHz, 1 otherwise. */
     uint32_t is_rate_supported;
     /* Impacts and edges that were lost, because more than 64 were published between two blocks; the strongest sound. */
-    uint64_t lost_blows;
+    uint64_t lost_contact_events;
     /* Blocks in which the skeleton sounded alone: until the network's first segment of a touch, and while inference is
      * late or fails. 0 for a model without a skeleton. */
     uint64_t sketched;

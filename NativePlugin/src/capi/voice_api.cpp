@@ -210,7 +210,7 @@ haptoflow_status haptoflow_voice_get_statistics(haptoflow_voice voice, haptoflow
         content.device_rate_hz = channels.deviceRateHz;
         content.silence = static_cast<haptoflow_silence>(channels.silence.load());
         content.is_rate_supported = channels.isRateSupported ? 1 : 0;
-        content.lost_blows = counters.lostBlows;
+        content.lost_contact_events = counters.lostEvents;
         content.sketched = counters.sketched;
         writeDescriptor(statistics, content, "statistics");
     });

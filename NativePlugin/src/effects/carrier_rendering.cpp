@@ -61,7 +61,7 @@ std::vector<float> renderCarrier(std::span<const WaveFrame> frames, const Carrie
     std::vector<float> wave(static_cast<std::size_t>(std::llround(length * rendering.sampleRateHz)));
     const double follow =
         rendering.riseSeconds > 0.0 ? 1.0 - std::exp(-1.0 / (rendering.riseSeconds * rendering.sampleRateHz)) : 1.0;
-    double turns = 0.0;
+    double cycles = 0.0;
     double amplitude = 0.0;
     std::size_t index = 0;
     for (std::size_t i = 0; i < wave.size(); ++i) {
@@ -72,8 +72,8 @@ std::vector<float> renderCarrier(std::span<const WaveFrame> frames, const Carrie
         const Carrier carrier =
             rendering.shape == CarrierShape::held ? heldAt(frames, index, seconds) : linearAt(frames, index, seconds);
         amplitude += follow * (carrier.amplitudeMps2 - amplitude);
-        turns = std::fmod(turns + carrier.frequencyHz / rendering.sampleRateHz, 1.0);
-        wave[i] = static_cast<float>(amplitude * std::sin(2.0 * std::numbers::pi * turns));
+        cycles = std::fmod(cycles + carrier.frequencyHz / rendering.sampleRateHz, 1.0);
+        wave[i] = static_cast<float>(amplitude * std::sin(2.0 * std::numbers::pi * cycles));
     }
     return wave;
 }

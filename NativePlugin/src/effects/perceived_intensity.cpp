@@ -49,8 +49,8 @@ ThresholdFilter::ThresholdFilter() {
         double sum = 0.0;
         for (std::size_t i = 0; i < logMagnitude.size(); ++i) {
             const double weight = i == 0 || i == gridSize / 2 ? 1.0 : 2.0;
-            const auto turns = static_cast<double>(i * n % gridSize) / static_cast<double>(gridSize);
-            sum += weight * logMagnitude[i] * std::cos(2.0 * std::numbers::pi * turns);
+            const auto cycles = static_cast<double>(i * n % gridSize) / static_cast<double>(gridSize);
+            sum += weight * logMagnitude[i] * std::cos(2.0 * std::numbers::pi * cycles);
         }
         folded[n] = (n == 0 ? 1.0 : 2.0) * sum / static_cast<double>(gridSize);
     }

@@ -99,9 +99,9 @@ void BlendBalance::take(std::span<const float> segments) noexcept {
         shadow.power.add(meanSquare(segment), secondsOf(stepSamples));
         std::shift_left(shadow.previous.begin(), shadow.previous.end(), stepSamples);
         std::ranges::copy(segment.first(step), shadow.previous.end() - stepSamples);
-        const RibTurns turns = ribTurnsPerSample(shadow.part.embedding, motion_[0], motion_[1]);
-        for (std::size_t rib = 0; rib < turns.size(); ++rib) {
-            const double phase = shadow.phase[rib] + turns[rib] * static_cast<double>(stepSamples);
+        const RibCycles cycles = ribCyclesPerSample(shadow.part.embedding, motion_[0], motion_[1]);
+        for (std::size_t rib = 0; rib < cycles.size(); ++rib) {
+            const double phase = shadow.phase[rib] + cycles[rib] * static_cast<double>(stepSamples);
             shadow.phase[rib] = phase - std::floor(phase);
         }
         const double slipped =

@@ -68,7 +68,7 @@ private:
     /// State of a part that is generated without being played.
     struct Shadow {
         BlendParts::Part part;
-        RibTurns phase{};
+        RibCycles phase{};
         double slipPhase = 0.0;
         std::array<float, inference::segmentSamples> previous{};
         std::array<float, inference::segmentSamples> noise{};

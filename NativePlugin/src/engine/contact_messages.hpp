@@ -2,7 +2,7 @@
 
 #include "dsp/tone_filter.hpp"
 #include "effects/effect.hpp"
-#include "effects/strikes.hpp"
+#include "effects/impacts.hpp"
 #include "engine/blend_balance.hpp"
 #include "engine/contact_state.hpp"
 #include "engine/range_law.hpp"
@@ -22,12 +22,12 @@
 namespace haptoflow::engine {
 
 /// An impact or an edge, on its way from the publisher to the callback.
-struct Blow {
-    /// Number of the blow among the voice's blows, from 1.
+struct ContactEvent {
+    /// Number of the contact event among the voice's contact events, from 1.
     std::uint64_t number = 0;
     /// Number of the state that caused it among the published states, from 1.
     std::uint64_t update = 0;
-    /// ContactFollower::touches. A panic silences the blows of a whole touch.
+    /// ContactFollower::touches. A panic silences the contact events of a whole touch.
     std::uint64_t touch = 0;
     /// VoiceChannels::clock at its publication.
     double publishedSeconds = 0.0;
@@ -36,51 +36,53 @@ struct Blow {
     effects::ImpactResponse response{};
 };
 
-/// Blows in the order of their publication. Of more blows than it holds, it keeps the strongest. Allocates nothing.
-class BlowList {
+/// ContactEvents in the order of their publication. Of more contact events than it holds, it keeps the strongest.
+/// Allocates nothing.
+class ContactEventList {
 public:
-    /// Enough for a blow with each of 1000 states per second in a block of 2048 frames at 32 kHz.
+    /// Enough for a contact event with each of 1000 states per second in a block of 2048 frames at 32 kHz.
     static constexpr std::size_t capacity = 64;
 
-    BlowList() = default;
-    BlowList(const BlowList& other) noexcept { *this = other; }
-    /// Copies only the blows in use, because every published state copies the list.
-    BlowList& operator=(const BlowList& other) noexcept {
+    ContactEventList() = default;
+    ContactEventList(const ContactEventList& other) noexcept { *this = other; }
+    /// Copies only the contact events in use, because every published state copies the list.
+    ContactEventList& operator=(const ContactEventList& other) noexcept {
         if (this != &other) {
             count_ = other.count_;
-            std::ranges::copy(other.all(), blows_.begin());
+            std::ranges::copy(other.all(), events_.begin());
         }
         return *this;
     }
-    ~BlowList() = default;
+    ~ContactEventList() = default;
 
-    [[nodiscard]] std::span<const Blow> all() const noexcept { return std::span(blows_).first(count_); }
+    [[nodiscard]] std::span<const ContactEvent> all() const noexcept { return std::span(events_).first(count_); }
 
-    /// Appends a blow. Returns false if one was lost: the weakest of those in a full list and the new one.
-    [[nodiscard]] bool add(const Blow& blow) noexcept {
+    /// Appends a contact event. Returns false if one was lost: the weakest of those in a full list and the new one.
+    [[nodiscard]] bool add(const ContactEvent& event) noexcept {
         if (count_ < capacity) {
-            blows_[count_] = blow;
+            events_[count_] = event;
             ++count_;
             return true;
         }
-        const auto weakest = std::ranges::min_element(blows_, {}, &Blow::speedMps);
-        if (weakest->speedMps < blow.speedMps) {
-            std::rotate(weakest, weakest + 1, blows_.end());
-            blows_.back() = blow;
+        const auto weakest = std::ranges::min_element(events_, {}, &ContactEvent::speedMps);
+        if (weakest->speedMps < event.speedMps) {
+            std::rotate(weakest, weakest + 1, events_.end());
+            events_.back() = event;
         }
         return false;
     }
 
-    /// Removes the blows up to the one of this number.
+    /// Removes the contact events up to the one of this number.
     void removeUpTo(std::uint64_t number) noexcept {
-        const auto kept = std::ranges::find_if(all(), [number](const Blow& blow) { return blow.number > number; });
+        const auto kept =
+            std::ranges::find_if(all(), [number](const ContactEvent& event) { return event.number > number; });
         const auto removed = static_cast<std::size_t>(kept - all().begin());
-        std::ranges::copy(all().subspan(removed), blows_.begin());
+        std::ranges::copy(all().subspan(removed), events_.begin());
         count_ -= removed;
     }
 
 private:
-    std::array<Blow, capacity> blows_{};
+    std::array<ContactEvent, capacity> events_{};
     std::size_t count_ = 0;
 };
 
@@ -125,8 +127,8 @@ struct OnsetSeed {
     SeedRibs ribs{};
 };
 
-/// A contact for the callback, with the seed, the blows and the tone, which the callback plays without the worker. The
-/// publisher prepares these, because looking up a material may wait and the callback must not.
+/// A contact for the callback, with the seed, the contact events and the tone, which the callback plays without the
+/// worker. The publisher prepares these, because looking up a material may wait and the callback must not.
 struct AudioMessage {
     PublishedContact contact;
     /// The seed for the newest sliding state. Every message contains it, so that an onset is not lost if its message is
@@ -136,9 +138,9 @@ struct AudioMessage {
     MaterialInputs material;
     /// That of the newest sliding state, as the seed.
     PreparedSketch sketch;
-    /// The blows that the callback had not taken when the message was written, so that no blow is lost if its message
-    /// is replaced.
-    BlowList blows;
+    /// The contact events that the callback had not taken when the message was written, so that no event is lost if its
+    /// message is replaced.
+    ContactEventList contactEvents;
     std::optional<dsp::ToneKernel> tone;
     /// Time of the last change of ContactState::isMoving (VoiceChannels::clock).
     double movingSinceSeconds = 0.0;

@@ -94,7 +94,7 @@ OnsetSeed seedFor(const Ingredients& ingredients, const Material& material, cons
     // The seed plays as recorded, so its rib phase advances with its own velocity and not with the tip's.
     onset.ribs.vectors = waveVectorsOf(material.embedding);
     onset.ribs.phase = phasesFor(onset.ribs.vectors, waveVectorsOf(seed->embedding), seed->ribPhase);
-    onset.ribs.turnsPerSample = ribTurnsPerSample(material.embedding, seed->velocityMps[0], seed->velocityMps[1]);
+    onset.ribs.cyclesPerSample = ribCyclesPerSample(material.embedding, seed->velocityMps[0], seed->velocityMps[1]);
     return onset;
 }
 
@@ -102,7 +102,7 @@ OnsetSeed seedFor(const Ingredients& ingredients, const Material& material, cons
 
 ContactPublisher::ContactPublisher(const MaterialLibrary& library, VoiceChannels& channels,
                                    skeleton::NativeParts native)
-    : library_(library), channels_(channels), native_(std::move(native)), blows_(channels) {}
+    : library_(library), channels_(channels), native_(std::move(native)), events_(channels) {}
 
 ContactAction ContactPublisher::publish(ContactState state) noexcept {
     VoiceCounters& counters = channels_.counters;
@@ -115,7 +115,7 @@ ContactAction ContactPublisher::publish(ContactState state) noexcept {
     const bool hasSignal = channels_.controls.signal.load(std::memory_order_relaxed).isSet();
     if (hasSignal) {
         state.effects &= ~surfaceEffects;
-        blows_.withdraw(surfaceEffects);
+        events_.withdraw(surfaceEffects);
     }
 
     const ContactAction action = follower_.update(state, channels_.renderedSeconds.load(std::memory_order_relaxed));
@@ -148,7 +148,7 @@ ContactAction ContactPublisher::publish(ContactState state) noexcept {
             seed_ = seedFor(ingredients, material, contact_.ranged, contact_.levelMps2);
         }
     }
-    blows_.follow(contact_, ingredients, reading.ingredients(blows_.touched().material));
+    events_.follow(contact_, ingredients, reading.ingredients(events_.touched().material));
     if (action == ContactAction::rest && state.touching != 0) {
         counters.skipped.fetch_add(1, std::memory_order_relaxed);
     }
@@ -194,7 +194,7 @@ void ContactPublisher::postToAudio(const Ingredients& ingredients, const Materia
     message.seed = seed_;
     message.material = inputs;
     message.sketch = sketch_;
-    message.blows = blows_.untaken();
+    message.contactEvents = events_.untaken();
     message.tone = tone ? std::optional(dsp::toneKernel(*tone)) : std::nullopt;
     message.movingSinceSeconds = movingSinceSeconds_;
     channels_.toAudio.post();

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/contact_blows.hpp"
+#include "engine/contact_events.hpp"
 #include "engine/contact_messages.hpp"
 #include "engine/contact_state.hpp"
 #include "engine/material.hpp"
@@ -90,7 +90,7 @@ private:
     skeleton::NativeParts native_;
     const dsp::ToneCepstrum tiltPerDecibel_ = designTilt();
     ContactFollower follower_;
-    ContactBlows blows_;
+    ContactEvents events_;
     // The newest contact, its seed or sketch, and the time since which it moves or rests.
     PublishedContact contact_;
     OnsetSeed seed_;

@@ -123,7 +123,7 @@ std::unique_ptr<Processors> EffectStage::takeReplaced() noexcept {
 
 void EffectStage::open() noexcept {
     if (gate_.isClosed()) {
-        // Blows start at zero by themselves, and a ramp would remove their attack.
+        // ContactEvents start at zero by themselves, and a ramp would remove their attack.
         gate_.openAtOnce();
     } else {
         gate_.open();

@@ -6,8 +6,8 @@
 #include "effects/delay.hpp"
 #include "effects/effect.hpp"
 #include "effects/exposure_guard.hpp"
+#include "effects/impacts.hpp"
 #include "effects/signal.hpp"
-#include "effects/strikes.hpp"
 
 #include <array>
 #include <atomic>
@@ -32,7 +32,7 @@ struct EffectCounters {
     std::atomic<std::uint64_t> runs{0};
     std::atomic<std::uint64_t> samples{0};
     std::atomic<std::uint64_t> nanoseconds{0};
-    /// For impact and edge, the number of blows without rebounds; for a signal, the number of its starts.
+    /// For impact and edge, the number of contact events without rebounds; for a signal, the number of its starts.
     std::atomic<std::uint64_t> events{0};
 
     /// Calls `process`, which processes a block of this many samples, and counts it.
@@ -65,8 +65,8 @@ struct Processors {
     std::unique_ptr<effects::Delay> spareDelay;
 };
 
-/// The effects of a voice after its texture, for one output rate. Adds blows and a signal, then applies the voice's
-/// processors, then a gate that can silence everything.
+/// The effects of a voice after its texture, for one output rate. Adds contact events and a signal, then applies the
+/// voice's processors, then a gate that can silence everything.
 ///
 /// Idle effects do not run: a voice without effects renders the same bits as without this stage. Construction excepted,
 /// everything runs on the audio thread.
@@ -75,9 +75,9 @@ public:
     /// Throws std::invalid_argument for a rate outside 8-192 kHz.
     explicit EffectStage(double outputRateHz);
 
-    /// Starts a blow, an impact or an edge, with the next sample.
-    void strike(effects::EffectKind kind, double speedMps, const effects::ImpactResponse& response) noexcept {
-        (kind == effects::EffectKind::edge ? edge_ : impact_).strike(speedMps, response);
+    /// Starts a contact event, an impact or an edge, with the next sample.
+    void start(effects::EffectKind kind, double speedMps, const effects::ImpactResponse& response) noexcept {
+        (kind == effects::EffectKind::edge ? edge_ : impact_).start(speedMps, response);
     }
     /// See effects::Signal. `close` also ends the signal.
     void setSignal(const effects::SignalSettings& settings) noexcept { signal_.set(settings); }
@@ -134,8 +134,8 @@ private:
     void settleDelay() noexcept;
     [[nodiscard]] bool hasProcessors() const noexcept;
 
-    effects::Strikes impact_;
-    effects::Strikes edge_;
+    effects::Impacts impact_;
+    effects::Impacts edge_;
     effects::Signal signal_;
     dsp::Gate gate_;
     std::unique_ptr<Processors> processors_;

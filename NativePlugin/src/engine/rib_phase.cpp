@@ -9,7 +9,7 @@
 namespace haptoflow::engine {
 namespace {
 
-constexpr double largestCorrectionTurns = 0.1;
+constexpr double largestCorrectionCycles = 0.1;
 constexpr double millimetresPerMetre = 1000.0;
 
 /// The slot of `vectors` that holds `vector`; if several do, preferably `preferred`. Empty if none does.
@@ -64,60 +64,61 @@ WaveVectors keepingSlots(const WaveVectors& vectors, const WaveVectors& before) 
     return kept;
 }
 
-RibTurns phasesFor(const WaveVectors& vectors, const WaveVectors& from, const RibTurns& phases) noexcept {
-    RibTurns result = phases;
+RibCycles phasesFor(const WaveVectors& vectors, const WaveVectors& from, const RibCycles& phases) noexcept {
+    RibCycles result = phases;
     for (std::size_t slot = 0; slot < vectors.size(); ++slot) {
         result[slot] = phases[slotOf(from, vectors[slot], slot).value_or(slot)];
     }
     return result;
 }
 
-RibTurns ribTurnsPerSample(std::span<const float, inference::embeddingSize> embedding, double vxMps,
-                           double vyMps) noexcept {
-    RibTurns turns = skeleton::ribRatesHz(embedding, vxMps, vyMps);
-    std::ranges::for_each(turns, [](double& each) { each /= inference::waveformRateHz; });
-    return turns;
+RibCycles ribCyclesPerSample(std::span<const float, inference::embeddingSize> embedding, double vxMps,
+                             double vyMps) noexcept {
+    RibCycles cycles = skeleton::ribRatesHz(embedding, vxMps, vyMps);
+    std::ranges::for_each(cycles, [](double& each) { each /= inference::waveformRateHz; });
+    return cycles;
 }
 
-std::array<float, inference::ribCount> toNetwork(const RibTurns& phases) noexcept {
+std::array<float, inference::ribCount> toNetwork(const RibCycles& phases) noexcept {
     std::array<float, inference::ribCount> rounded{};
     std::ranges::transform(phases, rounded.begin(), skeleton::wrapped);
     return rounded;
 }
 
 void RibTrack::begin(std::int64_t start, const SeedRibs& seed) noexcept {
-    piece_ = {.start = start, .phase = seed.phase, .turnsPerSample = seed.turnsPerSample, .vectors = seed.vectors};
+    piece_ = {.start = start, .phase = seed.phase, .cyclesPerSample = seed.cyclesPerSample, .vectors = seed.vectors};
     isFirst_ = true;
 }
 
-RibTurns RibTrack::at(std::int64_t sample, const WaveVectors& vectors,
-                      const std::array<double, 2>& placeMetres) const noexcept {
-    RibTurns turns = at(sample, vectors);
-    for (std::size_t rib = 0; rib < turns.size(); ++rib) {
+RibCycles RibTrack::at(std::int64_t sample, const WaveVectors& vectors,
+                       const std::array<double, 2>& placeMetres) const noexcept {
+    RibCycles cycles = at(sample, vectors);
+    for (std::size_t rib = 0; rib < cycles.size(); ++rib) {
         const double wanted = (static_cast<double>(vectors[rib].x) * placeMetres[0] +
                                static_cast<double>(vectors[rib].y) * placeMetres[1]) *
                               millimetresPerMetre;
-        const double missing = wanted - turns[rib] - std::round(wanted - turns[rib]);
-        turns[rib] += isFirst_ ? missing : std::clamp(0.5 * missing, -largestCorrectionTurns, largestCorrectionTurns);
-        turns[rib] -= std::floor(turns[rib]);
+        const double missing = wanted - cycles[rib] - std::round(wanted - cycles[rib]);
+        cycles[rib] +=
+            isFirst_ ? missing : std::clamp(0.5 * missing, -largestCorrectionCycles, largestCorrectionCycles);
+        cycles[rib] -= std::floor(cycles[rib]);
     }
-    return turns;
+    return cycles;
 }
 
-void RibTrack::add(std::int64_t start, const WaveVectors& vectors, const RibTurns& phase,
-                   const RibTurns& turnsPerSample) noexcept {
-    piece_ = {.start = start, .phase = phase, .turnsPerSample = turnsPerSample, .vectors = vectors};
+void RibTrack::add(std::int64_t start, const WaveVectors& vectors, const RibCycles& phase,
+                   const RibCycles& cyclesPerSample) noexcept {
+    piece_ = {.start = start, .phase = phase, .cyclesPerSample = cyclesPerSample, .vectors = vectors};
     isFirst_ = false;
 }
 
-RibTurns RibTrack::at(std::int64_t sample, const WaveVectors& vectors) const noexcept {
-    RibTurns turns{};
-    for (std::size_t rib = 0; rib < turns.size(); ++rib) {
+RibCycles RibTrack::at(std::int64_t sample, const WaveVectors& vectors) const noexcept {
+    RibCycles cycles{};
+    for (std::size_t rib = 0; rib < cycles.size(); ++rib) {
         const double travelled =
-            piece_.phase[rib] + piece_.turnsPerSample[rib] * static_cast<double>(sample - piece_.start);
-        turns[rib] = travelled - std::floor(travelled);
+            piece_.phase[rib] + piece_.cyclesPerSample[rib] * static_cast<double>(sample - piece_.start);
+        cycles[rib] = travelled - std::floor(travelled);
     }
-    return phasesFor(vectors, piece_.vectors, turns);
+    return phasesFor(vectors, piece_.vectors, cycles);
 }
 
 }  // namespace haptoflow::engine

@@ -10,7 +10,7 @@
 namespace haptoflow::engine {
 
 /// A number of turns (rib periods) for each wave vector of a material.
-using RibTurns = std::array<double, inference::ribCount>;
+using RibCycles = std::array<double, inference::ribCount>;
 
 /// Spatial frequency of ribs along the surface's two axes, in cycles per millimetre.
 struct WaveVector {
@@ -29,19 +29,20 @@ void setWaveVectors(std::span<float, inference::embeddingSize> embedding, const 
 [[nodiscard]] WaveVectors keepingSlots(const WaveVectors& vectors, const WaveVectors& before) noexcept;
 /// For each slot of `vectors`, the phase of that wave vector in `from`, where it may have another slot. A wave vector
 /// that is not in `from` gets the phase of the same slot.
-[[nodiscard]] RibTurns phasesFor(const WaveVectors& vectors, const WaveVectors& from, const RibTurns& phases) noexcept;
+[[nodiscard]] RibCycles phasesFor(const WaveVectors& vectors, const WaveVectors& from,
+                                  const RibCycles& phases) noexcept;
 
 /// Signed turns along each wave vector of `embedding` per waveform sample at a velocity.
-[[nodiscard]] RibTurns ribTurnsPerSample(std::span<const float, inference::embeddingSize> embedding, double vxMps,
-                                         double vyMps) noexcept;
+[[nodiscard]] RibCycles ribCyclesPerSample(std::span<const float, inference::embeddingSize> embedding, double vxMps,
+                                           double vyMps) noexcept;
 
 /// Phases as the network takes them: below 1 after rounding, too.
-[[nodiscard]] std::array<float, inference::ribCount> toNetwork(const RibTurns& phases) noexcept;
+[[nodiscard]] std::array<float, inference::ribCount> toNetwork(const RibCycles& phases) noexcept;
 
 /// Rib phase of a seed at its first audible sample, and its advance per sample.
 struct SeedRibs {
-    RibTurns phase{};
-    RibTurns turnsPerSample{};
+    RibCycles phase{};
+    RibCycles cyclesPerSample{};
     WaveVectors vectors{};
 };
 
@@ -52,20 +53,20 @@ public:
     /// Begins a stream with a seed at the sample `start`.
     void begin(std::int64_t start, const SeedRibs& seed) noexcept;
     /// Phases of `vectors` at a sample, in turns in [0, 1).
-    [[nodiscard]] RibTurns at(std::int64_t sample, const WaveVectors& vectors) const noexcept;
+    [[nodiscard]] RibCycles at(std::int64_t sample, const WaveVectors& vectors) const noexcept;
     /// The same, drawn towards the phases of a place on the surface, so that the ribs stay where they are: at once for
     /// the first segment of a stream, then by half of the difference and at most a tenth of a turn for each.
-    [[nodiscard]] RibTurns at(std::int64_t sample, const WaveVectors& vectors,
-                              const std::array<double, 2>& placeMetres) const noexcept;
+    [[nodiscard]] RibCycles at(std::int64_t sample, const WaveVectors& vectors,
+                               const std::array<double, 2>& placeMetres) const noexcept;
     /// A piece begins at `start` with these phases there and this advance along these wave vectors.
-    void add(std::int64_t start, const WaveVectors& vectors, const RibTurns& phase,
-             const RibTurns& turnsPerSample) noexcept;
+    void add(std::int64_t start, const WaveVectors& vectors, const RibCycles& phase,
+             const RibCycles& cyclesPerSample) noexcept;
 
 private:
     struct Piece {
         std::int64_t start = 0;
-        RibTurns phase{};
-        RibTurns turnsPerSample{};
+        RibCycles phase{};
+        RibCycles cyclesPerSample{};
         WaveVectors vectors{};
     };
 

@@ -74,7 +74,7 @@ WaveStatistics waveStatisticsOf(const Ingredients& ingredients, const WaveVector
             heaviest = each.weight;
         }
         for (std::size_t slot = 0; slot < vectors.size(); ++slot) {
-            if (!vectors[slot].isNone() && statistics.ribs[slot].turns == 0.0) {
+            if (!vectors[slot].isNone() && statistics.ribs[slot].cycles == 0.0) {
                 statistics.ribs[slot] = wanderIn(*each.material, vectors[slot]);
             }
         }

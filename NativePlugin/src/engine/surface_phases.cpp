@@ -102,9 +102,9 @@ double slipWander(const model::StickSlip& slip, const SurfaceStretch& stretch) n
     return slip.wanderMetres > 0.0 ? wanderOf(slipFamily, slip.wanderMetres, stretch).value : 0.0;
 }
 
-void setFamily(skeleton::Phases& phases, std::size_t family, double turns, double turnsPerSample) noexcept {
-    phases[family] = skeleton::wrapped(turns);
-    phases[skeleton::familyCount + family] = static_cast<float>(turnsPerSample * inference::waveformRateHz);
+void setFamily(skeleton::Phases& phases, std::size_t family, double cycles, double cyclesPerSample) noexcept {
+    phases[family] = skeleton::wrapped(cycles);
+    phases[skeleton::familyCount + family] = static_cast<float>(cyclesPerSample * inference::waveformRateHz);
 }
 
 }  // namespace
@@ -119,8 +119,8 @@ double slipsPerSample(const model::StickSlip& slip, const std::array<float, 3>& 
     return speedMps / (wayMetres * inference::waveformRateHz);
 }
 
-void setSlips(skeleton::Phases& phases, double turns, double turnsPerSample) noexcept {
-    setFamily(phases, slipFamily, turns, turnsPerSample);
+void setSlips(skeleton::Phases& phases, double cycles, double cyclesPerSample) noexcept {
+    setFamily(phases, slipFamily, cycles, cyclesPerSample);
 }
 
 void SurfacePhases::begin(std::int64_t start, const SeedRibs& seed) noexcept {
@@ -133,28 +133,28 @@ skeleton::Phases SurfacePhases::at(std::int64_t start, std::span<const float, in
                                    const SurfaceStretch& stretch) noexcept {
     vectors_ = waveVectorsOf(embedding);
     phase_ = stretch.ribPlaceMetres ? ribs_.at(start, vectors_, *stretch.ribPlaceMetres) : ribs_.at(start, vectors_);
-    turnsPerSample_ = ribTurnsPerSample(embedding, static_cast<double>(motion[0]), static_cast<double>(motion[1]));
-    const double slipped = slips_.phase + slips_.turnsPerSample * static_cast<double>(start - slips_.start);
+    cyclesPerSample_ = ribCyclesPerSample(embedding, static_cast<double>(motion[0]), static_cast<double>(motion[1]));
+    const double slipped = slips_.phase + slips_.cyclesPerSample * static_cast<double>(start - slips_.start);
     slip_ = {.start = start,
              .phase = slipped - std::floor(slipped),
-             .turnsPerSample = slipsPerSample(statistics.slip, motion, slipWander(statistics.slip, stretch))};
+             .cyclesPerSample = slipsPerSample(statistics.slip, motion, slipWander(statistics.slip, stretch))};
 
     skeleton::Phases phases{};
     for (std::size_t family = 0; family < inference::ribCount; ++family) {
         const model::RibWander& wander = statistics.ribs[family];
         WanderPoint point;
-        if (wander.turns > 0.0 && wander.wavelengthMetres > 0.0) {
+        if (wander.cycles > 0.0 && wander.wavelengthMetres > 0.0) {
             point = wanderOf(family, wander.wavelengthMetres, stretch);
         }
-        setFamily(phases, family, phase_[family] + wander.turns * point.value,
-                  turnsPerSample_[family] + wander.turns * point.changePerSample);
+        setFamily(phases, family, phase_[family] + wander.cycles * point.value,
+                  cyclesPerSample_[family] + wander.cycles * point.changePerSample);
     }
-    setSlips(phases, slip_.phase, slip_.turnsPerSample);
+    setSlips(phases, slip_.phase, slip_.cyclesPerSample);
     return phases;
 }
 
 void SurfacePhases::add() noexcept {
-    ribs_.add(slip_.start, vectors_, phase_, turnsPerSample_);
+    ribs_.add(slip_.start, vectors_, phase_, cyclesPerSample_);
     slips_ = slip_;
 }
 

@@ -32,7 +32,7 @@ struct WanderPoint {
                                     double wander) noexcept;
 
 /// Writes the phase of stick-slip, in turns, and its rate, from turns in a sample, into `phases`.
-void setSlips(skeleton::Phases& phases, double turns, double turnsPerSample) noexcept;
+void setSlips(skeleton::Phases& phases, double cycles, double cyclesPerSample) noexcept;
 
 /// Phases of the surface's waves along a stream in waveform time: ribs by the way along their wave vectors and by their
 /// wander from it, stick-slip by the number of slips so far. A small value, which threads hand to each other; allocates
@@ -52,15 +52,15 @@ private:
     struct Slips {
         std::int64_t start = 0;
         double phase = 0.0;
-        double turnsPerSample = 0.0;
+        double cyclesPerSample = 0.0;
     };
 
     RibTrack ribs_;
     Slips slips_;
     // Of the newest `at`.
     WaveVectors vectors_{};
-    RibTurns phase_{};
-    RibTurns turnsPerSample_{};
+    RibCycles phase_{};
+    RibCycles cyclesPerSample_{};
     Slips slip_{};
 };
 

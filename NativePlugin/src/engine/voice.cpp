@@ -67,9 +67,9 @@ void Voice::stop() noexcept {
     output_->effects.close();
 }
 
-void Voice::strike(effects::EffectKind kind, double speedMps, const effects::ImpactResponse& response) noexcept {
+void Voice::start(effects::EffectKind kind, double speedMps, const effects::ImpactResponse& response) noexcept {
     noteEvent(kind);
-    output_->effects.strike(kind, speedMps, response);
+    output_->effects.start(kind, speedMps, response);
 }
 
 void Voice::beginSignal() noexcept {

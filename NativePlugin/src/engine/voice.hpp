@@ -32,8 +32,8 @@ public:
 enum class Limit { voice, sum };
 
 /// The signal of one stylus tip. Its stages in order: timeline, level of the newest state, tone, high-pass, range law,
-/// reading rate, output rate, gate, blows and signal, delay, compensation, strength, exposure guard, the gate of all
-/// effects, limiter.
+/// reading rate, output rate, gate, contact events and signal, delay, compensation, strength, exposure guard, the gate
+/// of all effects, limiter.
 ///
 /// While the texture's gate is closed, the waveform is not read and its clock stands still. If no effect sounds either,
 /// `render` writes zeros. Used by one thread. Construction excepted, all functions take bounded time, allocate nothing
@@ -85,8 +85,8 @@ public:
     void stop() noexcept;
     /// Lets effects sound. Does nothing if they already may.
     void allowEffects() noexcept { output_->effects.open(); }
-    /// Starts a blow, an impact or an edge, with the next sample. Call `allowEffects` before.
-    void strike(effects::EffectKind kind, double speedMps, const effects::ImpactResponse& response) noexcept;
+    /// Starts a contact event, an impact or an edge, with the next sample. Call `allowEffects` before.
+    void start(effects::EffectKind kind, double speedMps, const effects::ImpactResponse& response) noexcept;
     /// Starts the signal set by `effects().setSignal` with the next sample. Call `allowEffects` before.
     void beginSignal() noexcept;
     [[nodiscard]] EffectStage& effects() noexcept { return output_->effects; }

@@ -87,7 +87,7 @@ struct VoiceCounters {
     std::atomic<std::uint64_t> resumptions{0};
     std::atomic<std::uint64_t> taps{0};
     /// Impacts and edges that found no room among those that the callback had not taken yet.
-    std::atomic<std::uint64_t> lostBlows{0};
+    std::atomic<std::uint64_t> lostEvents{0};
     /// Segments generated.
     std::atomic<std::uint64_t> inferences{0};
     /// Time of their generation; the time of a run is divided among its voices.
@@ -145,8 +145,8 @@ struct VoiceChannels {
     std::atomic<double> renderedSeconds{0.0};
     std::atomic<bool> isRateSupported{true};
 
-    /// Blow::number of the newest blow that the callback has taken. Set by the callback.
-    std::atomic<std::uint64_t> takenBlow{0};
+    /// ContactEvent::number of the newest event that the callback has taken. Set by the callback.
+    std::atomic<std::uint64_t> takenEvent{0};
 
     /// The newest published touch. The publisher sets it before it posts the message.
     std::atomic<std::uint64_t> publishedTouch{0};
@@ -192,11 +192,11 @@ struct VoiceChannels {
 };
 
 inline void SignalTransitions::note(double seconds) noexcept {
-    const std::uint64_t turns = count.load(std::memory_order_relaxed) + 1;
+    const std::uint64_t runs = count.load(std::memory_order_relaxed) + 1;
     const double before = meanSeconds.load(std::memory_order_relaxed);
     lastSeconds.store(seconds, std::memory_order_relaxed);
-    meanSeconds.store(before + (seconds - before) / static_cast<double>(turns), std::memory_order_relaxed);
-    count.store(turns, std::memory_order_release);
+    meanSeconds.store(before + (seconds - before) / static_cast<double>(runs), std::memory_order_relaxed);
+    count.store(runs, std::memory_order_release);
 }
 
 inline bool VoiceChannels::changeProcessors(const std::function<bool(ProcessorSettings&)>& change) {

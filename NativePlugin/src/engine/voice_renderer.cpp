@@ -42,7 +42,7 @@ void VoiceRenderer::render(std::span<float> out, double rateHz, Limit limit) noe
         fallSilent(Silence::panic);
     } else if (!stopsWithBlock_) {
         decide(rateHz);
-        takeBlows(out.size());
+        takeEvents(out.size());
         readSignal();
         sounded = isSounding();
         sketch();
@@ -236,63 +236,63 @@ void VoiceRenderer::sketch() noexcept {
     }
 }
 
-void VoiceRenderer::takeBlows(std::size_t frames) noexcept {
+void VoiceRenderer::takeEvents(std::size_t frames) noexcept {
     dueCount_ = 0;
     dueNext_ = 0;
     framesRendered_ = 0;
     const bool maySound = silence_ == Silence::none || silence_ == Silence::rest;
     const bool waitsForRate = silence_ == Silence::rate && channels_.isRateSupported.load(std::memory_order_relaxed);
     if (waitedSeconds_ > staleness_.seconds() || (!maySound && !waitsForRate)) {
-        // Blows that occurred long ago or during another silence are not played later.
+        // ContactEvents that occurred long ago or during another silence are not played later.
         waiting_ = {};
     }
     if (maySound) {
         voice_.allowEffects();
-        strikeWaiting();
+        startWaiting();
     }
-    const std::span<const Blow> blows = channels_.toAudio.current().blows.all();
-    if (blows.empty() || blows.back().number <= takenBlow_) {
+    const std::span<const ContactEvent> contactEvents = channels_.toAudio.current().contactEvents.all();
+    if (contactEvents.empty() || contactEvents.back().number <= takenEvent_) {
         return;
     }
-    // After a device has stopped for a while, the blows of that time are not played all at once.
+    // After a device has stopped for a while, the contact events of that time are not played all at once.
     const auto blockSamples = static_cast<double>(std::max(longestBlock_[0], longestBlock_[1]));
     const double oldestSeconds = staleness_.seconds() + 2.0 * blockSamples / inference::waveformRateHz;
     const double nowSeconds = channels_.isRealTime ? channels_.clock() : 0.0;
-    for (const Blow& blow : blows) {
-        const bool isTooOld = channels_.isRealTime && nowSeconds - blow.publishedSeconds > oldestSeconds;
-        if (blow.number <= takenBlow_ || isTooOld || signal_.isSet()) {
+    for (const ContactEvent& event : contactEvents) {
+        const bool isTooOld = channels_.isRealTime && nowSeconds - event.publishedSeconds > oldestSeconds;
+        if (event.number <= takenEvent_ || isTooOld || signal_.isSet()) {
             continue;
         }
         if (maySound) {
-            schedule(blow, frames);
+            schedule(event, frames);
         } else if (waitsForRate) {
-            std::optional<Blow>& strongest = waiting_[blow.kind == effects::EffectKind::edge ? 1 : 0];
+            std::optional<ContactEvent>& strongest = waiting_[event.kind == effects::EffectKind::edge ? 1 : 0];
             waitedSeconds_ = waiting_[0] || waiting_[1] ? waitedSeconds_ : 0.0;
-            if (!strongest || strongest->speedMps < blow.speedMps) {
-                strongest = blow;
+            if (!strongest || strongest->speedMps < event.speedMps) {
+                strongest = event;
             }
         }
     }
-    takenBlow_ = blows.back().number;
-    channels_.takenBlow.store(takenBlow_, std::memory_order_release);
+    takenEvent_ = contactEvents.back().number;
+    channels_.takenEvent.store(takenEvent_, std::memory_order_release);
 }
 
-void VoiceRenderer::strikeWaiting() noexcept {
-    for (std::optional<Blow>& blow : waiting_) {
-        if (blow) {
-            strike(*blow);
+void VoiceRenderer::startWaiting() noexcept {
+    for (std::optional<ContactEvent>& event : waiting_) {
+        if (event) {
+            start(*event);
         }
-        blow.reset();
+        event.reset();
     }
 }
 
-// States come evenly, so the place of a blow's state among those published since the last block is its time in that
-// block. Played by it, each blow would be late by exactly a block. A blow that follows no other therefore begins at
-// once, and those after it keep their distance from it; the time gained is given up as soon as a blow would have to
-// begin before its block.
-void VoiceRenderer::schedule(const Blow& blow, std::size_t frames) noexcept {
+// States come evenly, so the place of a contact event's state among those published since the last block is its time in
+// that block. Played by it, each event would be late by exactly a block. A event that follows no other therefore begins
+// at once, and those after it keep their distance from it; the time gained is given up as soon as a contact event would
+// have to begin before its block.
+void VoiceRenderer::schedule(const ContactEvent& event, std::size_t frames) noexcept {
     const std::uint64_t states = updates_ - updatesBefore_;
-    const std::uint64_t before = blow.update > updatesBefore_ ? blow.update - updatesBefore_ - 1 : 0;
+    const std::uint64_t before = event.update > updatesBefore_ ? event.update - updatesBefore_ - 1 : 0;
     const std::uint64_t audible = framesUntilStale(frames);
     const auto place = states == 0 ? std::int64_t{0} : static_cast<std::int64_t>(before * audible / states);
     const auto apartFrames = static_cast<double>(place - lastPlace_);
@@ -300,25 +300,25 @@ void VoiceRenderer::schedule(const Blow& blow, std::size_t frames) noexcept {
     advanceFrames_ = followsNone ? place : std::min(advanceFrames_, place);
     lastPlace_ = place;
     if (place == advanceFrames_) {
-        strike(blow);
+        start(event);
     } else {
-        due_[dueCount_++] = {static_cast<std::size_t>(place - advanceFrames_), &blow};
+        due_[dueCount_++] = {static_cast<std::size_t>(place - advanceFrames_), &event};
     }
 }
 
-void VoiceRenderer::strike(const Blow& blow) noexcept {
-    if (blow.touch > silencedTouch_) {
-        voice_.strike(blow.kind, static_cast<double>(blow.speedMps), blow.response);
+void VoiceRenderer::start(const ContactEvent& event) noexcept {
+    if (event.touch > silencedTouch_) {
+        voice_.start(event.kind, static_cast<double>(event.speedMps), event.response);
     }
 }
 
-void VoiceRenderer::renderWithBlows(std::span<float> out) noexcept {
+void VoiceRenderer::renderWithEvents(std::span<float> out) noexcept {
     while (dueNext_ < dueCount_ && due_[dueNext_].frame < framesRendered_ + out.size()) {
         const std::size_t until = due_[dueNext_].frame - framesRendered_;
         voice_.render(out.first(until));
         out = out.subspan(until);
         framesRendered_ += until;
-        strike(*due_[dueNext_].blow);
+        start(*due_[dueNext_].event);
         ++dueNext_;
     }
     voice_.render(out);
@@ -346,9 +346,9 @@ void VoiceRenderer::readSignal() noexcept {
     }
 }
 
-void VoiceRenderer::noteSignalTransition(SignalTransitions& turns) noexcept {
+void VoiceRenderer::noteSignalTransition(SignalTransitions& transitions) noexcept {
     const double sinceSeconds = channels_.toAudio.current().movingSinceSeconds;
-    turns.note(std::max(0.0, channels_.clock() - sinceSeconds) + voice_.effects().delaySeconds());
+    transitions.note(std::max(0.0, channels_.clock() - sinceSeconds) + voice_.effects().delaySeconds());
 }
 
 void VoiceRenderer::takeProcessors() noexcept {
@@ -448,14 +448,14 @@ void VoiceRenderer::soundUntilStale(std::span<float> out) noexcept {
 void VoiceRenderer::sound(std::span<float> out) noexcept {
     if (tapFramesLeft_ > 0) {
         const auto before = static_cast<std::size_t>(std::min<std::uint64_t>(out.size(), tapFramesLeft_));
-        renderWithBlows(out.first(before));
+        renderWithEvents(out.first(before));
         out = out.subspan(before);
         tapFramesLeft_ -= before;
         if (tapFramesLeft_ == 0 && !contact().sliding) {
             fallSilent(Silence::rest);
         }
     }
-    renderWithBlows(out);
+    renderWithEvents(out);
 }
 
 void VoiceRenderer::reportExposure() noexcept {

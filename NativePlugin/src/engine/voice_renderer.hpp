@@ -55,13 +55,13 @@ private:
     [[nodiscard]] Silence reportedSilence(double rateHz) const noexcept;
     void begin() noexcept;
     void followContact() noexcept;
-    void takeBlows(std::size_t frames) noexcept;
-    void strikeWaiting() noexcept;
-    void schedule(const Blow& blow, std::size_t frames) noexcept;
-    void strike(const Blow& blow) noexcept;
-    void renderWithBlows(std::span<float> out) noexcept;
+    void takeEvents(std::size_t frames) noexcept;
+    void startWaiting() noexcept;
+    void schedule(const ContactEvent& event, std::size_t frames) noexcept;
+    void start(const ContactEvent& event) noexcept;
+    void renderWithEvents(std::span<float> out) noexcept;
     void readSignal() noexcept;
-    void noteSignalTransition(SignalTransitions& turns) noexcept;
+    void noteSignalTransition(SignalTransitions& transitions) noexcept;
     void takeProcessors() noexcept;
     void reportExposure() noexcept;
     void fallSilent(Silence reason) noexcept;
@@ -85,26 +85,27 @@ private:
     std::uint32_t playedOnset_ = 0;
     std::uint64_t tapFramesLeft_ = 0;
 
-    // Last value of Blow::number, and the values of PublishedContact::updates before this block's message and in it.
-    std::uint64_t takenBlow_ = 0;
+    // Last value of ContactEvent::number, and the values of PublishedContact::updates before this block's message and
+    // in it.
+    std::uint64_t takenEvent_ = 0;
     std::uint64_t updatesBefore_ = 0;
     std::uint64_t updates_ = 0;
-    // The blows of this block that have not begun yet, and the frames of the block rendered so far.
-    struct DueBlow {
+    // The contact events of this block that have not begun yet, and the frames of the block rendered so far.
+    struct DueEvent {
         std::size_t frame = 0;
-        const Blow* blow = nullptr;
+        const ContactEvent* event = nullptr;
     };
-    std::array<DueBlow, BlowList::capacity> due_{};
+    std::array<DueEvent, ContactEventList::capacity> due_{};
     std::size_t dueCount_ = 0;
     std::size_t dueNext_ = 0;
     std::size_t framesRendered_ = 0;
-    // How much earlier than by its place a blow begins, and the place of the last blow; in frames of this block,
-    // negative for an earlier block.
+    // How much earlier than by its place a contact event begins, and the place of the last event; in frames of this
+    // block, negative for an earlier block.
     std::int64_t advanceFrames_ = 0;
     std::int64_t lastPlace_ = std::numeric_limits<std::int32_t>::min();
     // The strongest impact and the strongest edge since the device changed to a rate that the worker prepares, and the
     // seconds since the first of them.
-    std::array<std::optional<Blow>, 2> waiting_{};
+    std::array<std::optional<ContactEvent>, 2> waiting_{};
     double waitedSeconds_ = 0.0;
 
     effects::SignalSettings signal_;

@@ -37,9 +37,9 @@ struct Direction {
 
 /// Unit vector at the angle 2 pi (turns - 1/8). The offset does not matter for a random direction and keeps the
 /// argument of the series within +-pi/4.
-Direction portableDirection(double turns) noexcept {
-    const auto quadrant = static_cast<int>(turns * 4.0);
-    const double angle = (turns * 4.0 - quadrant - 0.5) * (std::numbers::pi / 2.0);
+Direction portableDirection(double cycles) noexcept {
+    const auto quadrant = static_cast<int>(cycles * 4.0);
+    const double angle = (cycles * 4.0 - quadrant - 0.5) * (std::numbers::pi / 2.0);
     const double square = angle * angle;
     double cosine = 1.0;
     double sine = 1.0;

@@ -67,7 +67,7 @@ void SkeletonGenerator::generateFromSketches(std::span<const SegmentRequest> req
 
 namespace {
 
-constexpr std::size_t enteringSize = skeleton::Skeleton::enteringChannels * segmentSamples;
+constexpr std::size_t networkInputSize = skeleton::Skeleton::networkInputChannels * segmentSamples;
 
 }  // namespace
 
@@ -103,14 +103,14 @@ void RefinedGenerator::generateFromSketches(std::span<const SegmentRequest> requ
 void RefinedGenerator::sketchBatch(std::span<const SegmentRequest> requests, std::span<float> segments) {
     levels(requests, std::span(levelsMps2_).first(requests.size()));
     graph_.setBatch(requests.size());
-    const auto entering = graph_.input(refinement_input::entering);
+    const auto networkInput = graph_.input(refinement_input::skeleton);
     const auto past = graph_.input(refinement_input::past);
     const auto film = graph_.input(refinement_input::film);
     for (std::size_t row = 0; row < requests.size(); ++row) {
         std::array<float, segmentSamples> previous{};
         const skeleton::Moment moment = momentOf(requests[row], levelsMps2_[row], previous);
         const skeleton::Condition condition = skeleton::conditionOf(moment.embedding, moment.motion, moment.phases);
-        const std::span<float, enteringSize> seen(entering.data() + row * enteringSize, enteringSize);
+        const std::span<float, networkInputSize> seen(networkInput.data() + row * networkInputSize, networkInputSize);
         skeleton_->enter(moment, condition, seen);
         std::ranges::transform(seen.first<segmentSamples>(), segments.subspan(row * segmentSamples).begin(),
                                [level = levelsMps2_[row]](float sample) { return sample * level; });

@@ -97,7 +97,7 @@ OnnxGraph loadField(std::shared_ptr<const Runtime> runtime, const model::ModelFi
 OnnxGraph loadRefinement(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model, const model::Tier& tier,
                          std::size_t filmSize, std::size_t maximumBatch, const LoadLimits& limits) {
     constexpr auto samples = static_cast<std::int64_t>(segmentSamples);
-    constexpr auto channels = static_cast<std::int64_t>(skeleton::Skeleton::enteringChannels);
+    constexpr auto channels = static_cast<std::int64_t>(skeleton::Skeleton::networkInputChannels);
     return load(std::move(runtime), model, tier, tier.field,
                 {{{"entering", {channels, 1, samples}},
                   {"past", {1, 1, samples}},

@@ -52,7 +52,7 @@ inline constexpr std::size_t phases = 5;
 inline constexpr std::size_t interval = 6;
 }  // namespace field_input
 namespace refinement_input {
-inline constexpr std::size_t entering = 0;
+inline constexpr std::size_t skeleton = 0;
 inline constexpr std::size_t past = 1;
 inline constexpr std::size_t film = 2;
 }  // namespace refinement_input

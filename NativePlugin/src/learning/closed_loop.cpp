@@ -87,12 +87,12 @@ std::vector<float> ClosedLoop::run(std::span<const Embedding> embeddings, std::s
     for (std::size_t start = 0; start < whole; start += settings.hopSamples, ++hop) {
         for (std::size_t c = 0; c < chains.size(); ++c) {
             requests[c].motion = motionFrom(chains[c], start, settings.hopSamples);
-            std::array<float, inference::ribCount> turns{};
-            std::ranges::transform(phases[c], turns.begin(), [](double each) {
+            std::array<float, inference::ribCount> cycles{};
+            std::ranges::transform(phases[c], cycles.begin(), [](double each) {
                 const auto phase = static_cast<float>(each);
                 return phase < 1.0F ? phase : 0.0F;
             });
-            requests[c].phases = skeleton::phasesOf(requests[c].embedding, requests[c].motion, turns);
+            requests[c].phases = skeleton::phasesOf(requests[c].embedding, requests[c].motion, cycles);
             inference::fillStandardNormal(
                 {.seed = settings.seed, .voice = chains[c].noise, .segment = settings.round * 4096 + hop},
                 at(noise, c));

@@ -314,15 +314,15 @@ CyclesPerMm refined(std::span<const PathWindow> windows, CyclesPerMm vector, std
 /// Removes the lines of a vector, so that they are not attributed to another one.
 void takeOut(std::span<PathWindow> windows, const CyclesPerMm& vector) {
     for (PathWindow& window : windows) {
-        std::vector<Complex> turns(window.wave.size());
-        for (std::size_t i = 0; i < turns.size(); ++i) {
-            turns[i] = turnAt(window, i, vector);
+        std::vector<Complex> rotations(window.wave.size());
+        for (std::size_t i = 0; i < rotations.size(); ++i) {
+            rotations[i] = turnAt(window, i, vector);
         }
-        std::vector<Complex> line(turns.size(), 1.0);
+        std::vector<Complex> line(rotations.size(), 1.0);
         for (std::size_t order = 1; order <= takenHarmonics; ++order) {
             Complex sum = 0.0;
             for (std::size_t i = 0; i < line.size(); ++i) {
-                line[i] *= turns[i];
+                line[i] *= rotations[i];
                 sum += window.wave[i] * std::conj(line[i]);
             }
             if (covers(window, multiple(vector, order))) {

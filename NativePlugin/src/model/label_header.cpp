@@ -60,7 +60,7 @@ StickSlip readStickSlip(const HeaderNode& node) {
 std::vector<RibWander> readRibWander(const HeaderNode& node) {
     std::vector<RibWander> wanders;
     for (const HeaderNode& each : node.elements(1, 2)) {
-        wanders.push_back({.turns = each.at("turns").number(0.0, 10.0),
+        wanders.push_back({.cycles = each.at("turns").number(0.0, 10.0),
                            .wavelengthMetres = each.at("wavelength_metres").number(1e-6, 10.0)});
     }
     return wanders;

@@ -53,8 +53,8 @@ SeedEntry readSeed(const HeaderNode& node, const NameIndex& labelNames) {
     seed.velocityMps = {velocity[0], velocity[1]};
     seed.forceNewtons = node.at("force_newtons").number(0.0, maximumForceNewtons);
     if (const auto phase = node.find("rib_phase")) {
-        const auto turns = phase->numbers(seed.ribPhase.size(), 0.0, 1.0);
-        std::ranges::copy(turns, seed.ribPhase.begin());
+        const auto cycles = phase->numbers(seed.ribPhase.size(), 0.0, 1.0);
+        std::ranges::copy(cycles, seed.ribPhase.begin());
     }
     if (const auto gain = node.find("gain")) {
         seed.gain = static_cast<float>(gain->number(0.0, maximumSeedGain));

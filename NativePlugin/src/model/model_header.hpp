@@ -79,7 +79,7 @@ struct Impact {
 /// How far the true phase of ribs wanders from that of an even ruling.
 struct RibWander {
     /// Standard deviation.
-    double turns = 0.0;
+    double cycles = 0.0;
     /// Distance over which it changes.
     double wavelengthMetres = 0.0;
 };
@@ -159,8 +159,8 @@ struct SkeletonHeader {
     /// Harmonics of the lines and of the swing of the drive's gain.
     static constexpr std::size_t harmonics = 14;
     static constexpr std::size_t swingHarmonics = 5;
-    /// Heights in the noise, in standard deviations, beyond which it strikes.
-    static constexpr std::array<double, 5> rungs{2.0, 2.6, 3.1, 3.5, 4.0};
+    /// Heights in the noise, in standard deviations, beyond which it makes an impulse.
+    static constexpr std::array<double, 5> impulseThresholds{2.0, 2.6, 3.1, 3.5, 4.0};
 
     /// Hidden units of the perceptron, and weights of skeleton and level.
     std::int64_t hidden = 0;

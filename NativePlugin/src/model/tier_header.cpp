@@ -141,9 +141,10 @@ SkeletonHeader readSkeleton(const HeaderNode& node) {
     requireSize("order", SkeletonHeader::order);
     requireSize("harmonics", SkeletonHeader::harmonics);
     requireSize("swing_harmonics", SkeletonHeader::swingHarmonics);
-    const HeaderNode rungs = node.at("rungs");
-    if (!std::ranges::equal(rungs.numbers(SkeletonHeader::rungs.size(), 0.0, 16.0), SkeletonHeader::rungs)) {
-        rungs.refuse("[2, 2.6, 3.1, 3.5, 4]");
+    const HeaderNode thresholds = node.at("rungs");
+    if (!std::ranges::equal(thresholds.numbers(SkeletonHeader::impulseThresholds.size(), 0.0, 16.0),
+                            SkeletonHeader::impulseThresholds)) {
+        thresholds.refuse("[2, 2.6, 3.1, 3.5, 4]");
     }
     return {.hidden = node.at("hidden").integer(1, 512),
             .parameters = node.at("parameters").integer(0, maximumParameters)};

@@ -26,16 +26,16 @@ std::array<double, ribCount> ribRatesHz(std::span<const float, embeddingSize> em
 }
 
 Phases phasesOf(std::span<const float, embeddingSize> embedding, const Motion& motion,
-                const std::array<float, ribCount>& turns) noexcept {
+                const std::array<float, ribCount>& cycles) noexcept {
     Phases phases{};
-    std::ranges::copy(turns, phases.begin());
+    std::ranges::copy(cycles, phases.begin());
     std::ranges::transform(ribRatesHz(embedding, static_cast<double>(motion[0]), static_cast<double>(motion[1])),
                            phases.begin() + familyCount, [](double rateHz) { return static_cast<float>(rateHz); });
     return phases;
 }
 
-float wrapped(double turns) noexcept {
-    const auto phase = static_cast<float>(turns - std::floor(turns));
+float wrapped(double cycles) noexcept {
+    const auto phase = static_cast<float>(cycles - std::floor(cycles));
     // Rounding could lift a phase just below one turn to 1.
     return phase < 1.0F ? phase : 0.0F;
 }

@@ -35,10 +35,10 @@ inline constexpr std::size_t smoothFeatures = 12;
 /// Phases of a request: the turns of the two families of ribs, and the rates of the embedding at the motion. The third
 /// family stands still.
 [[nodiscard]] Phases phasesOf(std::span<const float, embeddingSize> embedding, const Motion& motion,
-                              const std::array<float, ribCount>& turns) noexcept;
+                              const std::array<float, ribCount>& cycles) noexcept;
 
 /// Turns as a phase in [0, 1).
-[[nodiscard]] float wrapped(double turns) noexcept;
+[[nodiscard]] float wrapped(double cycles) noexcept;
 
 /// The phases a number of waveform samples later, or earlier for a negative number, at the same rates.
 [[nodiscard]] Phases advanced(const Phases& phases, double samples) noexcept;

@@ -8,32 +8,32 @@
 
 namespace haptoflow::skeleton {
 
-/// Rare strikes made from the tails of the noise: samples beyond a rung, each ringing as a kernel of 64 taps. How often
-/// a rung is exceeded is fixed; strength and ringing are the material's.
-class RungImpulses {
+/// Rare impulses made from the tails of the noise: samples beyond a threshold, each ringing as a kernel of 64 taps. How
+/// often a threshold is exceeded is fixed; strength and ringing are the material's.
+class TailImpulses {
 public:
     static constexpr std::size_t taps = 64;
-    /// Gains of the atoms of each rung, of the positive tail and then of the negative one.
-    static constexpr std::size_t gainCount = 2 * rungCount * atomCount;
+    /// Gains of the atoms of each threshold, of the positive tail and then of the negative one.
+    static constexpr std::size_t gainCount = 2 * thresholdCount * atomCount;
 
-    RungImpulses();
+    TailImpulses();
 
     /// Writes the impulses of `noise`, relative to it. `gains` are outputs of the perceptron. No allocation.
-    void strike(Segment noise, std::span<const float, gainCount> gains,
-                std::span<float, segmentSamples> struck) const noexcept;
+    void add(Segment noise, std::span<const float, gainCount> gains,
+             std::span<float, segmentSamples> impulses) const noexcept;
 
 private:
     using Kernel = std::array<float, taps>;
     [[nodiscard]] Kernel kernelOf(std::span<const float, atomCount> gains) const noexcept;
 
     std::array<Kernel, atomCount> atoms_{};
-    /// One over the deviation of what exceeds a rung.
-    std::array<float, rungCount> scales_{};
+    /// One over the deviation of what exceeds a threshold.
+    std::array<float, thresholdCount> scales_{};
 };
 
 /// Phase of a family of waves at the segment's first sample, and its rate.
 struct FamilyPhase {
-    double turns = 0.0;
+    double cycles = 0.0;
     /// Negative where the tip moves against the family's direction.
     double rateHz = 0.0;
 

@@ -56,17 +56,17 @@ FamilyGains gainsOf(std::span<const float, 2 * (swingHarmonics + lineHarmonics)>
 
 /// What drives the filter: the noise, which swings with the waves, the waves' lines, both times `gain`, and the
 /// impulses.
-std::array<float, segmentSamples> driveOf(Segment noise, Segment struck, float gain,
+std::array<float, segmentSamples> driveOf(Segment noise, Segment impulses, float gain,
                                           const SurfaceWaves& waves) noexcept {
     std::array<float, segmentSamples> drive{};
     if (!waves.isHeard()) {
-        std::ranges::transform(noise, struck, drive.begin(),
+        std::ranges::transform(noise, impulses, drive.begin(),
                                [gain](float sample, float impulse) { return gain * sample + impulse; });
         return drive;
     }
     for (std::size_t n = 0; n < segmentSamples; ++n) {
         const float swing = largestSwing * std::tanh(waves.swing()[n] / largestSwing);
-        drive[n] = gain * (noise[n] * std::exp(swing) + waves.lines()[n]) + struck[n];
+        drive[n] = gain * (noise[n] * std::exp(swing) + waves.lines()[n]) + impulses[n];
     }
     return drive;
 }
@@ -84,7 +84,7 @@ Skeleton::Skeleton(HiddenLayers hidden, OutputLayers outputs)
 std::array<FamilyPhase, familyCount> Skeleton::familiesOf(const Phases& phases) noexcept {
     std::array<FamilyPhase, familyCount> families{};
     for (std::size_t family = 0; family < familyCount; ++family) {
-        families[family] = {.turns = static_cast<double>(phases[family]),
+        families[family] = {.cycles = static_cast<double>(phases[family]),
                             .rateHz = static_cast<double>(phases[familyCount + family])};
     }
     return families;
@@ -113,14 +113,15 @@ SegmentParameters Skeleton::parametersFor(const Condition& condition,
             parameters.families[family] = gainsOf(outputs);
         }
     }
-    outputs_.rungs.apply(activations, parameters.rungs);
-    // Limited where they strike, as without a gain.
-    std::ranges::for_each(parameters.rungs, [impulseGain](float& rung) { rung *= impulseGain; });
+    outputs_.impulseGains.apply(activations, parameters.impulseGains);
+    // Limited where they arise, as without a gain.
+    std::ranges::for_each(parameters.impulseGains, [impulseGain](float& threshold) { threshold *= impulseGain; });
     return parameters;
 }
 
-void Skeleton::begin(const Moment& moment, const SegmentParameters& parameters, std::span<float, segmentSamples> begun,
-                     std::span<float, segmentSamples> struck, Pulses* pulses) const noexcept {
+void Skeleton::begin(const Moment& moment, const SegmentParameters& parameters,
+                     std::span<float, segmentSamples> segment, std::span<float, segmentSamples> impulses,
+                     Pulses* pulses) const noexcept {
     const auto phases = familiesOf(moment.phases);
     SurfaceWaves waves;
     for (std::size_t family = 0; family < familyCount; ++family) {
@@ -132,28 +133,28 @@ void Skeleton::begin(const Moment& moment, const SegmentParameters& parameters, 
     std::array<float, segmentSamples> noise{};
     std::ranges::transform(moment.noise, noise.begin(), [](float sample) { return limitedOrZero(sample, noiseLimit); });
     const auto gain = static_cast<float>(std::exp(parameters.filter.logGain));
-    impulses_.strike(noise, parameters.rungs, struck);
-    std::ranges::for_each(struck, [gain](float& impulse) { impulse *= gain; });
-    parameters.filter.run(moment.previous.last<filterOrder>(), driveOf(noise, struck, gain, waves), begun);
+    impulses_.add(noise, parameters.impulseGains, impulses);
+    std::ranges::for_each(impulses, [gain](float& impulse) { impulse *= gain; });
+    parameters.filter.run(moment.previous.last<filterOrder>(), driveOf(noise, impulses, gain, waves), segment);
 }
 
 void Skeleton::sketch(const Moment& moment, const Condition& condition,
-                      std::span<float, segmentSamples> begun) const noexcept {
-    sketch(moment, parametersFor(condition, familiesOf(moment.phases), moment.impulseGain), begun);
+                      std::span<float, segmentSamples> segment) const noexcept {
+    sketch(moment, parametersFor(condition, familiesOf(moment.phases), moment.impulseGain), segment);
 }
 
 void Skeleton::sketch(const Moment& moment, const SegmentParameters& parameters,
-                      std::span<float, segmentSamples> begun) const noexcept {
-    std::array<float, segmentSamples> struck{};
-    begin(moment, parameters, begun, struck, nullptr);
+                      std::span<float, segmentSamples> segment) const noexcept {
+    std::array<float, segmentSamples> impulses{};
+    begin(moment, parameters, segment, impulses, nullptr);
 }
 
 void Skeleton::enter(const Moment& moment, const Condition& condition,
-                     std::span<float, enteringChannels * segmentSamples> entering) const noexcept {
+                     std::span<float, networkInputChannels * segmentSamples> networkInput) const noexcept {
     Pulses pulses;
     begin(moment, parametersFor(condition, familiesOf(moment.phases), moment.impulseGain),
-          entering.first<segmentSamples>(), entering.subspan<segmentSamples, segmentSamples>(), &pulses);
-    auto next = entering.begin() + 2 * segmentSamples;
+          networkInput.first<segmentSamples>(), networkInput.subspan<segmentSamples, segmentSamples>(), &pulses);
+    auto next = networkInput.begin() + 2 * segmentSamples;
     for (const SurfaceWaves::Pulses* each : {&pulses.cosines, &pulses.sines}) {
         for (const auto& harmonic : *each) {
             next = std::ranges::copy(harmonic, next).out;

@@ -50,7 +50,7 @@ struct OutputLayers {
     LinearLayer filter;
     /// Of each family the swing's cosines and sines, then the lines' cosines and sines.
     std::array<LinearLayer, familyCount> families;
-    LinearLayer rungs;
+    LinearLayer impulseGains;
 };
 
 /// The parameters of a segment.
@@ -58,7 +58,7 @@ struct SegmentParameters {
     ReflectionFilter filter;
     /// Zero for a family that is not heard.
     std::array<FamilyGains, familyCount> families{};
-    std::array<float, RungImpulses::gainCount> rungs{};
+    std::array<float, TailImpulses::gainCount> impulseGains{};
 };
 
 /// What sounds without a graph: a filter continues the previous waveform, driven by noise, by the lines of ribs and
@@ -67,7 +67,7 @@ struct SegmentParameters {
 class Skeleton {
 public:
     /// Channels of what the refining graph sees.
-    static constexpr std::size_t enteringChannels = 2 + 2 * swingHarmonics;
+    static constexpr std::size_t networkInputChannels = 2 + 2 * swingHarmonics;
 
     Skeleton(HiddenLayers hidden, OutputLayers outputs);
 
@@ -80,24 +80,24 @@ public:
 
     /// Writes the segment in unit scale.
     void sketch(const Moment& moment, const Condition& condition,
-                std::span<float, segmentSamples> begun) const noexcept;
+                std::span<float, segmentSamples> segment) const noexcept;
     /// The same with parameters that are known; of the moment only phases, previous waveform and noise count.
     void sketch(const Moment& moment, const SegmentParameters& parameters,
-                std::span<float, segmentSamples> begun) const noexcept;
+                std::span<float, segmentSamples> segment) const noexcept;
     /// Writes what the refining graph sees, one channel after the other: the segment, the impulses that drove it, and
     /// the cosines and then the sines of the first five harmonics, summed over the families.
     void enter(const Moment& moment, const Condition& condition,
-               std::span<float, enteringChannels * segmentSamples> entering) const noexcept;
+               std::span<float, networkInputChannels * segmentSamples> networkInput) const noexcept;
 
 private:
     struct Pulses;
     [[nodiscard]] ReflectionFilter filterOf(const HiddenLayers::Activations& activations) const noexcept;
-    void begin(const Moment& moment, const SegmentParameters& parameters, std::span<float, segmentSamples> begun,
-               std::span<float, segmentSamples> struck, Pulses* pulses) const noexcept;
+    void begin(const Moment& moment, const SegmentParameters& parameters, std::span<float, segmentSamples> segment,
+               std::span<float, segmentSamples> impulses, Pulses* pulses) const noexcept;
 
     HiddenLayers hidden_;
     OutputLayers outputs_;
-    RungImpulses impulses_;
+    TailImpulses impulses_;
 };
 
 }  // namespace haptoflow::skeleton

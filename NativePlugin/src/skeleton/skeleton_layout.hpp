@@ -18,13 +18,13 @@ using model::embeddingSize;
 inline constexpr std::size_t filterOrder = model::SkeletonHeader::order;
 inline constexpr std::size_t lineHarmonics = model::SkeletonHeader::harmonics;
 inline constexpr std::size_t swingHarmonics = model::SkeletonHeader::swingHarmonics;
-inline constexpr std::size_t rungCount = model::SkeletonHeader::rungs.size();
+inline constexpr std::size_t thresholdCount = model::SkeletonHeader::impulseThresholds.size();
 /// Number of wave vectors in an embedding. Their x and y components, in cycles per millimetre, are the embedding's last
 /// 2 * ribCount numbers; they are zero for a material without ribs.
 inline constexpr std::size_t ribCount = 2;
 /// Families of waves that the surface's place drives: two of ribs and stick-slip.
 inline constexpr std::size_t familyCount = ribCount + 1;
-/// Kernels that a rung's impulses are made of.
+/// Kernels that a threshold's impulses are made of.
 inline constexpr std::size_t atomCount = 13;
 
 /// Largest magnitude of a sample in unit scale: m/s^2 divided by the level.
@@ -37,14 +37,15 @@ using Phases = std::array<float, 2 * familyCount>;
 
 using Segment = std::span<const float, segmentSamples>;
 
-/// Where the outputs of the perceptron `skeleton` begin: reflections and gain, swing and lines of each family, rungs.
+/// Where the outputs of the perceptron `skeleton` begin: reflections and gain, swing and lines of each family,
+/// impulseGains.
 namespace output {
 inline constexpr std::size_t reflections = 0;
 inline constexpr std::size_t gain = filterOrder;
 inline constexpr std::size_t swing = gain + 1;
 inline constexpr std::size_t lines = swing + familyCount * 2 * swingHarmonics;
-inline constexpr std::size_t rungs = lines + familyCount * 2 * lineHarmonics;
-inline constexpr std::size_t count = rungs + 2 * rungCount * atomCount;
+inline constexpr std::size_t impulseGains = lines + familyCount * 2 * lineHarmonics;
+inline constexpr std::size_t count = impulseGains + 2 * thresholdCount * atomCount;
 }  // namespace output
 
 [[nodiscard]] inline float finiteOrZero(float value) noexcept {

@@ -124,7 +124,7 @@ std::shared_ptr<const Skeleton> readSkeleton(const model::ModelFile& model) {
         std::move(hidden),
         OutputLayers{.filter = Rows(weight, bias).add(output::reflections, filterOrder + 1).layer(),
                      .families = {family(0), family(1), family(2)},
-                     .rungs = Rows(weight, bias).add(output::rungs, RungImpulses::gainCount).layer()});
+                     .impulseGains = Rows(weight, bias).add(output::impulseGains, TailImpulses::gainCount).layer()});
 }
 
 NativeParts readNativeParts(const model::ModelFile& model) {

@@ -26,7 +26,7 @@ double loopSeconds() {
 
 /// Mean magnitude spectrum over frames that overlap by half, 0 to 1 kHz in steps of 5 Hz.
 std::vector<double> meanSpectrum(const std::vector<float>& waveform) {
-    static const auto turns = [] {
+    static const auto cycles = [] {
         std::array<std::complex<double>, frameSamples> table;
         for (std::size_t i = 0; i < frameSamples; ++i) {
             table[i] = std::polar(1.0, -2.0 * std::numbers::pi * static_cast<double>(i) / frameSamples);
@@ -38,8 +38,8 @@ std::vector<double> meanSpectrum(const std::vector<float>& waveform) {
         for (std::size_t bin = 0; bin < bins; ++bin) {
             std::complex<double> value;
             for (std::size_t i = 0; i < frameSamples; ++i) {
-                const double window = 0.5 - 0.5 * turns[i].real();
-                value += window * static_cast<double>(waveform[begin + i]) * turns[bin * i % frameSamples];
+                const double window = 0.5 - 0.5 * cycles[i].real();
+                value += window * static_cast<double>(waveform[begin + i]) * cycles[bin * i % frameSamples];
             }
             sum[bin] += std::abs(value);
         }

@@ -131,15 +131,15 @@ TEST_F(VoiceEffectsApiTest, ASignalReplacesAllEffectsWhileTheTipMovesAndItsStart
     EXPECT_EQ(of(HAPTOFLOW_EFFECT_SIGNAL).is_asked_for, 1U);
     EXPECT_EQ(of(HAPTOFLOW_EFFECT_SIGNAL).events, 1U);
     EXPECT_GT(of(HAPTOFLOW_EFFECT_SIGNAL).samples, 3000U);
-    haptoflow_signal_statistics turns{};
-    turns.struct_size = sizeof(turns);
-    ASSERT_EQ(haptoflow_voice_signal_statistics(open_.voice, &turns), HAPTOFLOW_OK) << message();
-    EXPECT_EQ(turns.starts, 1U);
-    EXPECT_EQ(turns.stops, 1U);
-    EXPECT_GT(turns.last_start_latency_seconds, 0.01) << "the delay and the time until the callback";
-    EXPECT_GT(turns.last_stop_latency_seconds, 0.01);
-    EXPECT_EQ(turns.mean_start_latency_seconds, turns.last_start_latency_seconds);
-    EXPECT_EQ(turns.mean_stop_latency_seconds, turns.last_stop_latency_seconds);
+    haptoflow_signal_statistics cycles{};
+    cycles.struct_size = sizeof(cycles);
+    ASSERT_EQ(haptoflow_voice_signal_statistics(open_.voice, &cycles), HAPTOFLOW_OK) << message();
+    EXPECT_EQ(cycles.starts, 1U);
+    EXPECT_EQ(cycles.stops, 1U);
+    EXPECT_GT(cycles.last_start_latency_seconds, 0.01) << "the delay and the time until the callback";
+    EXPECT_GT(cycles.last_stop_latency_seconds, 0.01);
+    EXPECT_EQ(cycles.mean_start_latency_seconds, cycles.last_start_latency_seconds);
+    EXPECT_EQ(cycles.mean_stop_latency_seconds, cycles.last_stop_latency_seconds);
 }
 
 TEST_F(VoiceEffectsApiTest, ASignalOutOfRangeIsRefusedByNameAndTheOldOneStays) {
@@ -155,9 +155,9 @@ TEST_F(VoiceEffectsApiTest, ASignalOutOfRangeIsRefusedByNameAndTheOldOneStays) {
     }
     EXPECT_EQ(of(HAPTOFLOW_EFFECT_SIGNAL).is_asked_for, 1U);
     EXPECT_EQ(haptoflow_voice_set_signal(999, 200.0, 1.0), HAPTOFLOW_INVALID_ARGUMENT);
-    haptoflow_signal_statistics turns{};
-    turns.struct_size = sizeof(turns);
-    EXPECT_EQ(haptoflow_voice_signal_statistics(999, &turns), HAPTOFLOW_INVALID_ARGUMENT);
+    haptoflow_signal_statistics cycles{};
+    cycles.struct_size = sizeof(cycles);
+    EXPECT_EQ(haptoflow_voice_signal_statistics(999, &cycles), HAPTOFLOW_INVALID_ARGUMENT);
     EXPECT_EQ(haptoflow_voice_signal_statistics(open_.voice, nullptr), HAPTOFLOW_INVALID_ARGUMENT);
 }
 

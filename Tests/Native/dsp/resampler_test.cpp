@@ -131,8 +131,8 @@ std::complex<double> kernelPhase(double frequencyHz) {
     std::complex<double> sum = 0.0;
     for (std::size_t i = 0; i < MinimumPhaseKernel::lengthInputSamples * pointsPerSample; ++i) {
         const double t = static_cast<double>(i) / pointsPerSample;
-        const double turns = frequencyHz / static_cast<double>(inputRateHz) * t;
-        sum += std::polar(MinimumPhaseKernel::shared().at(t), -2.0 * std::numbers::pi * turns);
+        const double cycles = frequencyHz / static_cast<double>(inputRateHz) * t;
+        sum += std::polar(MinimumPhaseKernel::shared().at(t), -2.0 * std::numbers::pi * cycles);
     }
     return sum / std::abs(sum);
 }

@@ -20,8 +20,8 @@ std::vector<float> whiteNoise(std::size_t count, double amplitude, std::uint32_t
 std::vector<float> tone(std::size_t count, double frequencyHz, double amplitude, double sampleRateHz) {
     std::vector<float> samples(count);
     for (std::size_t i = 0; i < count; ++i) {
-        const double turns = frequencyHz * static_cast<double>(i) / sampleRateHz;
-        samples[i] = static_cast<float>(amplitude * std::sin(2.0 * std::numbers::pi * turns));
+        const double cycles = frequencyHz * static_cast<double>(i) / sampleRateHz;
+        samples[i] = static_cast<float>(amplitude * std::sin(2.0 * std::numbers::pi * cycles));
     }
     return samples;
 }

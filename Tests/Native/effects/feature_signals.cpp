@@ -15,8 +15,8 @@ constexpr double waveRateHz = 2000.0;
 std::vector<float> featureSine(double frequencyHz, double amplitudeMps2, double seconds) {
     std::vector<float> wave(static_cast<std::size_t>(seconds * waveRateHz));
     for (std::size_t i = 0; i < wave.size(); ++i) {
-        const double turns = frequencyHz * static_cast<double>(i) / waveRateHz;
-        wave[i] = static_cast<float>(amplitudeMps2 * std::sin(2.0 * std::numbers::pi * turns));
+        const double cycles = frequencyHz * static_cast<double>(i) / waveRateHz;
+        wave[i] = static_cast<float>(amplitudeMps2 * std::sin(2.0 * std::numbers::pi * cycles));
     }
     return wave;
 }

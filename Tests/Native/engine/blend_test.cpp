@@ -71,16 +71,16 @@ TEST_F(BlendRibsTest, TheHeaviestMaterialsWaveVectorsAreKeptIfSlotsAreMissing) {
 }
 
 TEST_F(BlendRibsTest, APhaseFollowsItsWaveVectorToAnotherSlot) {
-    const RibTurns phases{0.1, 0.6};
-    EXPECT_EQ(phasesFor({fine, none}, {coarse, fine}, phases), (RibTurns{0.6, 0.6}));
-    EXPECT_EQ(phasesFor({across, fine}, {fine, across}, phases), (RibTurns{0.6, 0.1}));
+    const RibCycles phases{0.1, 0.6};
+    EXPECT_EQ(phasesFor({fine, none}, {coarse, fine}, phases), (RibCycles{0.6, 0.6}));
+    EXPECT_EQ(phasesFor({across, fine}, {fine, across}, phases), (RibCycles{0.6, 0.1}));
     EXPECT_EQ(phasesFor({coarse, fine}, {coarse, fine}, phases), phases);
     EXPECT_EQ(phasesFor({across, none}, {coarse, none}, phases), phases) << "new ribs get the phase of their slot";
 }
 
 TEST_F(BlendRibsTest, NoPhaseJumpsDuringASweepBetweenTwoRuledLabels) {
     RibTrack track;
-    track.begin(0, {.phase = {0.3, 0.0}, .turnsPerSample = {0.01, 0.0}, .vectors = {coarse, none}});
+    track.begin(0, {.phase = {0.3, 0.0}, .cyclesPerSample = {0.01, 0.0}, .vectors = {coarse, none}});
     constexpr std::int64_t hop = 28;
     WaveVectors before{coarse, none};
     std::array<double, 3> travelled{0.3, 0.0, 0.0};
@@ -89,7 +89,7 @@ TEST_F(BlendRibsTest, NoPhaseJumpsDuringASweepBetweenTwoRuledLabels) {
     for (int step = 0; step <= 100; ++step) {
         const float share = 0.01F * static_cast<float>(step);
         const WaveVectors vectors = ribsOf({{1, 1.0F - share}, {2, share}}, before);
-        const RibTurns phases = track.at(step * hop, vectors);
+        const RibCycles phases = track.at(step * hop, vectors);
         for (std::size_t rib = 0; rib < all.size(); ++rib) {
             const auto slot = std::ranges::find(vectors, all[rib]) - vectors.begin();
             if (slot == 2) {
@@ -103,13 +103,13 @@ TEST_F(BlendRibsTest, NoPhaseJumpsDuringASweepBetweenTwoRuledLabels) {
             }
             isKnown[rib] = true;
             // The tip moves at 0.1 m/s along x and 0.05 m/s along y.
-            const double turns =
+            const double cycles =
                 (static_cast<double>(all[rib].x) * 100.0 + static_cast<double>(all[rib].y) * 50.0) / 2000.0;
-            travelled[rib] = phase + turns * static_cast<double>(hop);
+            travelled[rib] = phase + cycles * static_cast<double>(hop);
         }
         std::array<float, model::embeddingSize> embedding{};
         setWaveVectors(embedding, vectors);
-        track.add(step * hop, vectors, phases, ribTurnsPerSample(embedding, 0.1, 0.05));
+        track.add(step * hop, vectors, phases, ribCyclesPerSample(embedding, 0.1, 0.05));
         before = vectors;
     }
 }

@@ -122,9 +122,9 @@ TEST(PlaceTrackTest, RibsBeyondTheTrainedSpeedAreAddedUp) {
 TEST(RibTrackTest, TheFirstSegmentTakesThePhaseOfThePlaceAndLaterOnesComeCloserWithoutAJump) {
     const WaveVectors vectors{WaveVector{0.5F, 0.0F}, WaveVector{}};
     RibTrack track;
-    track.begin(0, {.phase = {0.9, 0.0}, .turnsPerSample = {0.0, 0.0}, .vectors = vectors});
+    track.begin(0, {.phase = {0.9, 0.0}, .cyclesPerSample = {0.0, 0.0}, .vectors = vectors});
     // 2.5 mm are 1.25 turns.
-    const RibTurns first = track.at(10, vectors, {0.0025, 0.0});
+    const RibCycles first = track.at(10, vectors, {0.0025, 0.0});
     EXPECT_NEAR(first[0], 0.25, 1e-9);
     track.add(10, vectors, first, {0.01, 0.0});
     // 0.45 turns by the track; the place says 0.47, 0.80 and 0.40.

@@ -37,19 +37,19 @@ constexpr float fine = 0.35F;
 /// the splice adds to that. A phase jump by a tenth of a turn changes it by up to 0.9.
 constexpr float largestStepWithoutAJump = 0.25F;
 
-double turnsPerSample(std::span<const float> waveVector, const std::array<float, 3>& motion) {
+double cyclesPerSample(std::span<const float> waveVector, const std::array<float, 3>& motion) {
     return (static_cast<double>(waveVector[0]) * static_cast<double>(motion[0]) +
             static_cast<double>(waveVector[1]) * static_cast<double>(motion[1])) *
            1000.0 / inference::waveformRateHz;
 }
 
-float ribs(double turns) {
-    return static_cast<float>(std::numbers::sqrt2 * std::sin(2.0 * std::numbers::pi * turns));
+float ribs(double cycles) {
+    return static_cast<float>(std::numbers::sqrt2 * std::sin(2.0 * std::numbers::pi * cycles));
 }
 
 /// The output of an ideal network for a ruled surface: a sinusoid with the phase of the request.
 void ribsOf(const SegmentRequest& request, std::span<float> segment) {
-    const double step = turnsPerSample(std::span(request.embedding).subspan(60, 2), request.motion);
+    const double step = cyclesPerSample(std::span(request.embedding).subspan(60, 2), request.motion);
     for (std::size_t i = 0; i < segment.size(); ++i) {
         segment[i] = ribs(static_cast<double>(request.phases[0]) + step * static_cast<double>(i));
     }
@@ -69,9 +69,9 @@ model::ModelFile ribModel() {
         const std::array<float, 4> waveVectors{waveNumbers[label], 0.0F, 0.0F, 2.0F * waveNumbers[label]};
         std::ranges::copy(waveVectors, row + 60);
         for (std::size_t i = 0; i < model::seedSamples; ++i) {
-            const double turns = (static_cast<double>(i) - 200.0) *
-                                 turnsPerSample(waveVectors, {static_cast<float>(seedSpeedMps), 0.0F, 1.0F});
-            seeds[label * model::seedSamples + i] = ribs(phases[label] + turns);
+            const double cycles = (static_cast<double>(i) - 200.0) *
+                                  cyclesPerSample(waveVectors, {static_cast<float>(seedSpeedMps), 0.0F, 1.0F});
+            seeds[label * model::seedSamples + i] = ribs(phases[label] + cycles);
         }
         entries.push_back({{"label", label == 0 ? "oak" : "metal mesh"},
                            {"velocity_mps", {seedSpeedMps, 0.0}},
@@ -98,7 +98,7 @@ protected:
         phases_.push_back({request.phases[0], request.phases[1]});
         ratesHz_.push_back({request.phases[3], request.phases[4], request.phases[5]});
         speedsMps_.push_back(request.motion[0]);
-        turns_.push_back(turnsPerSample(std::span(request.embedding).subspan(60, 2), request.motion));
+        turns_.push_back(cyclesPerSample(std::span(request.embedding).subspan(60, 2), request.motion));
         ribsOf(request, segment);
     }};
     // The phases of each request.
@@ -138,10 +138,10 @@ protected:
 
     /// The largest difference between the played waveform and the sinusoid of the ribs since touch-down, at constant
     /// speed.
-    static double largestError(std::span<const float> played, double firstPhase, double turns) {
+    static double largestError(std::span<const float> played, double firstPhase, double cycles) {
         double largest = 0.0;
         for (std::size_t i = 0; i < played.size(); ++i) {
-            const double expected = static_cast<double>(ribs(firstPhase + turns * static_cast<double>(i)));
+            const double expected = static_cast<double>(ribs(firstPhase + cycles * static_cast<double>(i)));
             largest = std::max(largest, std::abs(static_cast<double>(played[i]) - expected));
         }
         return largest;

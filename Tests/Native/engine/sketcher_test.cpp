@@ -64,7 +64,7 @@ model::testing::ModelBuilder calmModel() {
     auto builder = skeleton::testing::skeletonModel({.seed = 5, .strength = 0.3F});
     for (const std::string part : {"weight", "bias"}) {
         auto& bytes = skeleton::testing::blobOf(builder, "skeleton.4." + part).bytes;
-        constexpr std::size_t rungShare = 2 * skeleton::rungCount * skeleton::atomCount;
+        constexpr std::size_t rungShare = 2 * skeleton::thresholdCount * skeleton::atomCount;
         std::ranges::fill(bytes.end() - static_cast<std::ptrdiff_t>(bytes.size() * rungShare / skeleton::output::count),
                           bytes.end(), static_cast<std::remove_reference_t<decltype(bytes[0])>>(0));
     }
@@ -311,7 +311,7 @@ TEST_F(ImpulseGainTest, TheCallbacksSketchHasItToo) {
         SimulatedDevice device(model, generator);
         device.voice().publisher.publish(slidingOver(testing::blendOf({{0, 1.0F}})));
         EXPECT_TRUE(device.voice().channels.toAudio.fetch());
-        return device.voice().channels.toAudio.current().sketch.parameters.rungs;
+        return device.voice().channels.toAudio.current().sketch.parameters.impulseGains;
     };
     const auto plain = rungsOf(1.0F);
     const auto louder = rungsOf(2.5F);

@@ -77,7 +77,7 @@ protected:
 };
 
 TEST_F(SurfacePhasesTest, EvenRibsHaveTheirTurnsAndSignedRatesAndNothingSlips) {
-    phases_.begin(0, {.phase = {0.25, 0.5}, .turnsPerSample = {}, .vectors = waveVectorsOf(embedding_)});
+    phases_.begin(0, {.phase = {0.25, 0.5}, .cyclesPerSample = {}, .vectors = waveVectorsOf(embedding_)});
     const skeleton::Phases phases = at(0, {0.1F, -0.05F, 1.0F});
     EXPECT_NEAR(phases[0], 0.25F, 1e-6F);
     EXPECT_NEAR(phases[1], 0.5F, 1e-6F);
@@ -119,7 +119,7 @@ TEST_F(SurfacePhasesTest, AHarderPressMakesSlipsRarerAndAFingerTouchCountsAsTheL
 }
 
 TEST_F(SurfacePhasesTest, WanderingRibsAreDisplacedByTheSameAmountAtTheSamePlace) {
-    statistics_.ribs[0] = {.turns = 0.12, .wavelengthMetres = 0.014};
+    statistics_.ribs[0] = {.cycles = 0.12, .wavelengthMetres = 0.014};
     phases_.begin(0, {});
     const skeleton::Phases there = at(0, {0.1F, 0.0F, 1.0F});
     metres_ = 0.137;
@@ -163,8 +163,8 @@ TEST_F(WaveStatisticsTest, ALabelBringsItsOwnWanderAndSlips) {
     const Ingredients ruled = library_.ingredients({{1, 1.0F}});
     const WaveStatistics statistics = waveStatisticsOf(ruled, assignRibs(ruled, {}));
     EXPECT_EQ(statistics.slip.lengthMetres, 0.0);
-    EXPECT_NEAR(statistics.ribs[0].turns, 0.12, 1e-9);
-    EXPECT_EQ(statistics.ribs[1].turns, 0.0);
+    EXPECT_NEAR(statistics.ribs[0].cycles, 0.12, 1e-9);
+    EXPECT_EQ(statistics.ribs[1].cycles, 0.0);
 }
 
 }  // namespace

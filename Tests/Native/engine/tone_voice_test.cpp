@@ -226,11 +226,11 @@ protected:
     };
 
     /// Turns of the rib phase per sample between two segments.
-    [[nodiscard]] double turnsPerSample(const SimulatedDevice& device, std::size_t segment) const {
-        const double turns =
+    [[nodiscard]] double cyclesPerSample(const SimulatedDevice& device, std::size_t segment) const {
+        const double cycles =
             static_cast<double>(requested_[segment].phase) - static_cast<double>(requested_[segment - 1].phase);
         const auto hop = static_cast<double>(device.waveform.seams[segment] - device.waveform.seams[segment - 1]);
-        return (turns - std::floor(turns)) / hop;
+        return (cycles - std::floor(cycles)) / hop;
     }
 
     model::ModelFile model_ = ruledModel();
@@ -243,13 +243,13 @@ protected:
 
 TEST_F(SpatialScaleTest, TheRibPitchIsDividedByTheScale) {
     // At 0.1 m/s and 0.2 cycles per millimetre, the tip crosses 20 ribs per second, 0.01 per sample.
-    for (const auto& [scale, turns] : {std::pair{1.0F, 0.01}, {2.0F, 0.005}, {0.5F, 0.02}, {4.0F, 0.0025}}) {
+    for (const auto& [scale, cycles] : {std::pair{1.0F, 0.01}, {2.0F, 0.005}, {0.5F, 0.02}, {4.0F, 0.0025}}) {
         requested_.clear();
         SimulatedDevice device(model_, generator_);
         device.run(0.5, [scale = scale](double) { return scaled(scale); });
         ASSERT_GT(device.waveform.seams.size(), 10U);
         for (std::size_t segment = 5; segment < device.waveform.seams.size(); ++segment) {
-            EXPECT_NEAR(turnsPerSample(device, segment), turns, 1e-6) << "scale " << scale;
+            EXPECT_NEAR(cyclesPerSample(device, segment), cycles, 1e-6) << "scale " << scale;
         }
         EXPECT_FLOAT_EQ(requested_.back().motion[0], 0.1F / scale);
         EXPECT_FLOAT_EQ(requested_.back().levelMotion[0], 0.1F);

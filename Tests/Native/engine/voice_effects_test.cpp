@@ -116,10 +116,10 @@ TEST_F(VoiceEffectsTest, AnImpactWhileSlidingAddsToTheTexture) {
     };
     const std::vector<float> without = play(0.0F);
     const std::vector<float> with = play(0.05F);
-    std::vector<float> blow(with.size());
-    std::ranges::transform(with, without, blow.begin(), std::minus<>());
-    EXPECT_EQ(testing::peak(std::span<const float>(blow).first(9000)), 0.0F);
-    const double peak = 60.0 * static_cast<double>(testing::peak(blow));
+    std::vector<float> event(with.size());
+    std::ranges::transform(with, without, event.begin(), std::minus<>());
+    EXPECT_EQ(testing::peak(std::span<const float>(event).first(9000)), 0.0F);
+    const double peak = 60.0 * static_cast<double>(testing::peak(event));
     const double expected =
         0.05 * static_cast<double>(impactResponse(model_.header().labels[0]).modes[0].gainPerSecond);
     EXPECT_GT(peak, 0.6 * expected);

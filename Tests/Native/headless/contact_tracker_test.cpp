@@ -343,13 +343,13 @@ TEST(ContactTrackerTest, ATipThatPassesThroughAClosedMeshKeepsTouchingAndTurnsIt
         const auto readings = play(tracker, sampledPath(1.0, 90.0, [&](double time) {
                                        return glm::dvec3(0.1 * time - 0.05, offCentreMetres, -offCentreMetres);
                                    }));
-        int turns = 0;
+        int cycles = 0;
         for (std::size_t frame = 0; frame < readings.size(); ++frame) {
             ASSERT_TRUE(readings[frame].touching);
             ASSERT_TRUE(isSane(readings[frame]));
-            turns += frame > 0 && glm::dot(readings[frame].normal, readings[frame - 1].normal) < 0.99 ? 1 : 0;
+            cycles += frame > 0 && glm::dot(readings[frame].normal, readings[frame - 1].normal) < 0.99 ? 1 : 0;
         }
-        EXPECT_EQ(turns, 1);
+        EXPECT_EQ(cycles, 1);
         EXPECT_NEAR(readings.front().normal.x, -1.0, 1e-12);
         EXPECT_NEAR(readings.back().normal.x, 1.0, 1e-12);
         EXPECT_EQ(readings.back().touchCounter, 1U);

@@ -34,7 +34,7 @@ struct MadeMotion {
     double minimumSpeedMps = 0.03;
     double maximumSpeedMps = 0.25;
     /// True if the direction rotates while the tip moves, false for motion along the first axis.
-    bool turns = true;
+    bool cycles = true;
     /// Time for which speed and direction are constant; 0 for a motion that changes all the time.
     double strokeSeconds = 0.0;
 };
@@ -64,7 +64,7 @@ public:
             const double share = 0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * moment / 2.3);
             const double speed =
                 motion.minimumSpeedMps * std::pow(motion.maximumSpeedMps / motion.minimumSpeedMps, share);
-            const double direction = motion.turns ? 0.9 * moment : 0.0;
+            const double direction = motion.cycles ? 0.9 * moment : 0.0;
             const double pressed = 0.8 + 0.4 * std::sin(2.0 * std::numbers::pi * time / 1.7);
             velocity.push_back(static_cast<float>(speed * std::cos(direction)));
             velocity.push_back(static_cast<float>(speed * std::sin(direction)));
@@ -78,10 +78,10 @@ public:
             double value = wave;
             for (const std::array<double, 2>& ribs : {surface.ribs, surface.otherRibs}) {
                 if (ribs[0] != 0.0 || ribs[1] != 0.0) {
-                    const double turns = ribs[0] * way[0] + ribs[1] * way[1];
+                    const double cycles = ribs[0] * way[0] + ribs[1] * way[1];
                     for (int partial = 1; partial <= 3; ++partial) {
                         value += surface.ribShare * std::numbers::sqrt2 / partial *
-                                 std::cos(2.0 * std::numbers::pi * partial * turns);
+                                 std::cos(2.0 * std::numbers::pi * partial * cycles);
                     }
                 }
             }

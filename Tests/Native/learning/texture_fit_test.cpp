@@ -30,7 +30,7 @@ public:
 };
 
 TEST(TextureFitTest, SteadyFramesHaveEverySpeedAndForceInTheRecordedDirections) {
-    const testing::MadeRecording made({}, {.turns = false});
+    const testing::MadeRecording made({}, {.cycles = false});
     const recordings::PreparedRecording recording = recordings::prepareRecording(made.view());
     model::ModelHeader header;
     header.speedMps.maximum = 1.0;

@@ -138,13 +138,13 @@ TEST(WaveVectorsTest, AMinuteOfASurfaceWithoutRibsHasNoWaveVectorsWhateverItsSpe
 
 TEST(WaveVectorsTest, AConstantSpeedGivesNoWaveVectors) {
     const MadeSurface surface{.ribs = {0.8, 0.0}};
-    const MadeMotion motion{.minimumSpeedMps = 0.08, .maximumSpeedMps = 0.08, .turns = false};
+    const MadeMotion motion{.minimumSpeedMps = 0.08, .maximumSpeedMps = 0.08, .cycles = false};
     EXPECT_TRUE(vectorsOf(MadeRecording(surface, motion)).empty());
 }
 
 TEST(WaveVectorsTest, StrokesInOneDirectionGiveThePitchAlongIt) {
     const MadeSurface surface{.ribs = {0.8, 0.0}, .ribShare = 0.5};
-    const std::vector<WaveVector> found = vectorsOf(MadeRecording(surface, {.turns = false}));
+    const std::vector<WaveVector> found = vectorsOf(MadeRecording(surface, {.cycles = false}));
     ASSERT_FALSE(found.empty());
     EXPECT_NEAR(found[0].x, 0.8, 0.016);
 }

@@ -129,7 +129,7 @@ TEST(LabelTest, StickSlipAndTheWanderOfRibsAreReadAndMissingOnesAreEmpty) {
     const Label& ruled = model.header().labels[1];
     EXPECT_FALSE(ruled.stickSlip);
     ASSERT_EQ(ruled.ribWander.size(), 2U);
-    EXPECT_EQ(ruled.ribWander[0].turns, 0.12);
+    EXPECT_EQ(ruled.ribWander[0].cycles, 0.12);
     EXPECT_EQ(ruled.ribWander[1].wavelengthMetres, 0.014);
 }
 

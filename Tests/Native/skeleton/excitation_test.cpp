@@ -32,7 +32,7 @@ FamilyGains randomGains(std::uint32_t seed) {
 double theta(const FamilyPhase& phase, std::size_t harmonic, double n) {
     const double sign = phase.rateHz >= 0.0 ? 1.0 : -1.0;
     return 2.0 * std::numbers::pi * static_cast<double>(harmonic) *
-           (sign * phase.turns + std::fabs(phase.rateHz) * (n + 0.5) / 2000.0);
+           (sign * phase.cycles + std::fabs(phase.rateHz) * (n + 0.5) / 2000.0);
 }
 
 void expectDefinition(const FamilyPhase& phase) {
@@ -66,33 +66,33 @@ void expectDefinition(const FamilyPhase& phase) {
 
 TEST(SurfaceWavesTest, LinesSwingAndPulsesFollowTheDefinition) {
     for (const double rateHz : {0.6, 37.5, 91.0, 333.0, 650.0, 959.0}) {
-        expectDefinition({.turns = 0.3, .rateHz = rateHz});
+        expectDefinition({.cycles = 0.3, .rateHz = rateHz});
     }
 }
 
 TEST(SurfaceWavesTest, AFamilyMetBackwardsIsMirroredInTime) {
-    expectDefinition({.turns = 0.3, .rateHz = -37.5});
-    expectDefinition({.turns = 0.9, .rateHz = -210.0});
+    expectDefinition({.cycles = 0.3, .rateHz = -37.5});
+    expectDefinition({.cycles = 0.9, .rateHz = -210.0});
 }
 
 TEST(SurfaceWavesTest, PhasesOfManyTurnsLoseNoPrecision) {
-    expectDefinition({.turns = 1e6 + 0.25, .rateHz = 90.0});
+    expectDefinition({.cycles = 1e6 + 0.25, .rateHz = 90.0});
 }
 
 TEST(SurfaceWavesTest, OnlyRatesBetweenHalfAHertzAndTheHighestLineAreHeard) {
-    EXPECT_FALSE((FamilyPhase{.turns = 0.5, .rateHz = 0.0}.isHeard()));
-    EXPECT_FALSE((FamilyPhase{.turns = 0.5, .rateHz = -0.5}.isHeard()));
-    EXPECT_TRUE((FamilyPhase{.turns = 0.5, .rateHz = -0.51}.isHeard()));
-    EXPECT_TRUE((FamilyPhase{.turns = 0.5, .rateHz = 959.9}.isHeard()));
-    EXPECT_FALSE((FamilyPhase{.turns = 0.5, .rateHz = 960.0}.isHeard()));
+    EXPECT_FALSE((FamilyPhase{.cycles = 0.5, .rateHz = 0.0}.isHeard()));
+    EXPECT_FALSE((FamilyPhase{.cycles = 0.5, .rateHz = -0.5}.isHeard()));
+    EXPECT_TRUE((FamilyPhase{.cycles = 0.5, .rateHz = -0.51}.isHeard()));
+    EXPECT_TRUE((FamilyPhase{.cycles = 0.5, .rateHz = 959.9}.isHeard()));
+    EXPECT_FALSE((FamilyPhase{.cycles = 0.5, .rateHz = 960.0}.isHeard()));
     const double nan = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_FALSE((FamilyPhase{.turns = nan, .rateHz = 50.0}.isHeard()));
-    EXPECT_FALSE((FamilyPhase{.turns = 0.5, .rateHz = nan}.isHeard()));
+    EXPECT_FALSE((FamilyPhase{.cycles = nan, .rateHz = 50.0}.isHeard()));
+    EXPECT_FALSE((FamilyPhase{.cycles = 0.5, .rateHz = nan}.isHeard()));
 }
 
 TEST(SurfaceWavesTest, FamiliesAddUp) {
-    const FamilyPhase one{.turns = 0.1, .rateHz = 60.0};
-    const FamilyPhase other{.turns = 0.7, .rateHz = -140.0};
+    const FamilyPhase one{.cycles = 0.1, .rateHz = 60.0};
+    const FamilyPhase other{.cycles = 0.7, .rateHz = -140.0};
     SurfaceWaves both;
     both.add(one, randomGains(1));
     both.add(other, randomGains(2));
@@ -107,55 +107,55 @@ TEST(SurfaceWavesTest, FamiliesAddUp) {
     EXPECT_TRUE(both.isHeard());
 }
 
-using Gains = std::array<float, RungImpulses::gainCount>;
+using Gains = std::array<float, TailImpulses::gainCount>;
 using Wave = std::array<float, segmentSamples>;
 
 /// 1 over the deviation of max(n - 2, 0) - max(-n - 2, 0): E = 2 [(1 + 4) Q(2) - 2 p(2)].
-const double scaleOfFirstRung = 1.0 / std::sqrt(2.0 * (5.0 * 0.022750131948179 - 2.0 * 0.053990966513188));
+const double scaleOfFirstThreshold = 1.0 / std::sqrt(2.0 * (5.0 * 0.022750131948179 - 2.0 * 0.053990966513188));
 
-Gains withGain(bool isNegative, std::size_t rung, std::size_t atom, float gain) {
+Gains withGain(bool isNegative, std::size_t threshold, std::size_t atom, float gain) {
     Gains gains{};
-    gains[((isNegative ? rungCount : 0) + rung) * atomCount + atom] = gain;
+    gains[((isNegative ? thresholdCount : 0) + threshold) * atomCount + atom] = gain;
     return gains;
 }
 
-Wave struckBy(const Wave& noise, const Gains& gains) {
-    Wave struck{};
-    struck.fill(9.0F);
-    RungImpulses().strike(noise, gains, struck);
-    return struck;
+Wave impulsesOf(const Wave& noise, const Gains& gains) {
+    Wave impulses{};
+    impulses.fill(9.0F);
+    TailImpulses().add(noise, gains, impulses);
+    return impulses;
 }
 
-TEST(RungImpulsesTest, NoiseBelowTheFirstRungStrikesNothing) {
+TEST(TailImpulsesTest, NoiseBelowTheFirstThresholdMakesNoImpulse) {
     Wave noise{};
     noise[10] = 2.0F;
     noise[20] = -1.99F;
     Gains gains{};
     gains.fill(1.0F);
-    EXPECT_EQ(struckBy(noise, gains), Wave{});
+    EXPECT_EQ(impulsesOf(noise, gains), Wave{});
 }
 
-TEST(RungImpulsesTest, AStrikeOfTheDeltaIsTheScaledExcess) {
+TEST(TailImpulsesTest, AStrikeOfTheDeltaIsTheScaledExcess) {
     Wave noise{};
     noise[10] = 2.5F;
-    const Wave struck = struckBy(noise, withGain(false, 0, 0, 3.0F));
-    EXPECT_NEAR(struck[10], 0.5 * scaleOfFirstRung * 8.0 * std::tanh(3.0 / 8.0), 1e-4);
-    EXPECT_EQ(std::ranges::count(struck, 0.0F), 199);
+    const Wave impulses = impulsesOf(noise, withGain(false, 0, 0, 3.0F));
+    EXPECT_NEAR(impulses[10], 0.5 * scaleOfFirstThreshold * 8.0 * std::tanh(3.0 / 8.0), 1e-4);
+    EXPECT_EQ(std::ranges::count(impulses, 0.0F), 199);
 }
 
-TEST(RungImpulsesTest, TheNegativeTailStrikesDownwardsWithKernelsOfItsOwn) {
+TEST(TailImpulsesTest, TheNegativeTailStrikesDownwardsWithKernelsOfItsOwn) {
     Wave noise{};
     noise[10] = -2.5F;
-    EXPECT_EQ(struckBy(noise, withGain(false, 0, 0, 3.0F)), Wave{});
-    const Wave struck = struckBy(noise, withGain(true, 0, 0, 3.0F));
-    EXPECT_NEAR(struck[10], -0.5 * scaleOfFirstRung * 8.0 * std::tanh(3.0 / 8.0), 1e-4);
+    EXPECT_EQ(impulsesOf(noise, withGain(false, 0, 0, 3.0F)), Wave{});
+    const Wave impulses = impulsesOf(noise, withGain(true, 0, 0, 3.0F));
+    EXPECT_NEAR(impulses[10], -0.5 * scaleOfFirstThreshold * 8.0 * std::tanh(3.0 / 8.0), 1e-4);
 }
 
-TEST(RungImpulsesTest, ARingDecaysWithItsFrequencyFor64Samples) {
+TEST(TailImpulsesTest, ARingDecaysWithItsFrequencyFor64Samples) {
     Wave noise{};
-    noise[10] = 2.0F + static_cast<float>(1.0 / scaleOfFirstRung);
+    noise[10] = 2.0F + static_cast<float>(1.0 / scaleOfFirstThreshold);
     // The sine of 280 Hz.
-    const Wave struck = struckBy(noise, withGain(false, 0, 8, 0.01F));
+    const Wave impulses = impulsesOf(noise, withGain(false, 0, 8, 0.01F));
     const auto ring = [](std::size_t n) {
         const double turn = 2.0 * std::numbers::pi * 280.0 * static_cast<double>(n) / 2000.0;
         return std::exp(-0.4 * turn) * std::sin(turn);
@@ -165,28 +165,28 @@ TEST(RungImpulsesTest, ARingDecaysWithItsFrequencyFor64Samples) {
         energy += ring(n) * ring(n);
     }
     for (std::size_t n = 0; n < 64; ++n) {
-        EXPECT_NEAR(struck[10 + n], 0.01 * ring(n) / std::sqrt(energy), 1e-6) << n;
+        EXPECT_NEAR(impulses[10 + n], 0.01 * ring(n) / std::sqrt(energy), 1e-6) << n;
     }
-    EXPECT_EQ(struck[9], 0.0F);
-    EXPECT_EQ(struck[74], 0.0F);
+    EXPECT_EQ(impulses[9], 0.0F);
+    EXPECT_EQ(impulses[74], 0.0F);
 }
 
-TEST(RungImpulsesTest, AHighSampleStrikesEveryRungBelowIt) {
+TEST(TailImpulsesTest, AHighSampleExceedsEveryThresholdBelowIt) {
     Wave noise{};
     noise[10] = 3.3F;
-    for (std::size_t rung = 0; rung < rungCount; ++rung) {
-        EXPECT_EQ(struckBy(noise, withGain(false, rung, 0, 1.0F))[10] > 0.0F, rung < 3) << rung;
+    for (std::size_t threshold = 0; threshold < thresholdCount; ++threshold) {
+        EXPECT_EQ(impulsesOf(noise, withGain(false, threshold, 0, 1.0F))[10] > 0.0F, threshold < 3) << threshold;
     }
 }
 
-TEST(RungImpulsesTest, AStrikeNearTheEndIsCutAtTheSegmentsEnd) {
+TEST(TailImpulsesTest, AStrikeNearTheEndIsCutAtTheSegmentsEnd) {
     Wave noise{};
     noise[199] = 5.0F;
     Gains gains{};
     gains.fill(1.0F);
-    const Wave struck = struckBy(noise, gains);
-    EXPECT_NE(struck[199], 0.0F);
-    EXPECT_EQ(struck[198], 0.0F);
+    const Wave impulses = impulsesOf(noise, gains);
+    EXPECT_NE(impulses[199], 0.0F);
+    EXPECT_EQ(impulses[198], 0.0F);
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ namespace haptoflow::skeleton::testing {
 namespace {
 
 using Wave = std::array<float, segmentSamples>;
-using Entering = std::array<float, Skeleton::enteringChannels * segmentSamples>;
+using NetworkInput = std::array<float, Skeleton::networkInputChannels * segmentSamples>;
 
 Wave randomWave(std::uint32_t seed) {
     std::mt19937 random(seed);
@@ -30,11 +30,11 @@ Wave randomWave(std::uint32_t seed) {
 class SkeletonTest : public ::testing::Test {
 protected:
     [[nodiscard]] Wave sketchOf(const Phases& phases, const Wave& previous, const Wave& noise) const {
-        Wave begun{};
+        Wave segment{};
         skeleton_->sketch(
             {.embedding = embedding_, .motion = motion_, .phases = phases, .previous = previous, .noise = noise},
-            conditionOf(embedding_, motion_, phases), begun);
-        return begun;
+            conditionOf(embedding_, motion_, phases), segment);
+        return segment;
     }
 
     std::shared_ptr<const Skeleton> skeleton_ = readSkeleton(read(skeletonModel()));
@@ -49,20 +49,20 @@ TEST_F(SkeletonTest, AGainOnTheImpulsesChangesThemAlone) {
     const Condition condition = conditionOf(embedding_, motion_, ruled_);
     const auto phases = Skeleton::familiesOf(ruled_);
     SegmentParameters expected = skeleton_->parametersFor(condition, phases);
-    for (float& rung : expected.rungs) {
-        rung *= 2.5F;
+    for (float& threshold : expected.impulseGains) {
+        threshold *= 2.5F;
     }
     Moment moment{.embedding = embedding_, .motion = motion_, .phases = ruled_, .previous = previous_, .noise = noise_};
     Wave wanted{};
     skeleton_->sketch(moment, expected, wanted);
     moment.impulseGain = 2.5F;
-    Wave begun{};
-    skeleton_->sketch(moment, condition, begun);
-    EXPECT_EQ(begun, wanted);
-    std::array<float, Skeleton::enteringChannels * segmentSamples> entering{};
-    skeleton_->enter(moment, condition, entering);
-    EXPECT_TRUE(std::ranges::equal(std::span(entering).first<segmentSamples>(), wanted));
-    EXPECT_NE(begun, sketchOf(ruled_, previous_, noise_));
+    Wave segment{};
+    skeleton_->sketch(moment, condition, segment);
+    EXPECT_EQ(segment, wanted);
+    std::array<float, Skeleton::networkInputChannels * segmentSamples> networkInput{};
+    skeleton_->enter(moment, condition, networkInput);
+    EXPECT_TRUE(std::ranges::equal(std::span(networkInput).first<segmentSamples>(), wanted));
+    EXPECT_NE(segment, sketchOf(ruled_, previous_, noise_));
 }
 
 TEST_F(SkeletonTest, NoiseLinesAndImpulsesAllPassThroughTheFilter) {
@@ -72,36 +72,36 @@ TEST_F(SkeletonTest, NoiseLinesAndImpulsesAllPassThroughTheFilter) {
     SurfaceWaves waves;
     waves.add(phases[0], parameters.families[0]);
     waves.add(phases[1], parameters.families[1]);
-    Wave struck{};
-    RungImpulses().strike(noise_, parameters.rungs, struck);
+    Wave impulses{};
+    TailImpulses().add(noise_, parameters.impulseGains, impulses);
     Wave drive{};
     for (std::size_t n = 0; n < segmentSamples; ++n) {
         const double swing = 2.0 * std::tanh(0.5 * static_cast<double>(waves.swing()[n]));
         const double drawn = static_cast<double>(noise_[n]) * std::exp(swing) + static_cast<double>(waves.lines()[n]) +
-                             static_cast<double>(struck[n]);
+                             static_cast<double>(impulses[n]);
         drive[n] = static_cast<float>(std::exp(parameters.filter.logGain) * drawn);
     }
     Wave filtered{};
     parameters.filter.run(std::span(previous_).last<filterOrder>(), drive, filtered);
-    const Wave begun = sketchOf(ruled_, previous_, noise_);
+    const Wave segment = sketchOf(ruled_, previous_, noise_);
     for (std::size_t n = 0; n < segmentSamples; ++n) {
-        EXPECT_NEAR(begun[n], filtered[n], 1e-5) << n;
+        EXPECT_NEAR(segment[n], filtered[n], 1e-5) << n;
     }
 }
 
 TEST_F(SkeletonTest, WhatTheRefiningGraphSeesBeginsWithTheSketch) {
-    Entering entering{};
+    NetworkInput networkInput{};
     const Moment moment{
         .embedding = embedding_, .motion = motion_, .phases = ruled_, .previous = previous_, .noise = noise_};
-    skeleton_->enter(moment, conditionOf(embedding_, motion_, ruled_), entering);
-    const Wave begun = sketchOf(ruled_, previous_, noise_);
-    EXPECT_TRUE(std::ranges::equal(std::span(entering).first<segmentSamples>(), begun));
+    skeleton_->enter(moment, conditionOf(embedding_, motion_, ruled_), networkInput);
+    const Wave segment = sketchOf(ruled_, previous_, noise_);
+    EXPECT_TRUE(std::ranges::equal(std::span(networkInput).first<segmentSamples>(), segment));
     // Cosines of the first harmonic of both families at the first sample, .25 ms into the segment.
-    const auto angle = [](double turns, double rateHz) {
-        return 2.0 * std::numbers::pi * (turns + rateHz * 0.5 / 2000.0);
+    const auto angle = [](double cycles, double rateHz) {
+        return 2.0 * std::numbers::pi * (cycles + rateHz * 0.5 / 2000.0);
     };
-    EXPECT_NEAR(entering[2 * segmentSamples], std::cos(angle(0.25, 60.0)) + std::cos(angle(-0.5, 130.0)), 1e-5);
-    EXPECT_NEAR(entering[7 * segmentSamples], std::sin(angle(0.25, 60.0)) + std::sin(angle(-0.5, 130.0)), 1e-5);
+    EXPECT_NEAR(networkInput[2 * segmentSamples], std::cos(angle(0.25, 60.0)) + std::cos(angle(-0.5, 130.0)), 1e-5);
+    EXPECT_NEAR(networkInput[7 * segmentSamples], std::sin(angle(0.25, 60.0)) + std::sin(angle(-0.5, 130.0)), 1e-5);
 }
 
 TEST_F(SkeletonTest, AnUnruledSurfaceHasNoWavesAndItsTurnsDoNotMatter) {
@@ -136,9 +136,9 @@ TEST_F(SkeletonTest, ThePreviousWaveformIsLimitedInUnitScale) {
 
 TEST_F(SkeletonTest, ASegmentAllocatesNothing) {
     const std::size_t before = haptoflow::testing::allocationCount();
-    const Wave begun = sketchOf(ruled_, previous_, noise_);
+    const Wave segment = sketchOf(ruled_, previous_, noise_);
     EXPECT_EQ(haptoflow::testing::allocationCount(), before);
-    EXPECT_TRUE(std::isfinite(begun[0]));
+    EXPECT_TRUE(std::isfinite(segment[0]));
 }
 
 TEST(LevelModelTest, TheLawIsLinearInTheLogarithmsAndTheCorrectionIsLimited) {
@@ -257,14 +257,14 @@ TEST_F(SkeletonGoldenTest, FiltersAgree) {
 
 TEST_F(SkeletonGoldenTest, WhatTheRefiningGraphSeesAgrees) {
     forEveryCase([&](const nlohmann::json& row, const Moment& moment) {
-        std::array<float, Skeleton::enteringChannels * segmentSamples> entering{};
-        skeleton_->enter(moment, conditionOf(moment.embedding, moment.motion, moment.phases), entering);
-        const auto begun = numbers(row, "begun");
-        const double scale = rmsOf(begun);
-        expectNear(std::span(entering).first<segmentSamples>(), begun, scale, "begun");
-        expectNear(std::span(entering).subspan<segmentSamples, segmentSamples>(), numbers(row, "struck"), scale,
+        std::array<float, Skeleton::networkInputChannels * segmentSamples> networkInput{};
+        skeleton_->enter(moment, conditionOf(moment.embedding, moment.motion, moment.phases), networkInput);
+        const auto segment = numbers(row, "begun");
+        const double scale = rmsOf(segment);
+        expectNear(std::span(networkInput).first<segmentSamples>(), segment, scale, "begun");
+        expectNear(std::span(networkInput).subspan<segmentSamples, segmentSamples>(), numbers(row, "struck"), scale,
                    "struck");
-        expectNear(entering, numbers(row, "entering"), scale, "entering");
+        expectNear(networkInput, numbers(row, "entering"), scale, "entering");
     });
 }
 

@@ -29,7 +29,7 @@ struct Telling {
     float level = 1.0F;
 };
 
-/// Mean level in unit scale of the first and of the last minute, in dB. A mean of levels, because a few strikes would
+/// Mean level in unit scale of the first and of the last minute, in dB. A mean of levels, because a few impulses would
 /// decide a mean of powers.
 struct Drift {
     double firstDb = 0.0;
@@ -51,14 +51,14 @@ protected:
             spoil(step, noise, previousMps2);
             Wave previous{};
             toUnitScale(previousMps2, told.level, previous);
-            Wave begun{};
+            Wave segment{};
             skeleton.sketch({.embedding = told.embedding,
                              .motion = told.motion,
                              .phases = told.phases,
                              .previous = previous,
                              .noise = noise},
-                            conditionOf(told.embedding, told.motion, told.phases), begun);
-            const std::span<const float> played(begun.data(), hop);
+                            conditionOf(told.embedding, told.motion, told.phases), segment);
+            const std::span<const float> played(segment.data(), hop);
             double squares = 0.0;
             for (const float sample : played) {
                 squares += static_cast<double>(sample) * static_cast<double>(sample);
@@ -67,7 +67,7 @@ protected:
             drift.firstDb += step < minute ? levelDb : 0.0;
             drift.lastDb += step + minute >= tenMinutes ? levelDb : 0.0;
             const bool isBounded =
-                std::ranges::all_of(begun, [](float sample) { return std::fabs(sample) <= unitLimit; });
+                std::ranges::all_of(segment, [](float sample) { return std::fabs(sample) <= unitLimit; });
             if (!isBounded) {
                 ADD_FAILURE() << "not bounded at step " << step;
                 return drift;
@@ -105,12 +105,12 @@ TEST_F(StabilityTest, TenMinutesOfOneMaterialNeitherGrowNorFade) {
         // Stronger random weights give filters that, once driven to the limit of the past, can stay there.
         const auto skeleton = readSkeleton(read(skeletonModel({.seed = seed, .strength = 0.2F})));
         const Telling told = anything(1.0F);
-        double turns = 0.0;
+        double cycles = 0.0;
         const Drift drift = run(*skeleton, [&](std::size_t) {
             Telling now = told;
-            now.phases = {static_cast<float>(turns), 0.0F, 0.0F, 61.3F, 0.0F, 0.0F};
-            turns += 61.3 * hop / 2000.0;
-            turns -= std::floor(turns);
+            now.phases = {static_cast<float>(cycles), 0.0F, 0.0F, 61.3F, 0.0F, 0.0F};
+            cycles += 61.3 * hop / 2000.0;
+            cycles -= std::floor(cycles);
             return now;
         });
         EXPECT_NEAR(drift.lastDb, drift.firstDb, 0.3) << "seed " << seed;

@@ -326,14 +326,14 @@ namespace HaptoFlow
                 touching = true;
                 TouchBegan?.Invoke(this, contact);
                 Invoke(events.TouchBegan);
-                FeelAgain(session);
+                ResolveAgain(session);
                 return;
             }
             if (contact.IsElsewhere(before))
             {
                 SurfaceChanged?.Invoke(this, contact);
                 Invoke(events.SurfaceChanged);
-                FeelAgain(session);
+                ResolveAgain(session);
             }
             if (touching)
             {
@@ -343,7 +343,7 @@ namespace HaptoFlow
         }
 
         /// <summary>A touch begins with the material that its own handlers gave the surface.</summary>
-        private void FeelAgain(HapticSession session) => contacts!.Touched?.Feel(session);
+        private void ResolveAgain(HapticSession session) => contacts!.Touched?.Resolve(session);
 
         // A handler called before may have ended the touch.
         private void Invoke(UnityEvent<HapticSurface> handlers)

@@ -73,7 +73,7 @@ namespace HaptoFlow
         }
 
         /// <summary>Finds the material at <see cref="Place"/>. No garbage while nothing changes.</summary>
-        public void Feel(HapticSession session) => Felt = Surface is object
+        public void Resolve(HapticSession session) => Felt = Surface is object
             ? Surface.At(Place, session)
             : ByRules is object ? ByRules.At(Place, session) : default;
 

@@ -243,7 +243,7 @@ namespace HaptoFlow
             if (ColliderProbe.TryClosest(collider, pose, question, out ProbeAnswer answer))
             {
                 place.Place = new TouchedPlace(collider, answer.Point.PointMetres, answer.Hit);
-                place.Feel(session);
+                place.Resolve(session);
                 place.Tracked.StiffnessNewtonsPerMetre = place.Felt.StiffnessNewtonsPerMetre;
                 Tracker.Consider(new ContactCandidate(
                     place.Tracked, inHand, RigScale.ToHand(answer.Point, scale), answer.EntryShare));

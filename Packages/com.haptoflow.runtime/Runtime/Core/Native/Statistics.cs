@@ -86,7 +86,7 @@ namespace HaptoFlow
 
         /// <summary>Impacts and edges that were lost, because more than 64 were published between two blocks; the
         /// strongest sound.</summary>
-        public ulong LostBlows;
+        public ulong LostContactEvents;
         /// <summary>Blocks in which the skeleton sounded alone: until the network's first segment of a touch, and while
         /// inference is late or fails.</summary>
         public ulong Sketched;

@@ -1,4 +1,4 @@
-#include "effects/strikes.hpp"
+#include "effects/impacts.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -50,14 +50,14 @@ constexpr double maximumAmplitudeMps2 = 1e5;
 
 }  // namespace
 
-Strikes::Strikes(double sampleRateHz, double decayFactor) noexcept
+Impacts::Impacts(double sampleRateHz, double decayFactor) noexcept
     : sampleRateHz_(sampleRateHz), decayFactor_(decayFactor) {}
 
-void Strikes::strike(double speedMps, const ImpactResponse& response) noexcept {
+void Impacts::start(double speedMps, const ImpactResponse& response) noexcept {
     if (!(speedMps > 0.0)) {
         return;
     }
-    const double speed = std::min(speedMps, maximumStrikeMps);
+    const double speed = std::min(speedMps, maximumEventMps);
     ring(speed, response);
     // A weaker landing than the expected rebound, such as a flicker of the contact, does not replace that rebound.
     if (speed >= rebound_.speedMps) {
@@ -66,7 +66,7 @@ void Strikes::strike(double speedMps, const ImpactResponse& response) noexcept {
     }
 }
 
-void Strikes::ring(double speedMps, const ImpactResponse& response) noexcept {
+void Impacts::ring(double speedMps, const ImpactResponse& response) noexcept {
     for (const ImpactResponse::Mode& mode : response.modes) {
         const double amplitude = std::min(static_cast<double>(mode.gainPerSecond) * speedMps, maximumAmplitudeMps2);
         const double decay = std::max(static_cast<double>(mode.decayPerSecond), minimumDecayPerSecond) * decayFactor_;
@@ -78,7 +78,7 @@ void Strikes::ring(double speedMps, const ImpactResponse& response) noexcept {
     }
 }
 
-void Strikes::planRebound(double speedMps, const ImpactResponse& response) noexcept {
+void Impacts::planRebound(double speedMps, const ImpactResponse& response) noexcept {
     rebound_ = {};
     const double restitution =
         std::clamp(static_cast<double>(response.restitution), 0.0, ImpactResponse::maximumRestitution);
@@ -94,7 +94,7 @@ void Strikes::planRebound(double speedMps, const ImpactResponse& response) noexc
     isIdle_ = false;
 }
 
-void Strikes::process(std::span<float> samplesMps2) noexcept {
+void Impacts::process(std::span<float> samplesMps2) noexcept {
     while (!samplesMps2.empty()) {
         const bool isDue = rebound_.samplesLeft > 0;
         const std::size_t until =
@@ -114,7 +114,7 @@ void Strikes::process(std::span<float> samplesMps2) noexcept {
     isIdle_ = rebound_.samplesLeft == 0 && std::ranges::all_of(ringing_, &DecayingSinusoid::isIdle);
 }
 
-void Strikes::reset() noexcept {
+void Impacts::reset() noexcept {
     for (DecayingSinusoid& sinusoid : ringing_) {
         sinusoid.stop();
     }

@@ -86,7 +86,7 @@ double energy(std::span<const float> samples) {
     });
 }
 
-class BlowsTest : public ::testing::Test {
+class ContactEventsTest : public ::testing::Test {
 protected:
     static std::uint64_t events(const SimulatedDevice& device, EffectKind kind) {
         return device.counters().effects[static_cast<std::size_t>(kind)].events;
@@ -107,16 +107,16 @@ protected:
     FakeGenerator tone_{testing::continueTone};
 };
 
-TEST_F(BlowsTest, AStrongBlowSoundsEvenIfAWeakOneFollowsInTheSameBlock) {
+TEST_F(ContactEventsTest, AStrongBlowSoundsEvenIfAWeakOneFollowsInTheSameBlock) {
     for (const std::size_t block : blockLengths) {
         const std::vector<float> alone = play(block, {landing(2.0F, 1)});
         const std::vector<float> both = play(block, {landing(2.0F, 1), testing::lifted(1), landing(0.01F, 2)});
         EXPECT_GT(testing::peak(both), 0.98F * testing::peak(alone)) << block;
-        EXPECT_NE(both, alone) << "the weak blow sounds, too; block of " << block;
+        EXPECT_NE(both, alone) << "the weak event sounds, too; block of " << block;
     }
 }
 
-TEST_F(BlowsTest, BlowsOfOneBlockKeepTheirDistance) {
+TEST_F(ContactEventsTest, BlowsOfOneBlockKeepTheirDistance) {
     constexpr std::size_t block = 2048;
     std::vector<ContactState> first;
     for (int state = 0; state < 20; ++state) {
@@ -129,16 +129,16 @@ TEST_F(BlowsTest, BlowsOfOneBlockKeepTheirDistance) {
     const std::vector<float> one = play(block, first);
     const std::vector<float> two = play(block, both);
     const auto differs = std::ranges::mismatch(one, two).in1 - one.begin();
-    // Ten of twenty states later. The sinusoid of the second blow begins at 0, so its second sample differs.
+    // Ten of twenty states later. The sinusoid of the second event begins at 0, so its second sample differs.
     EXPECT_NEAR(static_cast<double>(differs), block / 2, 2);
-    EXPECT_NE(one[1], 0.0F) << "the first blow begins with its block";
+    EXPECT_NE(one[1], 0.0F) << "the first event begins with its block";
     for (std::size_t i = 0; i + block / 2 + 1 < two.size(); ++i) {
         const double second = static_cast<double>(two[i + block / 2]) - static_cast<double>(one[i + block / 2]);
-        ASSERT_NEAR(second, static_cast<double>(one[i]), 1e-5) << "both blows are equal; sample " << i;
+        ASSERT_NEAR(second, static_cast<double>(one[i]), 1e-5) << "both contact events are equal; sample " << i;
     }
 }
 
-TEST_F(BlowsTest, OfTwoLandingsInOneBlockAPanicBetweenSilencesTheFirst) {
+TEST_F(ContactEventsTest, OfTwoLandingsInOneBlockAPanicBetweenSilencesTheFirst) {
     for (const std::size_t block : blockLengths) {
         const auto peakOf = [&](float before, float after) {
             SimulatedDevice device(model_, tone_, {.blockFrames = block});
@@ -156,7 +156,7 @@ TEST_F(BlowsTest, OfTwoLandingsInOneBlockAPanicBetweenSilencesTheFirst) {
     }
 }
 
-TEST_F(BlowsTest, ABlowThatWaitedTooLongForARateIsNotPlayedLater) {
+TEST_F(ContactEventsTest, ABlowThatWaitedTooLongForARateIsNotPlayedLater) {
     SimulatedDevice device(model_, tone_);
     device.run(0.2, [](double) { return testing::lifted(0); });
     // Without calls of the worker, no output stage is made.
@@ -172,15 +172,15 @@ TEST_F(BlowsTest, ABlowThatWaitedTooLongForARateIsNotPlayedLater) {
     EXPECT_EQ(testing::peak(device.output), 0.0F);
 }
 
-TEST_F(BlowsTest, OfMoreBlowsThanAreKeptTheStrongestSoundAndTheOthersAreCounted) {
+TEST_F(ContactEventsTest, OfMoreBlowsThanAreKeptTheStrongestSoundAndTheOthersAreCounted) {
     SimulatedDevice device(model_, tone_, {.blockFrames = 2048});
-    constexpr std::uint32_t published = 3 * BlowList::capacity;
+    constexpr std::uint32_t published = 3 * ContactEventList::capacity;
     for (std::uint32_t touch = 1; touch <= published; ++touch) {
         device.publish(landing(touch % 3 == 0 ? 0.2F : 0.01F, touch));
     }
     device.renderBlock();
-    EXPECT_EQ(events(device, EffectKind::impact), BlowList::capacity);
-    EXPECT_EQ(device.counters().lostBlows, published - BlowList::capacity);
+    EXPECT_EQ(events(device, EffectKind::impact), ContactEventList::capacity);
+    EXPECT_EQ(device.counters().lostEvents, published - ContactEventList::capacity);
     SimulatedDevice strongest(model_, tone_, {.blockFrames = 2048});
     for (std::uint32_t touch = 1; touch <= published; ++touch) {
         strongest.publish(touch % 3 == 0 ? landing(0.2F, touch) : landing(0.0F, touch));
@@ -191,7 +191,7 @@ TEST_F(BlowsTest, OfMoreBlowsThanAreKeptTheStrongestSoundAndTheOthersAreCounted)
 
 std::atomic<double> testSeconds{0.0};
 
-TEST_F(BlowsTest, BlowsFromATimeInWhichTheDeviceStoodStillAreNotPlayedAllAtOnce) {
+TEST_F(ContactEventsTest, BlowsFromATimeInWhichTheDeviceStoodStillAreNotPlayedAllAtOnce) {
     SimulatedDevice device(model_, tone_);
     device.voice().channels.isRealTime = true;
     device.voice().channels.clock = []() noexcept { return testSeconds.load(); };
@@ -207,7 +207,7 @@ TEST_F(BlowsTest, BlowsFromATimeInWhichTheDeviceStoodStillAreNotPlayedAllAtOnce)
     EXPECT_GE(events(device, EffectKind::edge), 7U);
 }
 
-TEST_F(BlowsTest, ACallerThatCountsTouchesFromZeroFeelsItsFirstLanding) {
+TEST_F(ContactEventsTest, ACallerThatCountsTouchesFromZeroFeelsItsFirstLanding) {
     SimulatedDevice device(model_, tone_);
     device.publish(landing(0.5F, 0));
     device.renderBlock();
@@ -221,7 +221,7 @@ TEST_F(BlowsTest, ACallerThatCountsTouchesFromZeroFeelsItsFirstLanding) {
     EXPECT_EQ(events(device, EffectKind::impact), 2U);
 }
 
-TEST_F(BlowsTest, ACallerThatDoesNotCountTouchesFeelsEachLanding) {
+TEST_F(ContactEventsTest, ACallerThatDoesNotCountTouchesFeelsEachLanding) {
     for (const bool startsLifted : {false, true}) {
         SimulatedDevice device(model_, tone_);
         if (startsLifted) {
@@ -235,9 +235,9 @@ TEST_F(BlowsTest, ACallerThatDoesNotCountTouchesFeelsEachLanding) {
     }
 }
 
-class BlowLoudnessTest : public BlowsTest, public ::testing::WithParamInterface<std::tuple<Scene, double>> {};
+class EventLoudnessTest : public ContactEventsTest, public ::testing::WithParamInterface<std::tuple<Scene, double>> {};
 
-TEST_P(BlowLoudnessTest, DoesNotDependOnTheBlockLengthNorOnRenderingLiveOrOffline) {
+TEST_P(EventLoudnessTest, DoesNotDependOnTheBlockLengthNorOnRenderingLiveOrOffline) {
     const auto& [scene, rateHz] = GetParam();
     std::vector<TimedContactState> states;
     for (int state = 0; state < 2500; ++state) {
@@ -247,18 +247,18 @@ TEST_P(BlowLoudnessTest, DoesNotDependOnTheBlockLengthNorOnRenderingLiveOrOfflin
     settings.outputRateHz = rateHz;
     settings.fullScaleMps2 = 60.0F;
     const OfflineRender offline = renderOffline(model_, tone_, states, settings);
-    const std::uint64_t blows = offline.effectEvents[static_cast<std::size_t>(scene.kind)];
-    ASSERT_GE(blows, 75U);
+    const std::uint64_t contactEvents = offline.effectEvents[static_cast<std::size_t>(scene.kind)];
+    ASSERT_GE(contactEvents, 75U);
     const double expected = energy(offline.samples);
     for (const std::size_t block : blockLengths) {
         SimulatedDevice device(model_, tone_, {.rateHz = rateHz, .blockFrames = block, .updateHz = 1000.0});
         device.run(2.5, [&hand = scene.hand](double seconds) { return hand(seconds); });
-        EXPECT_EQ(events(device, scene.kind), blows) << block;
+        EXPECT_EQ(events(device, scene.kind), contactEvents) << block;
         EXPECT_NEAR(10.0 * std::log10(energy(device.output) / expected), 0.0, 0.3) << block;
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, BlowLoudnessTest,
+INSTANTIATE_TEST_SUITE_P(Of, EventLoudnessTest,
                          ::testing::Combine(::testing::ValuesIn(scenes()),
                                             ::testing::Values(24000.0, 44100.0, 48000.0, 96000.0)),
                          [](const auto& test) {
@@ -266,7 +266,7 @@ INSTANTIATE_TEST_SUITE_P(Of, BlowLoudnessTest,
                                     std::to_string(static_cast<int>(std::get<1>(test.param))) + "Hz";
                          });
 
-TEST_F(BlowsTest, ALandingAndALiftOffInOneBlockSound) {
+TEST_F(ContactEventsTest, ALandingAndALiftOffInOneBlockSound) {
     for (const std::size_t block : blockLengths) {
         const std::vector<float> held = play(block, {testing::lifted(0), landing(0.5F, 1)});
         const std::vector<float> tapped = play(block, {testing::lifted(0), landing(0.5F, 1), testing::lifted(1)});
@@ -275,7 +275,7 @@ TEST_F(BlowsTest, ALandingAndALiftOffInOneBlockSound) {
     }
 }
 
-TEST_F(BlowsTest, ALandingInTheFrameInWhichTheRateChangesSounds) {
+TEST_F(ContactEventsTest, ALandingInTheFrameInWhichTheRateChangesSounds) {
     for (const double rateHz : {16000.0, 44100.0, 96000.0}) {
         for (const bool isRib : {false, true}) {
             SimulatedDevice device(model_, tone_);
@@ -283,10 +283,10 @@ TEST_F(BlowsTest, ALandingInTheFrameInWhichTheRateChangesSounds) {
             device.run(0.2, [&](double) { return isRib ? onRibs(0) : testing::lifted(0); });
             device.setRate(rateHz);
             const std::size_t begin = device.output.size();
-            const ContactState blow = isRib ? onRibs(1) : landing(0.5F, 1);
-            device.publish(blow);
+            const ContactState event = isRib ? onRibs(1) : landing(0.5F, 1);
+            device.publish(event);
             device.renderBlock();
-            device.run(0.2, [&](double) { return blow; });
+            device.run(0.2, [&](double) { return event; });
             EXPECT_EQ(events(device, kind), 1U) << rateHz;
             EXPECT_GT(testing::peak(std::span<const float>(device.output).subspan(begin)), 0.005F) << rateHz;
         }

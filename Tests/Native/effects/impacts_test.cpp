@@ -1,4 +1,4 @@
-#include "effects/strikes.hpp"
+#include "effects/impacts.hpp"
 
 #include "effects/signal.hpp"
 #include "support/counting_new.hpp"
@@ -27,10 +27,10 @@ ImpactResponse ringing(float frequencyHz, float decayPerSecond, float gainPerSec
     return response;
 }
 
-std::vector<float> next(Strikes& strikes, std::size_t count, std::size_t block = 256) {
+std::vector<float> next(Impacts& impacts, std::size_t count, std::size_t block = 256) {
     std::vector<float> out(count);
     for (std::size_t i = 0; i < count; i += block) {
-        strikes.process(std::span(out).subspan(i, std::min(block, count - i)));
+        impacts.process(std::span(out).subspan(i, std::min(block, count - i)));
     }
     return out;
 }
@@ -39,11 +39,11 @@ float peakOf(const std::vector<float>& samples) {
     return std::ranges::max(samples, {}, [](float sample) { return std::abs(sample); });
 }
 
-TEST(StrikesTest, ABlowIsADecayingSinusoidThatStartsWithTheNextSample) {
+TEST(ImpactsTest, ABlowIsADecayingSinusoidThatStartsWithTheNextSample) {
     for (const double rate : {8000.0, 44100.0, 48000.0, 192000.0}) {
-        Strikes strikes(rate);
-        strikes.strike(0.2, ringing(180.0F, 90.0F, 600.0F));
-        const std::vector<float> output = next(strikes, static_cast<std::size_t>(0.1 * rate), 61);
+        Impacts impacts(rate);
+        impacts.start(0.2, ringing(180.0F, 90.0F, 600.0F));
+        const std::vector<float> output = next(impacts, static_cast<std::size_t>(0.1 * rate), 61);
         for (std::size_t i = 0; i < output.size(); ++i) {
             const double seconds = static_cast<double>(i) / rate;
             const double expected =
@@ -53,25 +53,25 @@ TEST(StrikesTest, ABlowIsADecayingSinusoidThatStartsWithTheNextSample) {
     }
 }
 
-TEST(StrikesTest, TheAmplitudeIsProportionalToTheSpeedFromOneCentimetreToTwoMetresASecond) {
+TEST(ImpactsTest, TheAmplitudeIsProportionalToTheSpeedFromOneCentimetreToTwoMetresASecond) {
     const auto peakAt = [](double speedMps) {
-        Strikes strikes(rateHz);
-        strikes.strike(speedMps, ringing(200.0F, 60.0F, 500.0F));
-        return static_cast<double>(peakOf(next(strikes, 4800)));
+        Impacts impacts(rateHz);
+        impacts.start(speedMps, ringing(200.0F, 60.0F, 500.0F));
+        return static_cast<double>(peakOf(next(impacts, 4800)));
     };
     const double atOne = peakAt(1.0);
     for (const double speedMps : {0.01, 0.03, 0.1, 0.3, 0.7, 2.0}) {
         EXPECT_NEAR(peakAt(speedMps) / (speedMps * atOne), 1.0, 1e-4) << speedMps;
     }
-    EXPECT_DOUBLE_EQ(peakAt(7.0), peakAt(Strikes::maximumStrikeMps));
+    EXPECT_DOUBLE_EQ(peakAt(7.0), peakAt(Impacts::maximumEventMps));
 }
 
-TEST(StrikesTest, ReboundsFollowTheirFlightTimesAndGetWeaker) {
+TEST(ImpactsTest, ReboundsFollowTheirFlightTimesAndGetWeaker) {
     ImpactResponse response = ringing(400.0F, 2000.0F, 500.0F);
     response.restitution = 0.5F;
-    Strikes strikes(rateHz);
-    strikes.strike(0.5, response);
-    const std::vector<float> output = next(strikes, 9600, 100);
+    Impacts impacts(rateHz);
+    impacts.start(0.5, response);
+    const std::vector<float> output = next(impacts, 9600, 100);
     // A flight takes 2 v / (25 m/s^2): 20 ms at the remaining 0.25 m/s, then 10 ms.
     const auto peakFrom = [&](double fromSeconds, double untilSeconds) {
         return static_cast<double>(
@@ -83,85 +83,85 @@ TEST(StrikesTest, ReboundsFollowTheirFlightTimesAndGetWeaker) {
     EXPECT_NEAR(peakFrom(0.0199, 0.0299) / first, 0.5, 0.01);
     EXPECT_NEAR(peakFrom(0.0301, 0.04) / first, 0.25, 0.01);
     EXPECT_LT(peakFrom(0.05, 0.096), 0.01 * first) << "after two rebounds there is no third";
-    EXPECT_TRUE(strikes.isIdle());
+    EXPECT_TRUE(impacts.isIdle());
 }
 
-TEST(StrikesTest, TheSourceIsIdleAfterABlowHasDecayed) {
-    Strikes strikes(rateHz);
-    EXPECT_TRUE(strikes.isIdle());
-    strikes.strike(2.0, ringing(100.0F, 40.0F, 1000.0F));
-    EXPECT_FALSE(strikes.isIdle());
+TEST(ImpactsTest, TheSourceIsIdleAfterABlowHasDecayed) {
+    Impacts impacts(rateHz);
+    EXPECT_TRUE(impacts.isIdle());
+    impacts.start(2.0, ringing(100.0F, 40.0F, 1000.0F));
+    EXPECT_FALSE(impacts.isIdle());
     const double decaySeconds = std::log(2000.0 / imperceptibleMps2) / 40.0;
-    next(strikes, static_cast<std::size_t>((decaySeconds + 0.01) * rateHz));
-    EXPECT_TRUE(strikes.isIdle());
-    EXPECT_EQ(next(strikes, 256), std::vector<float>(256, 0.0F));
+    next(impacts, static_cast<std::size_t>((decaySeconds + 0.01) * rateHz));
+    EXPECT_TRUE(impacts.isIdle());
+    EXPECT_EQ(next(impacts, 256), std::vector<float>(256, 0.0F));
 }
 
-TEST(StrikesTest, ManyBlowsAtOnceAreBoundedAndTheLoudestAreKept) {
-    Strikes strikes(rateHz);
-    strikes.strike(1.0, ringing(150.0F, 50.0F, 400.0F));
-    for (int blow = 0; blow < 200; ++blow) {
-        strikes.strike(0.001, ringing(300.0F, 50.0F, 400.0F));
+TEST(ImpactsTest, ManyBlowsAtOnceAreBoundedAndTheLoudestAreKept) {
+    Impacts impacts(rateHz);
+    impacts.start(1.0, ringing(150.0F, 50.0F, 400.0F));
+    for (int event = 0; event < 200; ++event) {
+        impacts.start(0.001, ringing(300.0F, 50.0F, 400.0F));
     }
-    const float peak = peakOf(next(strikes, 4800));
-    EXPECT_GT(peak, 300.0F) << "the loud blow was replaced";
+    const float peak = peakOf(next(impacts, 4800));
+    EXPECT_GT(peak, 300.0F) << "the loud event was replaced";
     EXPECT_LT(peak, 400.0F * 1.1F);
 }
 
-TEST(StrikesTest, InvalidBlowsMakeNoSound) {
+TEST(ImpactsTest, InvalidBlowsMakeNoSound) {
     constexpr float nan = std::numeric_limits<float>::quiet_NaN();
     constexpr float infinity = std::numeric_limits<float>::infinity();
-    Strikes strikes(rateHz);
+    Impacts impacts(rateHz);
     for (const double speedMps : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
-        strikes.strike(speedMps, ringing(150.0F, 50.0F, 400.0F));
+        impacts.start(speedMps, ringing(150.0F, 50.0F, 400.0F));
     }
     for (const ImpactResponse& response :
          {ImpactResponse{}, ringing(nan, 50.0F, 400.0F), ringing(150.0F, nan, nan), ringing(-3.0F, 50.0F, 400.0F),
           ringing(infinity, 50.0F, 400.0F), ringing(40000.0F, 50.0F, 400.0F), ringing(150.0F, infinity, 400.0F)}) {
-        strikes.strike(0.5, response);
+        impacts.start(0.5, response);
     }
-    EXPECT_EQ(next(strikes, 512), std::vector<float>(512, 0.0F));
-    strikes.strike(std::numeric_limits<double>::infinity(), ringing(150.0F, 50.0F, infinity));
-    for (const float sample : next(strikes, 4800)) {
+    EXPECT_EQ(next(impacts, 512), std::vector<float>(512, 0.0F));
+    impacts.start(std::numeric_limits<double>::infinity(), ringing(150.0F, 50.0F, infinity));
+    for (const float sample : next(impacts, 4800)) {
         ASSERT_TRUE(std::isfinite(sample));
     }
 }
 
-TEST(StrikesTest, AResetSilencesAtOnceAndCancelsRebounds) {
+TEST(ImpactsTest, AResetSilencesAtOnceAndCancelsRebounds) {
     ImpactResponse response = ringing(150.0F, 50.0F, 400.0F);
     response.restitution = 0.8F;
-    Strikes strikes(rateHz);
-    strikes.strike(1.0, response);
-    next(strikes, 100);
-    strikes.reset();
-    EXPECT_TRUE(strikes.isIdle());
-    EXPECT_EQ(next(strikes, 48000), std::vector<float>(48000, 0.0F));
+    Impacts impacts(rateHz);
+    impacts.start(1.0, response);
+    next(impacts, 100);
+    impacts.reset();
+    EXPECT_TRUE(impacts.isIdle());
+    EXPECT_EQ(next(impacts, 48000), std::vector<float>(48000, 0.0F));
 }
 
-TEST(StrikesTest, ASourceAddsToTheInput) {
-    Strikes alone(rateHz, 3.0);
-    Strikes added(rateHz, 3.0);
-    alone.strike(0.3, ringing(220.0F, 80.0F, 300.0F));
-    added.strike(0.3, ringing(220.0F, 80.0F, 300.0F));
+TEST(ImpactsTest, ASourceAddsToTheInput) {
+    Impacts alone(rateHz, 3.0);
+    Impacts added(rateHz, 3.0);
+    alone.start(0.3, ringing(220.0F, 80.0F, 300.0F));
+    added.start(0.3, ringing(220.0F, 80.0F, 300.0F));
     std::vector<float> out(480, 2.0F);
     added.process(out);
-    const std::vector<float> blow = next(alone, 480);
+    const std::vector<float> event = next(alone, 480);
     for (std::size_t i = 0; i < out.size(); ++i) {
-        ASSERT_FLOAT_EQ(out[i], 2.0F + blow[i]);
+        ASSERT_FLOAT_EQ(out[i], 2.0F + event[i]);
     }
 }
 
-TEST(StrikesTest, NothingAllocates) {
-    Strikes strikes(rateHz);
+TEST(ImpactsTest, NothingAllocates) {
+    Impacts impacts(rateHz);
     ImpactResponse response = ringing(150.0F, 50.0F, 400.0F);
     response.restitution = 0.7F;
     std::vector<float> out(512);
     const std::size_t before = haptoflow::testing::allocationCount();
     for (int block = 0; block < 50; ++block) {
-        strikes.strike(0.1 * block, response);
-        strikes.process(out);
+        impacts.start(0.1 * block, response);
+        impacts.process(out);
     }
-    strikes.reset();
+    impacts.reset();
     EXPECT_EQ(haptoflow::testing::allocationCount(), before);
 }
 

@@ -32,14 +32,14 @@ private:
     double envelopeMps2_ = 0.0;
 };
 
-/// Response of a material to a blow: a sum of decaying sinusoids with amplitudes proportional to the speed of the blow
-/// (Okamura, Cutkosky, Dennerlein 2001: a(t) = A(v) e^(-Bt) sin(2 pi f t)).
+/// Response of a material to a contact event: a sum of decaying sinusoids with amplitudes proportional to the speed of
+/// the contact event (Okamura, Cutkosky, Dennerlein 2001: a(t) = A(v) e^(-Bt) sin(2 pi f t)).
 struct ImpactResponse {
     struct Mode {
         /// 0 for an unused mode.
         float frequencyHz = 0.0F;
         float decayPerSecond = 0.0F;
-        /// m/s^2 per m/s of the blow.
+        /// m/s^2 per m/s of the contact event.
         float gainPerSecond = 0.0F;
     };
     static constexpr std::size_t modeCount = 2;
@@ -49,22 +49,22 @@ struct ImpactResponse {
     float restitution = 0.0F;
 };
 
-/// Renders blows: the landing of a tip (kind impact) or the crossing of an edge (kind edge).
+/// Renders contact events: the landing of a tip (kind impact) or the crossing of an edge (kind edge).
 ///
-/// Overlapping blows add up. If all sinusoids are in use, a new one replaces the quietest. Construction excepted,
-/// everything runs on the audio thread.
-class Strikes final : public Effect {
+/// Overlapping contact events add up. If all sinusoids are in use, a new one replaces the quietest. Construction
+/// excepted, everything runs on the audio thread.
+class Impacts final : public Effect {
 public:
     /// Speeds are clamped to this.
-    static constexpr double maximumStrikeMps = 5.0;
+    static constexpr double maximumEventMps = 5.0;
     static constexpr std::size_t capacity = 8;
     static constexpr std::size_t rebounds = 2;
 
     /// `decayFactor` multiplies the decay of the responses, which makes edges shorter than landings.
-    explicit Strikes(double sampleRateHz, double decayFactor = 1.0) noexcept;
+    explicit Impacts(double sampleRateHz, double decayFactor = 1.0) noexcept;
 
-    /// Starts a blow with the next sample; its rebounds follow. Ignores a speed that is not above 0.
-    void strike(double speedMps, const ImpactResponse& response) noexcept;
+    /// Starts a contact event with the next sample; its rebounds follow. Ignores a speed that is not above 0.
+    void start(double speedMps, const ImpactResponse& response) noexcept;
 
     void process(std::span<float> samplesMps2) noexcept override;
     void reset() noexcept override;
