@@ -15,7 +15,7 @@ test('the pages of installation and first scene show every drawing, with a sente
 });
 
 test('the drawn entries of GameObject > HaptoFlow are entries of the menu', () => {
-  const source = read('Packages', 'com.haptoflow.runtime', 'Editor', 'Tagging', 'CreateMenu.cs');
+  const source = read('Packages', 'com.haptoflow.runtime', 'Editor', 'Scene', 'CreateMenu.cs');
   const menus = [...source.matchAll(/"GameObject\/HaptoFlow\/([^"]+)"/g)].map(([, menu]) => menu);
   const shown = [...drawn('first-scene-1-menu').matchAll(/>([^<>]+)<\/text>/g)].map(([, words]) => words);
   assert.ok(menus.length >= 6);

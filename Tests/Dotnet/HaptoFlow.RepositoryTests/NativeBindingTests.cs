@@ -39,6 +39,13 @@ namespace HaptoFlow.RepositoryTests
             Assert.That(crossing, Has.All.Matches<Type>(type => type.IsDefined(typeof(PreserveAttribute), false)));
         }
 
+        /// <summary>What only Python and the web call.</summary>
+        private static readonly string[] OfOtherLanguages =
+        {
+            "haptoflow_find_wave_vectors", "haptoflow_generator_set_solver", "haptoflow_recording_create",
+            "haptoflow_recording_remove_noise",
+        };
+
         [Test]
         public void EveryFunctionOfTheHeaderIsDeclaredAndExported()
         {
@@ -52,7 +59,7 @@ namespace HaptoFlow.RepositoryTests
                 .Select(attribute => ((DllImportAttribute)attribute).EntryPoint!)
                 .Where(name => name.StartsWith("haptoflow_", StringComparison.Ordinal))
                 .OrderBy(name => name, StringComparer.Ordinal).ToArray();
-            Assert.That(bound, Is.EqualTo(declared));
+            Assert.That(bound, Is.EqualTo(declared.Except(OfOtherLanguages)));
             Assert.That(declared.Length, Is.GreaterThan(30));
         }
 

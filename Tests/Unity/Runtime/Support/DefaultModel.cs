@@ -41,7 +41,7 @@ namespace HaptoFlow.Tests
         });
 
         /// <summary>A model of another space: materials learnt for the package's model are refused.</summary>
-        public static HapticModelAsset OfAnotherSpace() => With(header => header.Replace("\"draft\"", "\"rough\""));
+        public static HapticModelAsset OfAnotherSpace() => With(header => header.Replace("\"draft\"", "\"rough\"").Replace("\"draft.", "\"rough."));
 
         /// <summary>A model whose parts do not match their checksums.</summary>
         public static HapticModelAsset Damaged()

@@ -235,18 +235,11 @@ namespace HaptoFlow.Native
         [DllImport(Library, EntryPoint = "haptoflow_recording_read")]
         public static extern int RecordingRead(NativeRecordingOptions* options, IntPtr* recording);
 
-        [DllImport(Library, EntryPoint = "haptoflow_recording_create")]
-        public static extern int RecordingCreate(NativeRecordingInfo* info, IntPtr* recording);
-
         [DllImport(Library, EntryPoint = "haptoflow_recording_get_info")]
         public static extern int RecordingGetInfo(IntPtr recording, NativeRecordingInfo* info);
 
         [DllImport(Library, EntryPoint = "haptoflow_recording_wave")]
         public static extern int RecordingWave(IntPtr recording, float* waveMps2, ulong waveCount);
-
-        [DllImport(Library, EntryPoint = "haptoflow_recording_remove_noise")]
-        public static extern int RecordingRemoveNoise(float* vibrationMps2, float* velocityMps, float* forceNewtons,
-            ulong sampleCount, int* source, double* noiseMps2);
 
         [DllImport(Library, EntryPoint = "haptoflow_resample")]
         public static extern int Resample(float* samples, ulong sampleCount, double sampleRateHz, float* wave,
@@ -257,10 +250,6 @@ namespace HaptoFlow.Native
 
         [DllImport(Library, EntryPoint = "haptoflow_learn_material")]
         public static extern int LearnMaterial(NativeLearningOptions* options, IntPtr* learning);
-
-        [DllImport(Library, EntryPoint = "haptoflow_find_wave_vectors")]
-        public static extern int FindWaveVectors(float* vibrationMps2, float* velocityMps, ulong sampleCount,
-            double* waveVectors);
 
         [DllImport(Library, EntryPoint = "haptoflow_learning_results")]
         public static extern int LearningResults(IntPtr learning, IntPtr* material, IntPtr* report);
