@@ -14,7 +14,7 @@
 namespace haptoflow::bench {
 namespace {
 
-constexpr int runs = 4;
+constexpr int roundCount = 4;
 
 /// Counts the runs and requests of another generator.
 class CountingGenerator final : public inference::SegmentGenerator {
@@ -74,14 +74,14 @@ nlohmann::ordered_json measureIdle(const Subjects& subjects, const BenchPlan& pl
     const std::uint64_t wakesBefore = engine->statistics().wakes;
     Busy idle;
     Busy reference;
-    const double seconds = plan.idleSeconds() / runs;
-    for (int run = 0; run < runs; ++run) {
+    const double seconds = plan.idleSeconds() / roundCount;
+    for (int round = 0; round < roundCount; ++round) {
         pass(
             seconds, reference, [](std::span<float> block) { std::ranges::fill(block, 0.0F); }, [] {});
         pass(
             seconds, idle, [&voice](std::span<float> block) { voice->renderer.render(block, outputRateHz); },
             [&] { engine->publish(*voice, Hand::lifted(0)); });
-        advance((run + 1.0) / runs);
+        advance((round + 1.0) / roundCount);
     }
     return {{"idle",
              {{"inferences", counted.runs - runsBefore},
