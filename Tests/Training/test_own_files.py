@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from own_samples import (
-    RATE_HZ, Stroke, csv_one_axis, csv_three_axes, stroke, three_axes, wav_with_motion, with_sidecar, write_table
+    RATE_HZ, Stroke, csv_one_axis, csv_three_axes, stroke, wav_with_motion, with_sidecar, write_table
 )
 from scipy.io import wavfile
 

@@ -95,7 +95,8 @@ TEST(LoadLimitsTest, AGraphThatAcceptsOnlyOneRequestIsRejectedWhileLoading) {
                             .apply("Reshape", {"weighted", "size"}, {"log_level"})
                             .model()
                             .written();
-    EXPECT_THAT(failureOf<model::ModelError>(tinyWithLevel(graph)), ::testing::HasSubstr("a fixed batch of 1; the batch must be free"));
+    EXPECT_THAT(failureOf<model::ModelError>(tinyWithLevel(graph)),
+                ::testing::HasSubstr("a fixed batch of 1; the batch must be free"));
 }
 
 TEST(LoadLimitsTest, ACancelledLoadThrows) {
