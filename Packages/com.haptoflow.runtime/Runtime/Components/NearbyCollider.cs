@@ -20,7 +20,7 @@ namespace HaptoFlow
         /// <summary>The point closest to the tip in the last update in which the collider was within reach.</summary>
         public TouchedPlace Place { get; set; }
 
-        /// <summary>The material at <see cref="Place"/>, as of the last <see cref="Feel"/>.</summary>
+        /// <summary>The material at <see cref="Place"/>, as of the last <see cref="Resolve"/>.</summary>
         public ResolvedMaterial Felt { get; private set; }
 
         public ContactBody Tracked { get; } = new ContactBody(Double3.Right, 0.0);
