@@ -16,11 +16,11 @@ from haptoflow_paper.codec.small_codec import SmallCodec, SmallCodecShape
 from haptoflow_paper.rivals import ARCHITECTURES
 from haptoflow_paper.runs.tier import export_level_model, network_graph
 from haptoflow_paper.runs.velocity_field import IMPULSE_GAINS as GAINS
-from haptoflow_paper.runs.velocity_field import BandLimit, RungImpulses, VelocityField
+from haptoflow_paper.runs.velocity_field import BandLimit, ContinuousImpulses, VelocityField
 from haptoflow_training.export.trained_tier import tier_of
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE, MotionFeatures
 from haptoflow_training.models.level_model import LevelModel, level_loss
-from haptoflow_training.models.rung_impulses import ATOMS, RUNGS, TAIL_RUNGS, TAPS, TailImpulses
+from haptoflow_training.models.tail_impulses import ATOMS, THRESHOLDS, TAIL_THRESHOLDS, TAPS, TailImpulses
 from haptoflow_training.training.config import TrainingConfig, load_config
 from haptoflow_training.training.trainer import build_model
 from paper_samples import evaluated
@@ -188,29 +188,29 @@ def test_every_codec_uses_only_listed_operators(tmp_path: Path) -> None:
             _check((tmp_path / name).read_bytes())
 
 
-def _only(rung: int, atom: int) -> torch.Tensor:
-    gains = torch.zeros(1, len(RUNGS), ATOMS)
-    gains[0, rung, atom] = 1.0
+def _only(threshold: int, atom: int) -> torch.Tensor:
+    gains = torch.zeros(1, len(THRESHOLDS), ATOMS)
+    gains[0, threshold, atom] = 1.0
     return gains.reshape(1, GAINS)
 
 
-@pytest.mark.parametrize("rung", range(len(RUNGS)))
-def test_a_rung_passes_only_the_tails_of_the_noise_with_power_one(rung: int) -> None:
-    noise = torch.randn(16000, 1, 200, generator=torch.Generator().manual_seed(rung))
-    struck = RungImpulses()(noise, _only(rung, 0).expand(len(noise), GAINS))
-    assert ((struck != 0.0) == (noise.abs() > RUNGS[rung])).all()
-    assert struck.square().mean().item() == pytest.approx(1.0, rel=0.15)
-    assert struck.mean().item() == pytest.approx(0.0, abs=0.01)
+@pytest.mark.parametrize("threshold", range(len(THRESHOLDS)))
+def test_a_threshold_passes_only_the_tails_of_the_noise_with_power_one(threshold: int) -> None:
+    noise = torch.randn(16000, 1, 200, generator=torch.Generator().manual_seed(threshold))
+    made = ContinuousImpulses()(noise, _only(threshold, 0).expand(len(noise), GAINS))
+    assert ((made != 0.0) == (noise.abs() > THRESHOLDS[threshold])).all()
+    assert made.square().mean().item() == pytest.approx(1.0, rel=0.15)
+    assert made.mean().item() == pytest.approx(0.0, abs=0.01)
 
 
 def test_each_event_rings_with_its_kernel_and_only_after_its_start() -> None:
-    impulses = RungImpulses()
+    impulses = ContinuousImpulses()
     for place in (0, 24, 25, 130, 199):
         noise = torch.zeros(1, 1, 200)
         noise[0, 0, place] = -4.0
         gains = torch.randn(1, GAINS, generator=torch.Generator().manual_seed(place))
-        kernels = gains.reshape(len(RUNGS), ATOMS) @ impulses.atoms
-        size = -(4.0 - impulses.rungs.flatten()) * impulses.scales.flatten()
+        kernels = gains.reshape(len(THRESHOLDS), ATOMS) @ impulses.atoms
+        size = -(4.0 - impulses.heights.flatten()) * impulses.scales.flatten()
         ring = (size.unsqueeze(1) * kernels).sum(dim=0)
         expected = torch.zeros(200)
         expected[place : place + TAPS] = ring[: 200 - place]
@@ -218,7 +218,7 @@ def test_each_event_rings_with_its_kernel_and_only_after_its_start() -> None:
 
 
 def _tail_gains(seed: int) -> torch.Tensor:
-    return torch.randn(1, 2, len(TAIL_RUNGS), ATOMS, generator=torch.Generator().manual_seed(seed))
+    return torch.randn(1, 2, len(TAIL_THRESHOLDS), ATOMS, generator=torch.Generator().manual_seed(seed))
 
 
 @pytest.mark.parametrize(("excess", "tail"), [(4.5, 0), (-4.5, 1)])
@@ -226,7 +226,7 @@ def test_each_tail_rings_with_its_own_kernels(excess: float, tail: int) -> None:
     impulses, gains = TailImpulses(), _tail_gains(3)
     noise = torch.zeros(1, 1, 200)
     noise[0, 0, 60] = excess
-    size = (abs(excess) - torch.tensor(TAIL_RUNGS)) * impulses.scales.flatten()[: len(TAIL_RUNGS)]
+    size = (abs(excess) - torch.tensor(TAIL_THRESHOLDS)) * impulses.scales.flatten()[: len(TAIL_THRESHOLDS)]
     ring = (size.unsqueeze(1) * (gains[0, tail] @ impulses.atoms)).sum(dim=0) * (1.0 if excess > 0.0 else -1.0)
     expected = torch.zeros(200)
     expected[60 : 60 + TAPS] = ring
@@ -237,13 +237,13 @@ def test_each_tail_rings_with_its_own_kernels(excess: float, tail: int) -> None:
 
 
 class _SameRungs(TailImpulses):
-    thresholds = RUNGS
+    thresholds = THRESHOLDS
 
 
 def test_tails_with_equal_kernels_are_the_impulses_of_a_network() -> None:
     noise = 1.6 * torch.randn(4, 1, 200, generator=torch.Generator().manual_seed(5))
     same = torch.randn(1, GAINS, generator=torch.Generator().manual_seed(6))
-    network = RungImpulses()(noise, same.expand(4, -1))
+    network = ContinuousImpulses()(noise, same.expand(4, -1))
     both = _SameRungs()(noise, same.repeat(4, 2))
     torch.testing.assert_close(both, network, rtol=1e-4, atol=1e-4)
     assert network.square().mean() > 0.1

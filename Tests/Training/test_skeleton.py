@@ -14,7 +14,7 @@ from haptoflow_training.models.all_pole_filter import PredictedFilter, burg_refl
 from haptoflow_training.models.level_model import PREVIOUS_LIMIT, LevelModel
 from haptoflow_training.models.refiner import ENTERING, Refiner
 from haptoflow_training.models.skeleton import (
-    LINE_HARMONICS, ORDER, OUTPUTS, RUNG_GAINS, SWING_HARMONICS, Skeleton, SkeletonGains
+    LINE_HARMONICS, ORDER, OUTPUTS, IMPULSE_GAINS, SWING_HARMONICS, Skeleton, SkeletonGains
 )
 from haptoflow_training.models.haptoflow_model import SkeletonModel
 from haptoflow_training.models.surface_waves import FAMILIES, SurfaceWaves, advanced
@@ -31,7 +31,7 @@ def _gains(raw: torch.Tensor = RAW) -> SkeletonGains:
         *PredictedFilter(ORDER)(raw),
         torch.zeros(1, FAMILIES, 2, SWING_HARMONICS, 1),
         torch.zeros(1, FAMILIES, 2, LINE_HARMONICS, 1),
-        torch.zeros(1, RUNG_GAINS),
+        torch.zeros(1, IMPULSE_GAINS),
     )
 
 
@@ -60,9 +60,9 @@ def test_without_ribs_and_rungs_its_power_is_1_in_the_long_run() -> None:
     gains, still, previous = _gains(), _phases((0.0, 0.0, 0.0)).expand(64, 6), torch.zeros(64, 1, 200)
     powers = []
     for hop in range(40):
-        begun = SKELETON.parts(_noise(64, hop), previous, gains, still).begun[:, :, :28]
-        previous = torch.cat([previous[:, :, 28:], begun], dim=2)
-        powers.append(begun.square().mean().item())
+        segment = SKELETON.parts(_noise(64, hop), previous, gains, still).segment[:, :, :28]
+        previous = torch.cat([previous[:, :, 28:], segment], dim=2)
+        powers.append(segment.square().mean().item())
     assert sum(powers[10:]) / 30.0 == pytest.approx(1.0, rel=0.05)
 
 
@@ -70,13 +70,13 @@ def test_without_ribs_and_rungs_its_power_is_1_in_the_long_run() -> None:
 def test_a_segment_begun_later_says_the_same_of_the_same_samples(later: int) -> None:
     gains, phases = _with_ribs(2), _phases((40.0, -25.0, 66.0), (0.1, 0.7, 0.4))
     previous, noise = _noise(1, 3), _noise(1, 4)
-    first = SKELETON.parts(noise, previous, gains, phases).begun
+    first = SKELETON.parts(noise, previous, gains, phases).segment
     second = SKELETON.parts(
         torch.cat([noise[:, :, later:], _noise(1, 5, later)], dim=2),
         torch.cat([previous[:, :, later:], first[:, :, :later]], dim=2),
         gains,
         advanced(phases, later),
-    ).begun
+    ).segment
     torch.testing.assert_close(second[:, :, : 200 - later], first[:, :, later:], rtol=0.0, atol=5e-3)
     assert first.square().mean() > 0.5
 
@@ -84,7 +84,7 @@ def test_a_segment_begun_later_says_the_same_of_the_same_samples(later: int) -> 
 def _line(gains: SkeletonGains, phases: torch.Tensor) -> torch.Tensor:
     """[200]: the lines alone."""
     silence = torch.zeros(1, 1, 200)
-    return SKELETON.parts(silence, silence, gains, phases).begun[0, 0]
+    return SKELETON.parts(silence, silence, gains, phases).segment[0, 0]
 
 
 def test_lines_are_fixed_to_the_place_in_every_pass_and_met_backwards_on_the_way_back() -> None:
@@ -111,7 +111,7 @@ def test_a_line_at_the_output_has_amplitude_and_phase_of_the_filter_s_frequency_
     for _ in range(4):
         # The last of these begins when what the filter did at first has faded.
         phases = advanced(phases, 200)
-        made = SKELETON.parts(silence, made, gains, phases).begun
+        made = SKELETON.parts(silence, made, gains, phases).segment
     frequency = order * 60.0 / 2000.0
     _, response = scipy.signal.freqz(1.0, np.concatenate([[1.0], gains.coefficients[0]]), worN=[2.0 * np.pi * frequency])
     ahead = math.copysign(phases[0, 1].item(), rate_hz) * order
@@ -126,15 +126,15 @@ def test_the_impulses_drive_the_filter_beside_the_noise_and_relative_to_it() -> 
     gains, phases = _gains(), _phases((0.0, 0.0, 0.0))
     noise, silence = _noise(1, 31).clamp(-1.9, 1.9), torch.zeros(1, 1, 200)
     noise[0, 0, 40] = 4.5
-    gains.rungs[0, 0] = 0.2
+    gains.impulses[0, 0] = 0.2
     with_impulse = SKELETON.parts(noise, silence, gains, phases)
-    without = SKELETON.parts(noise, silence, gains._replace(rungs=torch.zeros(1, RUNG_GAINS)), phases)
-    assert with_impulse.struck.nonzero()[:, 2].tolist() == [40]
-    response = scipy.signal.lfilter([1.0], np.concatenate([[1.0], gains.coefficients[0]]), with_impulse.struck[0, 0])
-    difference = (with_impulse.begun - without.begun)[0, 0].numpy()
+    without = SKELETON.parts(noise, silence, gains._replace(impulses=torch.zeros(1, IMPULSE_GAINS)), phases)
+    assert with_impulse.impulses.nonzero()[:, 2].tolist() == [40]
+    response = scipy.signal.lfilter([1.0], np.concatenate([[1.0], gains.coefficients[0]]), with_impulse.impulses[0, 0])
+    difference = (with_impulse.segment - without.segment)[0, 0].numpy()
     np.testing.assert_allclose(difference, response, atol=1e-4)
     louder = SKELETON.parts(noise, silence, gains._replace(log_gain=gains.log_gain + math.log(2.0)), phases)
-    torch.testing.assert_close(louder.struck, 2.0 * with_impulse.struck)
+    torch.testing.assert_close(louder.impulses, 2.0 * with_impulse.impulses)
 
 
 @pytest.fixture
@@ -151,38 +151,38 @@ def test_a_hand_over_with_the_same_noise_and_past_is_exact_although_lines_and_im
 ) -> None:
     later, generator = 90, torch.Generator().manual_seed(32)
     gains, phases = _with_ribs(2), _phases((40.0, -25.0, 66.0), (0.1, 0.7, 0.4))
-    rungs = torch.randn(1, 10, 13, generator=generator)
+    impulses = torch.randn(1, 10, 13, generator=generator)
     noise = torch.randn(1, 1, 200, generator=generator)
     if bare:
-        rungs[:, :, 1:] = 0.0
+        impulses[:, :, 1:] = 0.0
     else:
         noise[:, :, later - 64 : later] = noise[:, :, later - 64 : later].clamp(-1.9, 1.9)
     noise[0, 0, 10], noise[0, 0, 130] = 4.4, -3.7
     gains = SkeletonGains(*(part.double() for part in gains))
-    gains = gains._replace(swing=0.3 * gains.swing, lines=0.2 * gains.lines, rungs=0.04 * rungs.flatten(1))
+    gains = gains._replace(swing=0.3 * gains.swing, lines=0.2 * gains.lines, impulses=0.04 * impulses.flatten(1))
     phases = phases.double()
     previous = torch.randn(1, 1, 200, generator=generator)
     first = exact_skeleton.parts(noise, previous, gains, phases)
     second = exact_skeleton.parts(
         torch.cat([noise[:, :, later:], noise[:, :, :later]], dim=2),
-        torch.cat([previous[:, :, later:], first.begun[:, :, :later]], dim=2),
+        torch.cat([previous[:, :, later:], first.segment[:, :, :later]], dim=2),
         gains,
         advanced(phases, later),
     )
-    assert first.struck[:, :, :later].abs().max() > 0.05 and first.struck[:, :, later:].abs().max() > 0.05
-    assert first.begun.abs().max() < PREVIOUS_LIMIT
-    torch.testing.assert_close(second.begun[:, :, : 200 - later], first.begun[:, :, later:], rtol=0.0, atol=1e-9)
+    assert first.impulses[:, :, :later].abs().max() > 0.05 and first.impulses[:, :, later:].abs().max() > 0.05
+    assert first.segment.abs().max() < PREVIOUS_LIMIT
+    torch.testing.assert_close(second.segment[:, :, : 200 - later], first.segment[:, :, later:], rtol=0.0, atol=1e-9)
 
 
 def test_the_swing_modulates_the_drive_within_its_limit() -> None:
     gains, phases, noise = _nothing(), _phases((40.0, 0.0, 0.0), (0.2, 0.0, 0.0)), _noise(1, 7)
-    still = SKELETON.parts(noise, torch.zeros(1, 1, 200), gains, phases).begun
+    still = SKELETON.parts(noise, torch.zeros(1, 1, 200), gains, phases).segment
     torch.testing.assert_close(still, noise)
     angle = 2.0 * math.pi * (0.2 + 40.0 * (torch.arange(200) + 0.5) / 2000.0)
     for size in (0.5, 1.5, 40.0):
         gains.swing[0, 0, COSINE, 0, 0], gains.swing[0, 0, SINE, 1, 0] = size, -0.5 * size
         swing = 2.0 * torch.tanh(0.5 * size * (angle.cos() - 0.5 * (2.0 * angle).sin()))
-        made = SKELETON.parts(noise, torch.zeros(1, 1, 200), gains, phases).begun
+        made = SKELETON.parts(noise, torch.zeros(1, 1, 200), gains, phases).segment
         expected = (noise[0, 0] * swing.exp()).clamp(-PREVIOUS_LIMIT, PREVIOUS_LIMIT)
         torch.testing.assert_close(made[0, 0], expected, rtol=2e-3, atol=1e-3)
         assert swing.abs().max() <= 2.0
@@ -198,7 +198,7 @@ def _own_condition() -> tuple[torch.Tensor, torch.Tensor]:
 def test_an_untrained_skeleton_has_a_filter_and_neither_swing_lines_nor_rungs() -> None:
     gains = Skeleton(hidden=16).gains(*_own_condition(), STILL)
     assert gains.coefficients.abs().max() > 0.0
-    assert all(part.abs().max() == 0.0 for part in (gains.swing, gains.lines, gains.rungs))
+    assert all(part.abs().max() == 0.0 for part in (gains.swing, gains.lines, gains.impulses))
 
 
 def test_the_waveform_trains_lines_swing_and_rungs_and_only_the_likelihood_trains_the_filter() -> None:
@@ -206,10 +206,10 @@ def test_the_waveform_trains_lines_swing_and_rungs_and_only_the_likelihood_train
     phases = _phases((40.0, 25.0, 66.0)).expand(2, 6)
     weight = skeleton.perceptron.layers[-1].weight
     parts = skeleton.parts(2.0 * _noise(2, 11), _noise(2, 12), skeleton.gains(*_own_condition(), phases), phases)
-    (weighed,) = torch.autograd.grad(parts.begun.square().sum(), weight)
+    (weighed,) = torch.autograd.grad(parts.segment.square().sum(), weight)
     assert weighed[:filtering].abs().max() == 0.0
-    swing, lines, rungs = weighed[filtering:].split(OUTPUTS[1:])
-    assert all(part.abs().max() > 0.0 for part in (swing, lines, rungs))
+    swing, lines, impulses = weighed[filtering:].split(OUTPUTS[1:])
+    assert all(part.abs().max() > 0.0 for part in (swing, lines, impulses))
     likelihood = skeleton.likelihood(_noise(2, 13), skeleton.gains(*_own_condition(), phases), phases)
     (weighed,) = torch.autograd.grad(likelihood.sum(), weight)
     assert weighed[:filtering].abs().max() > 0.0
@@ -218,8 +218,8 @@ def test_the_waveform_trains_lines_swing_and_rungs_and_only_the_likelihood_train
 def _recorded(gains: SkeletonGains, phases: torch.Tensor, rows: int) -> torch.Tensor:
     """Segments of the skeleton, [rows, 1, 200]."""
     earlier = advanced(phases, -200).expand(rows, 6)
-    past = SKELETON.parts(_noise(rows, 20), _noise(rows, 21), gains, earlier).begun
-    return SKELETON.parts(_noise(rows, 22), past, gains, phases.expand(rows, 6)).begun
+    past = SKELETON.parts(_noise(rows, 20), _noise(rows, 21), gains, earlier).segment
+    return SKELETON.parts(_noise(rows, 22), past, gains, phases.expand(rows, 6)).segment
 
 
 def test_the_likelihood_is_best_at_the_true_filter_level_and_swing() -> None:
@@ -246,7 +246,7 @@ def test_lines_in_a_recording_do_not_count_as_errors_of_prediction() -> None:
     phases, gains = _phases((40.0, -25.0, 66.0), (0.1, 0.7, 0.4)), _with_ribs(2)
     gains, plain = (gains._replace(swing=0.3 * gains.swing, lines=share * gains.lines) for share in (0.2, 0.0))
     many = phases.expand(4, 6)
-    with_lines, without = (SKELETON.parts(_noise(4, 22), _noise(4, 21), each, many).begun for each in (gains, plain))
+    with_lines, without = (SKELETON.parts(_noise(4, 22), _noise(4, 21), each, many).segment for each in (gains, plain))
     assert (with_lines - without).abs().max() > 0.5 and with_lines.abs().max() < PREVIOUS_LIMIT
     found = SKELETON.likelihood(with_lines, gains, many)
     torch.testing.assert_close(found, SKELETON.likelihood(without, plain, many), rtol=0.0, atol=1e-4)
@@ -308,6 +308,6 @@ def test_a_refinement_sees_segment_impulses_and_the_harmonics_of_all_families_ad
     parts = model.skeleton.parts(noise, previous, model.skeleton.gains(embedding, motion, phases), phases)
     seen = Refiner.entering(parts)
     assert seen.shape == (2, ENTERING, 200)
-    torch.testing.assert_close(seen[:, :2], torch.cat([parts.begun, parts.struck], dim=1))
+    torch.testing.assert_close(seen[:, :2], torch.cat([parts.segment, parts.impulses], dim=1))
     cosines, sines = SurfaceWaves(SWING_HARMONICS, 700.0)(phases)
     torch.testing.assert_close(seen[:, 2:], torch.cat([cosines.sum(dim=1), sines.sum(dim=1)], dim=1))

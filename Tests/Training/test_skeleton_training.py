@@ -103,7 +103,7 @@ def test_training_moves_the_skeleton_and_its_specimens_and_a_refinement_leaves_b
     sketch, standard = (load_trained(runs / name)[2] for name in ("sketch", "standard"))
     assert isinstance(sketch, SkeletonModel) and isinstance(standard, SkeletonModel)
     assert sketch.embedding.pieces is not None and sketch.embedding.pieces.abs().max() > 0.0
-    assert sketch.skeleton.perceptron.layers[-1].weight[60:].abs().max() > 0.0, "lines and rungs began at zero"
+    assert sketch.skeleton.perceptron.layers[-1].weight[60:].abs().max() > 0.0, "lines and impulses began at zero"
     for part in ("embedding", "level", "skeleton"):
         own, base = (getattr(model, part).state_dict() for model in (standard, sketch))
         assert all(torch.equal(own[name], base[name]) for name in base), part
@@ -191,7 +191,7 @@ def test_a_skeleton_and_a_refinement_sound_in_closed_loop(name: str, runs: Path)
 
 
 def _shift_loss(monkeypatch: pytest.MonkeyPatch, store: FakeStore, *, trained: bool) -> float:
-    """What the term for shifts adds to the loss of a refinement over a skeleton with swing and lines, without rungs."""
+    """What the term for shifts adds to the loss of a refinement over a skeleton with swing and lines, without impulses."""
     torch.manual_seed(4)
     model = build_model(_refinement(), WAVE_VECTORS, specimens=3)
     assert isinstance(model, SkeletonModel) and model.refiner is not None
@@ -356,7 +356,7 @@ def test_a_skeleton_keeps_its_likelihood_in_the_energy_phase(monkeypatch: pytest
         losses(batch, objective, torch.Generator().manual_seed(6))[1].backward()
         weight = model.skeleton.perceptron.layers[-1].weight
         assert weight.grad is not None and weight.grad[filtering].abs().max() > 0.0
-        # The untrained rungs do nothing to a likelihood.
+        # The untrained impulses do nothing to a likelihood.
         assert (weight.grad[139:].abs().max() > 0.0) == (objective == "energy")
 
 

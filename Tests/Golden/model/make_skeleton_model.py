@@ -117,9 +117,9 @@ def golden_case(sketch: SkeletonModel, refined: SkeletonModel, number: int) -> d
     values: dict[str, Tensor] = {
         "embedding": embedding, "motion": motion, "phases": phases, "previous": previous, "noise": noise,
         "log_level": log_level, "coefficients": gains.coefficients, "log_gain": gains.log_gain,
-        "struck": parts.struck, "begun": parts.begun, "film": refiner.film(embedding, motion, phases),
+        "struck": parts.impulses, "begun": parts.segment, "film": refiner.film(embedding, motion, phases),
         "entering": refiner.entering(parts),
-        "sketch_segment": parts.begun * gain,
+        "sketch_segment": parts.segment * gain,
         "standard_segment": refined.one_step(noise, scaled, embedding, motion, phases) * gain,
     }  # fmt: skip
     return {"label": label, **{name: value.flatten().tolist() for name, value in values.items()}}

@@ -21,7 +21,7 @@ from haptoflow_training.models.conditioning import EMBEDDING_SIZE, MotionFeature
 from haptoflow_training.models.haptoflow_model import HaptoFlowModel
 from haptoflow_training.models.refiner import PatchUnet
 from haptoflow_training.models.rib_comb import RibComb
-from haptoflow_training.models.rung_impulses import ATOMS, RUNGS, TailImpulses
+from haptoflow_training.models.tail_impulses import ATOMS, THRESHOLDS, TailImpulses
 from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
 TAPS = 129
@@ -81,7 +81,7 @@ class BandLimit(nn.Module):
 
 
 _CONDITION_SIZE = 96
-IMPULSE_GAINS = len(RUNGS) * ATOMS
+IMPULSE_GAINS = len(THRESHOLDS) * ATOMS
 
 
 class MotionEncoder(nn.Module):
@@ -129,14 +129,14 @@ def _silent(outputs: int) -> nn.Linear:
     return layer
 
 
-class RungImpulses(TailImpulses):
+class ContinuousImpulses(TailImpulses):
     """Impulses of a network: gains [B, 52], the same kernel for both tails."""
 
-    thresholds: ClassVar[tuple[float, ...]] = RUNGS
+    thresholds: ClassVar[tuple[float, ...]] = THRESHOLDS
     tails: ClassVar[int] = 1
 
     def _excess(self, gathered: Tensor) -> Tensor:
-        return gathered - torch.maximum(torch.minimum(gathered, self.rungs), -self.rungs)
+        return gathered - torch.maximum(torch.minimum(gathered, self.heights), -self.heights)
 
 
 class VelocityField(PatchUnet):
@@ -173,7 +173,7 @@ class VelocityField(PatchUnet):
         self._encode_time()
         self.motion = MotionEncoder()
         self.comb = ContinuingComb(positions) if ribs else None
-        self.impulses = RungImpulses(positions) if impulses else None
+        self.impulses = ContinuousImpulses(positions) if impulses else None
 
         # The material's and the flow time's contributions are added, so that the flow time's part of a one-step graph
         # is a constant.
@@ -226,9 +226,9 @@ class VelocityField(PatchUnet):
             entering.append(combed)
             added.append(combed[:, -1:])
         if self.impulses is not None:
-            struck = self.impulses(noisy, impulse_gains)
-            entering.append(struck)
-            added.append(struck)
+            impulses_made = self.impulses(noisy, impulse_gains)
+            entering.append(impulses_made)
+            added.append(impulses_made)
         made = self.through(torch.cat(entering, dim=1).unsqueeze(2), mirrored.unsqueeze(2), film)
         for waves in added:
             made = made + waves

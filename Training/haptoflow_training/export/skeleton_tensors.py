@@ -14,7 +14,7 @@ from haptoflow_training.models.conditioning import ConditionPerceptron
 from haptoflow_training.models.haptoflow_model import parameter_count
 from haptoflow_training.models.level_model import LevelModel
 from haptoflow_training.models.refiner import Refiner
-from haptoflow_training.models.rung_impulses import TAIL_RUNGS
+from haptoflow_training.models.tail_impulses import TAIL_THRESHOLDS
 from haptoflow_training.models.skeleton import LINE_HARMONICS, ORDER, SWING_HARMONICS, Skeleton
 
 Tensors = dict[str, NDArray[np.float32]]
@@ -26,7 +26,7 @@ def skeleton_header(skeleton: Skeleton) -> dict[str, Any]:
         "order": ORDER,
         "harmonics": LINE_HARMONICS,
         "swing_harmonics": SWING_HARMONICS,
-        "rungs": list(TAIL_RUNGS),
+        "rungs": list(TAIL_THRESHOLDS),
         "hidden": skeleton.perceptron.layers[0].out_features,
         "parameters": parameter_count(skeleton),
     }

@@ -95,5 +95,5 @@ class SkeletonModel(HaptoFlowModel):
     def one_step(self, noise: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor, phases: Tensor) -> Tensor:
         parts = self.skeleton.parts(noise, previous, self.skeleton.gains(embedding, motion, phases), phases)
         if self.refiner is None:
-            return parts.begun
-        return parts.begun + self.refiner(parts, previous, embedding, motion, phases)
+            return parts.segment
+        return parts.segment + self.refiner(parts, previous, embedding, motion, phases)

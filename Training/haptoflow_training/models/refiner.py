@@ -166,7 +166,7 @@ class Refiner(PatchUnet):
         """What the network sees, [B, 12, 200]: the skeleton, the impulses that drove it, and the harmonics of the
         surface's waves, those of all families added."""
         waves = torch.cat([parts.cosines.sum(dim=1), parts.sines.sum(dim=1)], dim=1)
-        return torch.cat([parts.begun, parts.struck, waves], dim=1)
+        return torch.cat([parts.segment, parts.impulses, waves], dim=1)
 
     def forward(
         self, parts: SkeletonParts, previous: Tensor, embedding: Tensor, motion: Tensor, phases: Tensor

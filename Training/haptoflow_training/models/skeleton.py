@@ -17,7 +17,7 @@ from torch import Tensor, nn
 from haptoflow_training.models.all_pole_filter import AllPoleFilter, PredictedFilter, burg_distance, prediction_errors
 from haptoflow_training.models.conditioning import ConditionPerceptron
 from haptoflow_training.models.level_model import PREVIOUS_LIMIT
-from haptoflow_training.models.rung_impulses import ATOMS, TailImpulses, TAIL_RUNGS
+from haptoflow_training.models.tail_impulses import ATOMS, TailImpulses, TAIL_THRESHOLDS
 from haptoflow_training.models.surface_waves import FAMILIES, RATE_FEATURES, SurfaceWaves, rate_features
 
 ORDER = 24
@@ -31,32 +31,32 @@ SWING_HARMONICS = 5
 LINE_HARMONICS = 14
 _MAXIMUM_SWING_HZ, _MAXIMUM_LINE_HZ = 700.0, 960.0
 # Bounds of what the perceptron predicts, so that no material, blend or motion drives the output out of range.
-_SWING_LIMIT, _LINE_LIMIT, _RUNG_LIMIT = 2.0, 30.0, 8.0
+_SWING_LIMIT, _LINE_LIMIT, _IMPULSE_LIMIT = 2.0, 30.0, 8.0
 SWING_GAINS = FAMILIES * 2 * SWING_HARMONICS
 LINE_GAINS = FAMILIES * 2 * LINE_HARMONICS
-RUNG_GAINS = 2 * len(TAIL_RUNGS) * ATOMS
-OUTPUTS = (ORDER + 1, SWING_GAINS, LINE_GAINS, RUNG_GAINS)
+IMPULSE_GAINS = 2 * len(TAIL_THRESHOLDS) * ATOMS
+OUTPUTS = (ORDER + 1, SWING_GAINS, LINE_GAINS, IMPULSE_GAINS)
 
 
 class SkeletonParts(NamedTuple):
-    """begun, struck [B, 1, 200]: the skeleton's segment, and the impulses that drove it. cosines, sines [B, 3, 5, 200]:
+    """segment, impulses [B, 1, 200]: the skeleton's segment, and the impulses that drove it. cosines, sines [B, 3, 5, 200]:
     the waves that swing the drive."""
 
-    begun: Tensor
-    struck: Tensor
+    segment: Tensor
+    impulses: Tensor
     cosines: Tensor
     sines: Tensor
 
 
 class SkeletonGains(NamedTuple):
     """What the perceptron says of a condition. coefficients [B, 24] and log_gain [B, 1] of the filter; swing [B, 3, 2,
-    5, 1], lines [B, 3, 2, 14, 1]: of cosines and sines; rungs [B, 130]; lines and rungs relative to the noise."""
+    5, 1], lines [B, 3, 2, 14, 1]: of cosines and sines; impulses [B, 130]; lines and impulses relative to the noise."""
 
     coefficients: Tensor
     log_gain: Tensor
     swing: Tensor
     lines: Tensor
-    rungs: Tensor
+    impulses: Tensor
 
 
 def _limited(values: Tensor, limit: float) -> Tensor:
@@ -81,12 +81,12 @@ class Skeleton(nn.Module):
 
     def gains(self, embedding: Tensor, motion: Tensor, phases: Tensor) -> SkeletonGains:
         predicted = self.perceptron(embedding, motion, rate_features(phases))
-        filtering, swing, lines, rungs = predicted.split(list(OUTPUTS), dim=1)
+        filtering, swing, lines, impulses = predicted.split(list(OUTPUTS), dim=1)
         return SkeletonGains(
             *self.predicted(filtering),
             swing.reshape(-1, FAMILIES, 2, SWING_HARMONICS, 1),
             _limited(lines.reshape(-1, FAMILIES, 2, LINE_HARMONICS, 1), _LINE_LIMIT),
-            _limited(rungs, _RUNG_LIMIT),
+            _limited(impulses, _IMPULSE_LIMIT),
         )
 
     def parts(self, noise: Tensor, previous: Tensor, gains: SkeletonGains, phases: Tensor) -> SkeletonParts:
@@ -94,13 +94,13 @@ class Skeleton(nn.Module):
         distance, which trains all else, would only blur it."""
         waves = self.swing_waves(phases)
         gain = gains.log_gain.detach().exp()
-        struck = gain.unsqueeze(2) * self.impulses(noise, gains.rungs)
-        drive = gain * (noise[:, 0] * self._swung(gains, waves).exp() + self._lines(gains, phases)) + struck[:, 0]
+        impulses = gain.unsqueeze(2) * self.impulses(noise, gains.impulses)
+        drive = gain * (noise[:, 0] * self._swung(gains, waves).exp() + self._lines(gains, phases)) + impulses[:, 0]
         filtered = self.filter(drive, gains.coefficients.detach(), previous[:, 0, -ORDER:])
-        return SkeletonParts(filtered.clamp(-PREVIOUS_LIMIT, PREVIOUS_LIMIT).unsqueeze(1), struck, *waves)
+        return SkeletonParts(filtered.clamp(-PREVIOUS_LIMIT, PREVIOUS_LIMIT).unsqueeze(1), impulses, *waves)
 
     def forward(self, noise: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor, phases: Tensor) -> Tensor:
-        return self.parts(noise, previous, self.gains(embedding, motion, phases), phases).begun
+        return self.parts(noise, previous, self.gains(embedding, motion, phases), phases).segment
 
     def likelihood(self, segment: Tensor, gains: SkeletonGains, phases: Tensor) -> Tensor:
         """[B]: Gaussian negative log-likelihood per sample of the one-step prediction errors of a recorded segment [B,

@@ -106,7 +106,7 @@ class SkeletonLosses(Losses):
             return likelihood
         gains = skeleton.gains(*condition)
         drawn = tuple(
-            skeleton.parts(self._noise(given, generator), given.previous, gains, given.phases).begun for _ in range(2)
+            skeleton.parts(self._noise(given, generator), given.previous, gains, given.phases).segment for _ in range(2)
         )
         return likelihood + self.one_step_loss(given, (drawn[0], drawn[1]))
 

@@ -1,7 +1,7 @@
-"""Rare events from Gaussian noise: samples beyond four thresholds (rungs), each passed through a kernel of its own.
+"""Rare events from Gaussian noise: samples beyond four thresholds, each passed through a kernel of its own.
 
 A network of smooth layers turns Gaussian noise into something nearly Gaussian, but an asperity that strikes the tip a
-few times a second is not Gaussian. Such events are made here from the tails of the same noise. How often a rung is
+few times a second is not Gaussian. Such events are made here from the tails of the same noise. How often a threshold is
 exceeded is fixed (4.6, 0.9, 0.2 and 0.05 % of the samples); their strength and ringing depend on the condition.
 """
 
@@ -15,9 +15,9 @@ from torch import Tensor, nn
 
 from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
-RUNGS = (2.0, 2.6, 3.1, 3.5)
+THRESHOLDS = (2.0, 2.6, 3.1, 3.5)
 # The skeleton's: the last one is exceeded every eight seconds.
-TAIL_RUNGS = (*RUNGS, 4.0)
+TAIL_THRESHOLDS = (*THRESHOLDS, 4.0)
 TAPS = 64
 _RINGS_HZ = (50.0, 90.0, 160.0, 280.0, 500.0, 800.0)
 _RING_DECAY = 0.4
@@ -29,11 +29,11 @@ _WINDOW = 25
 _WINDOWS_BEFORE = 3
 
 
-def _excess_deviation(rung: float) -> float:
-    """Standard deviation of sign(n) max(|n| - rung, 0) of standard normal n: E = 2 [(1 + t^2) Q(t) - t p(t)]."""
-    tail = 0.5 * math.erfc(rung / math.sqrt(2.0))
-    density = math.exp(-0.5 * rung * rung) / math.sqrt(2.0 * math.pi)
-    return math.sqrt(2.0 * ((1.0 + rung * rung) * tail - rung * density))
+def _excess_deviation(threshold: float) -> float:
+    """Standard deviation of sign(n) max(|n| - threshold, 0) of standard normal n: E = 2 [(1 + t^2) Q(t) - t p(t)]."""
+    tail = 0.5 * math.erfc(threshold / math.sqrt(2.0))
+    density = math.exp(-0.5 * threshold * threshold) / math.sqrt(2.0 * math.pi)
+    return math.sqrt(2.0 * ((1.0 + threshold * threshold) * tail - threshold * density))
 
 
 def _atoms() -> Tensor:
@@ -50,26 +50,26 @@ def _atoms() -> Tensor:
 
 
 class TailImpulses(nn.Module):
-    """noise [B, 1, N] and gains [B, 2 * rungs * 13], of positive noise first, to impulses [B, 1, N]: asperities that push
+    """noise [B, 1, N] and gains [B, 2 * thresholds * 13], of positive noise first, to impulses [B, 1, N]: asperities that push
     the tip up need not resemble those that push it down. The output is zero where all gains are zero.
     """
 
-    thresholds: ClassVar[tuple[float, ...]] = TAIL_RUNGS
+    thresholds: ClassVar[tuple[float, ...]] = TAIL_THRESHOLDS
     tails: ClassVar[int] = 2
 
-    rungs: Tensor
+    heights: Tensor
     scales: Tensor
     atoms: Tensor
     read: Tensor
-    struck_atoms: Tensor
+    placed_atoms: Tensor
 
     def __init__(self, samples: int = 200) -> None:
         super().__init__()
-        rungs = self.thresholds
+        heights = self.thresholds
         self.samples, self.windows = samples, samples // _WINDOW
-        self.kernels = len(rungs) * self.tails
-        self.register_buffer("rungs", torch.tensor(rungs).reshape(1, -1, 1), persistent=False)
-        scales = torch.tensor([1.0 / _excess_deviation(rung) for rung in rungs])
+        self.kernels = len(heights) * self.tails
+        self.register_buffer("heights", torch.tensor(heights).reshape(1, -1, 1), persistent=False)
+        scales = torch.tensor([1.0 / _excess_deviation(threshold) for threshold in heights])
         self.register_buffer("scales", scales.repeat(self.tails).reshape(1, -1, 1), persistent=False)
         self.register_buffer("atoms", _atoms(), persistent=False)
         reach = _WINDOWS_BEFORE * _WINDOW
@@ -80,19 +80,19 @@ class TailImpulses(nn.Module):
         # * 25].
         tap = torch.arange(_WINDOW) + reach - source.unsqueeze(1)
         shifted = nn.functional.pad(self.atoms, (0, 1))[:, torch.where((tap >= 0) & (tap < TAPS), tap, TAPS)]
-        self.register_buffer("struck_atoms", shifted.reshape(ATOMS, -1), persistent=False)
+        self.register_buffer("placed_atoms", shifted.reshape(ATOMS, -1), persistent=False)
         self.reach, self.sources = reach, len(source)
 
     def forward(self, noise: Tensor, gains: Tensor) -> Tensor:
-        # Gather whole windows, and do so before the rungs split one signal into four: in ONNX Runtime, copying a single
+        # Gather whole windows, and do so before the thresholds split one signal into four: in ONNX Runtime, copying a single
         # sample takes as long as copying a window.
         padded = nn.functional.pad(noise, (self.reach, 0)).reshape(-1, self.windows + _WINDOWS_BEFORE, _WINDOW)
         gathered = padded[:, self.read].reshape(-1, self.windows, 1, self.sources)
-        struck = (self._excess(gathered) * self.scales).reshape(-1, self.windows, self.kernels * self.sources)
-        kernels = (gains.reshape(-1, ATOMS) @ self.struck_atoms).reshape(-1, self.kernels * self.sources, _WINDOW)
-        return (struck @ kernels).reshape(-1, 1, self.samples)
+        excess = (self._excess(gathered) * self.scales).reshape(-1, self.windows, self.kernels * self.sources)
+        kernels = (gains.reshape(-1, ATOMS) @ self.placed_atoms).reshape(-1, self.kernels * self.sources, _WINDOW)
+        return (excess @ kernels).reshape(-1, 1, self.samples)
 
     def _excess(self, gathered: Tensor) -> Tensor:
-        """[B, windows, kernels, sources]: by how much the noise exceeds each rung."""
-        up, down = (gathered - self.rungs).clamp(min=0.0), (gathered + self.rungs).clamp(max=0.0)
+        """[B, windows, kernels, sources]: by how much the noise exceeds each threshold."""
+        up, down = (gathered - self.heights).clamp(min=0.0), (gathered + self.heights).clamp(max=0.0)
         return torch.stack([up, down], dim=2).flatten(2, 3)
