@@ -2,11 +2,9 @@
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import os from 'node:os';
 import { parseArgs } from 'node:util';
-import { withMeasuredPart } from './lib/measured_part.mjs';
-import { modelLine, sha256Of, shippedModel } from './lib/measured_part.mjs';
+import { modelLine, sha256Of, shippedModel, withMeasuredPart } from './lib/measured_part.mjs';
 import { buildNative } from './lib/native_build.mjs';
-import { CommandError, runMain, runOrFail } from './lib/process.mjs';
-import { commandLinePath, inRepository } from './lib/process.mjs';
+import { CommandError, commandLinePath, inRepository, runMain, runOrFail } from './lib/process.mjs';
 import { setUp } from './lib/setup.mjs';
 import { measureTouches, webTables } from './lib/web_bench.mjs';
 

@@ -2,11 +2,9 @@
 import { spawn } from 'node:child_process';
 import { existsSync, mkdirSync, readFileSync, statSync, writeFileSync } from 'node:fs';
 import { parseArgs } from 'node:util';
-import { withMeasuredPart } from './lib/measured_part.mjs';
+import { modelLine, sha256Of, shippedModel, withMeasuredPart } from './lib/measured_part.mjs';
 import { buildNative } from './lib/native_build.mjs';
-import { modelLine, sha256Of, shippedModel } from './lib/measured_part.mjs';
-import { CommandError, runMain, runOrFail } from './lib/process.mjs';
-import { commandLinePath, inRepository } from './lib/process.mjs';
+import { CommandError, commandLinePath, inRepository, runMain, runOrFail } from './lib/process.mjs';
 import { pythonOrFail, setUp } from './lib/setup.mjs';
 
 const report = inRepository('out', 'bench.json');

@@ -1,7 +1,6 @@
 // evaluate: accuracy over time, every row measured through the engine (arguments: those of haptoflow-paper evaluate)
 import { buildNative } from './lib/native_build.mjs';
-import { run, runMain } from './lib/process.mjs';
-import { callerFolder, inRepository } from './lib/process.mjs';
+import { callerFolder, inRepository, run, runMain } from './lib/process.mjs';
 import { pythonOrFail, setUp } from './lib/setup.mjs';
 
 const help = `usage: ./run evaluate [ARGUMENTS]

@@ -34,13 +34,6 @@ function valuesOf(words, option) {
   return end < 0 ? after : after.slice(0, end);
 }
 
-// Which Python package `./run evaluate` runs.
-
-const ofOneModel = /^--(recordings|model|labels)(=|$)/;
-
-/** `haptoflow_benchmark` for arguments that compare one model with recordings, otherwise `haptoflow_paper`, which measures the rows. */
-export const evaluatingPackage = (words) => (words.some((word) => ofOneModel.test(word)) ? 'haptoflow_benchmark' : 'haptoflow_paper');
-
 // ./run train --cluster: brings the recordings of chosen textures of the published data set from the hub and names the
 // training on them.
 

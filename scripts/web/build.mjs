@@ -83,7 +83,7 @@ export const hasBuiltEngine = () => existsSync(path.join(engineFolder(), 'engine
 
 const versionOf = (/** @type {string[]} */ ...names) => JSON.parse(readFileSync(inRepository(...names), 'utf8')).version;
 
-/** Makes the npm package haptoflow-web from the built engine. */
+/** Packs the built engine as the npm package haptoflow-web, a .tgz in the folder `destination`. */
 export async function packEngine(destination = inRepository('out')) {
   const [own, root] = [versionOf('Web', 'engine', 'package.json'), versionOf('package.json')];
   if (own !== root) throw new CommandError(`Web/engine/package.json has version ${own}, package.json ${root}: make them the same`);

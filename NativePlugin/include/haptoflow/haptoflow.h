@@ -284,14 +284,14 @@ HAPTOFLOW_API haptoflow_status haptoflow_model_open(const haptoflow_model_option
  * returned do not. [loader-thread] Blocks while memory is freed. */
 HAPTOFLOW_API haptoflow_status haptoflow_model_close(haptoflow_model** model);
 
-/* Returns the file's JSON header (Documentation~/model-format.md). It is valid until the model is closed.
+/* Sets *header_json to the file's JSON header (Documentation~/model-format.md), valid until the model is closed.
  * [any-thread] */
 HAPTOFLOW_API haptoflow_status haptoflow_model_header(const haptoflow_model* model, const char** header_json);
 
 /* Fills info for the whole model. [any-thread] */
 HAPTOFLOW_API haptoflow_status haptoflow_model_describe(const haptoflow_model* model, haptoflow_model_info* info);
 
-/* Returns the number of labels. [any-thread] */
+/* Sets *count to the number of labels. [any-thread] */
 HAPTOFLOW_API haptoflow_status haptoflow_model_label_count(const haptoflow_model* model, uint32_t* count);
 
 /* Fills info for the label at index, 0 to count - 1. [any-thread] */
@@ -312,7 +312,7 @@ HAPTOFLOW_API haptoflow_status haptoflow_model_nearest_label(const haptoflow_mod
  * [any-thread] */
 HAPTOFLOW_API haptoflow_status haptoflow_model_space(const haptoflow_model* model, const char** space);
 
-/* Returns the number of tiers. [any-thread] */
+/* Sets *count to the number of tiers. [any-thread] */
 HAPTOFLOW_API haptoflow_status haptoflow_model_tier_count(const haptoflow_model* model, uint32_t* count);
 
 /* Fills info for the tier at index, 0 to count - 1; the most accurate tier is the last. [any-thread] */

@@ -13,7 +13,7 @@
 namespace haptoflow::capi {
 namespace {
 
-// Of fixed size, so that an error about exhausted memory needs none.
+// Its size is fixed, because reporting that memory is exhausted must not allocate.
 thread_local std::array<char, 1024> message{};
 
 haptoflow_status report(haptoflow_status status, const char* text) noexcept {

@@ -13,7 +13,7 @@
 namespace haptoflow::learning {
 
 /// Embeddings in coordinates along the principal axes of the model's labels, in units of the labels' standard deviation
-/// along each axis. Wave vectors are not among the coordinates: they are given.
+/// along each axis. Wave vectors are no coordinates: every embedding of this space has those that it was made with.
 class EmbeddingSpace {
 public:
     static constexpr std::size_t maximumAxes = 16;

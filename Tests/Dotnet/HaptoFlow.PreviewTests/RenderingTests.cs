@@ -60,8 +60,8 @@ namespace HaptoFlow.PreviewTests
             for (int segment = -5; segment < Segments; ++segment)
             {
                 var next = new float[previous.Length];
-                float[] noise = next.Select(_ => (float)Enumerable.Range(0, 12).Sum(_ => random.NextDouble() - 0.5)).ToArray();
-                generator.Generate(model.Embedding(label), new[] { 0.12f, 0f, 1f }, previous, noise, next);
+                generator.Generate(
+                    model.Embedding(label), new[] { 0.12f, 0f, 1f }, previous, TierTiming.Noise(random), next);
                 power += segment < 0 ? 0.0 : next.Average(sample => (double)sample * sample) / Segments;
                 previous = next;
             }

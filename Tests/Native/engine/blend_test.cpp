@@ -32,7 +32,7 @@ constexpr WaveVector coarse{0.2F, 0.0F};
 constexpr WaveVector fine{0.35F, 0.0F};
 constexpr WaveVector across{0.0F, 0.7F};
 
-/// A library of three labels: without ribs, with `coarse`, and with `fine` and `across`.
+/// A library of three labels: one without ribs, one with the ribs `coarse`, and one with `fine` and `across`.
 SmallLibrary ruledLibrary() {
     model::testing::ModelBuilder builder;
     nlohmann::json third = builder.header["labels"][0];

@@ -209,7 +209,7 @@ namespace HaptoFlow.Editor
             EditorGUI.ProgressBar(place, ShareOf(decibels), CaptionOf(decibels));
         }
 
-        /// <summary>The level in decibels of full scale, at least -60.</summary>
+        /// <summary>The level in dB relative to full scale; -60 for what is quieter, silence included.</summary>
         public static double DecibelsOf(float level) => level > 0f
             ? Math.Max(MinimumDecibels, 20.0 * Math.Log10(level))
             : MinimumDecibels;

@@ -182,8 +182,8 @@ namespace HaptoFlow
             return number;
         }
 
-        // A bijection of 32 bits in which every bit depends on every other (the finaliser of MurmurHash3), after a step
-        // that keeps 0 from being mapped to itself.
+        // Surfaces with neighbouring numbers get unlike seeds, and no two the same one: each bit of the result depends on
+        // all bits of the number (the finaliser of MurmurHash3). The step before it keeps 0 from giving 0.
         private static uint Mixed(uint number)
         {
             unchecked

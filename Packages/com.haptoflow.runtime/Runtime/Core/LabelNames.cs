@@ -104,8 +104,8 @@ namespace HaptoFlow.Model
         /// <summary>The same number for all spellings of one label.</summary>
         public int GetHashCode(string label) => StringComparer.OrdinalIgnoreCase.GetHashCode(Key(label)!);
 
-        /// <summary>The text with composed accents, for a comparison letter by letter; itself where all is ASCII.
-        /// </summary>
+        /// <summary>The text with each accent joined to its letter (Unicode form C), so that the same word has the same
+        /// characters. ASCII is returned as it is.</summary>
         internal static string Composed(string text) => Normalized(text, NormalizationForm.FormC);
 
         // Mono, unlike .NET, has no capital for the sigma that ends a word.

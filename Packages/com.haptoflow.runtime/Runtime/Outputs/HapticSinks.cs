@@ -46,7 +46,7 @@ namespace HaptoFlow
             Open(HapticForm.Amplitude, hand, into);
         }
 
-        /// <summary>Names of all routes.</summary>
+        /// <summary>The names of the routes to devices that are registered now.</summary>
         internal static IReadOnlyList<string> Names() => Routes.ConvertAll(route => route.Name);
 
         /// <summary>Calls an action with the name, the form and the maker of each route.</summary>

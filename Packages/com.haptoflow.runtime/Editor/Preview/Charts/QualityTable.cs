@@ -179,7 +179,7 @@ namespace HaptoFlow.Preview
         {
             var motion = new[] { 0.1f, 0.0f, 1.0f };
             var previous = new float[HapticGenerator.SegmentSamples];
-            float[] noise = Noise();
+            float[] noise = Noise(new Random(1));
             var segment = new float[HapticGenerator.SegmentSamples];
             var milliseconds = new double[Runs];
             var clock = new Stopwatch();
@@ -198,10 +198,9 @@ namespace HaptoFlow.Preview
             return Of(milliseconds);
         }
 
-        /// <summary>Standard normal numbers, after Box and Muller. Which ones changes no time.</summary>
-        private static float[] Noise()
+        /// <summary>Standard normal numbers for one segment, by the method of Box and Muller.</summary>
+        internal static float[] Noise(Random random)
         {
-            var random = new Random(1);
             var noise = new float[HapticGenerator.SegmentSamples];
             for (int index = 0; index < noise.Length; ++index)
             {

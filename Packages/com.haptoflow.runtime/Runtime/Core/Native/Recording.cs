@@ -106,8 +106,8 @@ namespace HaptoFlow.Recordings
         /// <param name="forceNewtons">Force in N; null to leave it unknown.</param>
         public Recording With(double? speedMps, double? forceNewtons) => new Recording(this, speedMps, forceNewtons);
 
-        /// <summary>The beginning of the recording in the form that is learnt, with the sensor's noise: one axis, 10 to
-        /// 1000 Hz, in m/s^2, at <see cref="Waves.RateHz"/>. Gaps are silent.</summary>
+        /// <summary>The first seconds of the recording as learning takes them: one axis, 10 to 1000 Hz, in m/s^2, at
+        /// <see cref="Waves.RateHz"/>. The sensor's noise is still in them, and gaps are silent.</summary>
         internal float[] Wave(double maximumSeconds)
         {
             int count = Math.Min(SampleCount, (int)(maximumSeconds * SampleRateHz));
