@@ -1,11 +1,10 @@
-// bench: measures callback, latencies, inference, memory and contact into out/bench.json (--quick, --only, --publish)
+// bench: measures callback, latencies, inference and memory into out/bench.json (--quick, --only, --publish)
 import { spawn } from 'node:child_process';
 import { existsSync, mkdirSync, readFileSync, statSync, writeFileSync } from 'node:fs';
-import { parseArgs } from 'node:util';
 import { modelLine, sha256Of, shippedModel, withMeasuredPart } from './lib/measured_part.mjs';
 import { buildNative } from './lib/native_build.mjs';
-import { CommandError, commandLinePath, inRepository, runMain, runOrFail } from './lib/process.mjs';
-import { pythonOrFail, setUp } from './lib/setup.mjs';
+import { CommandError, commandLinePath, inRepository, parsed, runMain, runOrFail } from './lib/process.mjs';
+import { pythonOrFail, setUp, trainingEnvironment } from './lib/setup.mjs';
 
 const report = inRepository('out', 'bench.json');
 const paperModel = inRepository('out', 'bench', 'paper-architecture.haptoflow');
@@ -21,16 +20,11 @@ const optionTable = {
 };
 
 function optionsOf(words) {
-  try {
-    const { values } = parseArgs({ args: words, options: optionTable });
-    if (values.publish && (values.quick || values.only || values.events || values.model || values['no-paper'])) {
-      throw new CommandError('--publish goes with a whole run of the shipped model: no other option beside it', 2);
-    }
-    return values;
-  } catch (error) {
-    if (error instanceof CommandError) throw error;
-    throw new CommandError(error.message, 2);
+  const { values } = parsed(words, optionTable);
+  if (values.publish && (values.quick || values.only || values.events || values.model || values['no-paper'])) {
+    throw new CommandError('--publish goes with a whole run of the shipped model: no other option beside it', 2);
   }
+  return values;
 }
 
 /** Makes the model file of the paper's architecture where it is missing or older than its sources. */
@@ -41,8 +35,7 @@ async function makePaperModel() {
   if (isNew) return;
   await setUp(['python']);
   console.log('bench: making the paper\'s architecture with random weights, once');
-  const env = { PYTHONPATH: inRepository('Training'), OPENBLAS_NUM_THREADS: '1', PYTHONDONTWRITEBYTECODE: '1' };
-  await runOrFail(pythonOrFail(), [program, config, paperModel], { env, quiet: true });
+  await runOrFail(pythonOrFail(), [program, config, paperModel], { env: trainingEnvironment(), quiet: true });
 }
 
 /** Runs the command line with its progress shown on this terminal; prints and returns its tables. */
@@ -63,10 +56,10 @@ function measure(args) {
 
 const help = `usage: ./run bench [--quick] [--only NAMES] [--events N] [--model FILE] [--no-paper] [--publish]
 
-Measures callback, latencies, inference, memory and contact into out/bench.json.
+Measures callback, latencies, inference and memory into out/bench.json.
 
   --quick      fewer events and devices: a first look
-  --only       some measurements: callback, effects, latency, inference, voices, idle, contact
+  --only       some measurements: callback, effects, latency, inference, voices, idle
   --events     events behind each latency
   --model      another model file than the shipped one
   --no-paper   without the comparison with the paper's architecture

@@ -1,7 +1,7 @@
 // build:web: builds the engine for browsers and the live page into Web/dist (--help)
 import { runMain } from './lib/process.mjs';
 import { setUp } from './lib/setup.mjs';
-import { buildEngine, stagePage } from './web/build.mjs';
+import { buildEngine, stagePage } from './lib/web_build.mjs';
 
 const help = `usage: npm run build:web
 

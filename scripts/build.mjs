@@ -1,9 +1,8 @@
 // build: builds the native plugin and the command line (--platform NAME for one of the package's platforms, --help)
 import path from 'node:path';
-import { parseArgs } from 'node:util';
-import { androidTools, buildAndroid } from './build/android.mjs';
+import { androidTools, buildAndroid } from './lib/android.mjs';
 import { buildNative, presetFolder } from './lib/native_build.mjs';
-import { CommandError, inRepository, runMain } from './lib/process.mjs';
+import { CommandError, inRepository, parsed, runMain } from './lib/process.mjs';
 import { onDebian, setUp } from './lib/setup.mjs';
 import { putIntoPackage } from './lib/libraries.mjs';
 import { platforms as packaged } from './pack/natives.mjs';
@@ -29,14 +28,6 @@ others from git, which \`npm run natives\` renews.
 
 ${Object.entries(platforms).map(([name, { needs }]) => `  ${name.padEnd(14)} needs ${needs}`).join('\n')}`;
 
-function optionsOf(words) {
-  try {
-    return parseArgs({ args: words, options: { platform: { type: 'string' } } }).values;
-  } catch (error) {
-    throw new CommandError(`${error.message}\n\n${help}`, 2);
-  }
-}
-
 /** On Debian set-up installs the build tools; on other systems those of the Android SDK are enough. */
 async function buildForAndroid() {
   await setUp(onDebian() ? ['build'] : []);
@@ -50,7 +41,7 @@ function showBuilt(id, library) {
 }
 
 await runMain('build', async (words) => {
-  const { platform } = optionsOf(words);
+  const { platform } = parsed(words, { platform: { type: 'string' } }).values;
   if (platform === undefined) {
     await setUp(['build']);
     await buildNative();

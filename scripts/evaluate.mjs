@@ -1,7 +1,7 @@
 // evaluate: accuracy over time, every row measured through the engine (arguments: those of haptoflow-paper evaluate)
 import { buildNative } from './lib/native_build.mjs';
-import { callerFolder, inRepository, run, runMain } from './lib/process.mjs';
-import { pythonOrFail, setUp } from './lib/setup.mjs';
+import { callerFolder, run, runMain } from './lib/process.mjs';
+import { pythonOrFail, setUp, trainingEnvironment } from './lib/setup.mjs';
 
 const help = `usage: ./run evaluate [ARGUMENTS]
 
@@ -14,6 +14,6 @@ await runMain('evaluate', async (words) => {
   await buildNative({ targets: ['audioplugin_haptoflow', 'haptoflow_cli'] });
   const comparesOneModel = words.some((word) => /^--(recordings|model|labels)(=|$)/.test(word));
   const args = ['-m', comparesOneModel ? 'haptoflow_benchmark' : 'haptoflow_paper', 'evaluate', ...words];
-  const { exitCode } = await run(pythonOrFail(), args, { cwd: callerFolder(), env: { PYTHONPATH: inRepository('Training'), OPENBLAS_NUM_THREADS: '1' } });
+  const { exitCode } = await run(pythonOrFail(), args, { cwd: callerFolder(), env: trainingEnvironment() });
   return exitCode;
 }, { help });

@@ -1,25 +1,18 @@
-// lint: checks format, C++ rules, syntax, workflows and this repository's own rules (--all: every file, every warning)
-import { parseArgs } from 'node:util';
+// lint: checks format, C++ rules, syntax, workflows and this repository's own rules (--all: C++ rules on every file)
 import { buildNative } from './lib/native_build.mjs';
-import { CommandError, runMain } from './lib/process.mjs';
+import { parsed, runMain } from './lib/process.mjs';
 import { setUp } from './lib/setup.mjs';
-import { changedFiles, checkCSharpFormat, checkContent, checkFormat, checkJson, checkNatives, checkPythonSyntax, checkScriptSyntax, checkThreadTags, checkTidy, checkWarnings, checkWorkflows, repositoryFiles } from './lint/checks.mjs';
+import { changedFiles, checkCSharpFormat, checkContent, checkFormat, checkJson, checkNatives, checkPythonSyntax, checkScriptSyntax, checkThreadTags, checkTidy, checkWorkflows, repositoryFiles } from './lib/lint_checks.mjs';
 
 const help = `usage: ./run lint [--all]
 
 Checks format, C++ rules, syntax, workflows and this repository's own rules.
 
-  --all   clang-tidy on every file, not only on changed ones, and every warning of Clang on the shipped sources`;
+  --all   clang-tidy on every file, not only on changed ones`;
 
 await runMain('lint', async (words) => {
-  let all;
-  try {
-    ({ values: { all } } = parseArgs({ args: words, options: { all: { type: 'boolean', default: false } } }));
-  } catch (error) {
-    throw new CommandError(error.message, 2);
-  }
+  const { all } = parsed(words, { all: { type: 'boolean', default: false } }).values;
   await setUp(['build', 'test', 'lint']);
-  if (all) await setUp(['libcxx', 'realtime']);
   await buildNative({ preset: 'lint', tests: true, targets: ['help'] });
 
   const files = await repositoryFiles();
@@ -27,7 +20,6 @@ await runMain('lint', async (words) => {
   const checks = [
     ['format of C++', () => checkFormat(files)],
     ['clang-tidy', () => checkTidy(tidied)],
-    ...(all ? [['warnings of Clang', checkWarnings]] : []),
     ['format of C#', () => checkCSharpFormat(files)],
     ['syntax of Python', () => checkPythonSyntax(files)],
     ['syntax of scripts', () => checkScriptSyntax(files)],

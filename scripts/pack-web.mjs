@@ -1,7 +1,7 @@
 // pack:web: makes the npm package haptoflow-web in out/ (--help)
 import { runMain } from './lib/process.mjs';
 import { setUp } from './lib/setup.mjs';
-import { buildEngine, packEngine } from './web/build.mjs';
+import { buildEngine, packEngine } from './lib/web_build.mjs';
 
 const help = `usage: npm run pack:web
 

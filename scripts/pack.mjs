@@ -1,13 +1,12 @@
 // pack: makes the tarballs of both Unity packages and ONNX Runtime's beside them, in out/ (--no-build, --help)
-import { mkdirSync } from 'node:fs';
+import { mkdirSync, readFileSync } from 'node:fs';
 import path from 'node:path';
-import { parseArgs } from 'node:util';
-import { repositoryFiles } from './lint/checks.mjs';
-import { CommandError, inRepository, runMain } from './lib/process.mjs';
+import { repositoryFiles } from './lib/lint_checks.mjs';
+import { CommandError, inRepository, parsed, runMain } from './lib/process.mjs';
 import { committedNatives } from './lib/libraries.mjs';
 import { checkPackage } from './pack/check_package.mjs';
 import { packDependency, tableOfContents } from './pack/dependency.mjs';
-import { buildNatives, findNatives, foldersFor, platforms } from './pack/natives.mjs';
+import { buildNatives, complaintOfGlibc, findNatives, foldersFor, platforms } from './pack/natives.mjs';
 import { makeTarball, PackageFiles } from './pack/package_files.mjs';
 
 const help = `usage: npm run pack -- [--no-build] [--require NAMES] [--help]
@@ -19,7 +18,7 @@ Unity.
 
   --no-build   pack the libraries that are in build/ (HAPTOFLOW_NATIVE_DIR replaces build/native), or in git
   --require    names of platforms whose library must go in, for example linux-x64,windows-x64,android-arm64: without one of
-               them no tarball is made and the exit code is 1
+               them, or with one for a newer glibc than Ubuntu 20.04's, no tarball is made and the exit code is 1
   --help       this text
 
 On Debian for x64 the libraries of Linux x64, Linux arm64 and Windows x64 are built; the cross compilers are installed first
@@ -36,16 +35,6 @@ A library that was built on another machine goes to the same place below build/.
 with their size on a device, and platforms without a library; there, scenes go on without haptics. Without any library no
 tarball is made and the exit code is 1.`;
 
-function optionsOf(words) {
-  try {
-    const { values } = parseArgs({ args: words, options: { 'no-build': { type: 'boolean', default: false }, require: { type: 'string', default: '' } } });
-    return { ...values, required: requiredPlatforms(values.require) };
-  } catch (error) {
-    if (error instanceof CommandError) throw error;
-    throw new CommandError(`${error.message}\n\n${help}`, 2);
-  }
-}
-
 function requiredPlatforms(names) {
   return names.split(',').map((name) => name.trim()).filter((name) => name !== '').map((name) => {
     const platform = platforms.find(({ id }) => id === name);
@@ -54,22 +43,25 @@ function requiredPlatforms(names) {
   });
 }
 
-/** Refuses to pack without any library, or without one that --require names: scenes would be silent. */
+/** Refuses to pack without any library, or without one that --require names and old systems load: scenes would be silent. */
 function requireNatives({ found, absent }, required) {
   if (found.length === 0) {
     throw new CommandError(`there is no native library, and without one every scene is silent; no tarball was made\n${absent.map(({ platform, why }) => `  ${platform.name}: ${why}`).join('\n')}`);
   }
   const lacking = absent.filter(({ platform }) => required.includes(platform));
-  if (lacking.length > 0) throw new CommandError(`--require: no tarball was made\n${lacking.map(({ platform, why }) => `  without ${platform.id}: ${why}`).join('\n')}`);
+  const tooNew = found.filter(({ platform }) => required.includes(platform)).map(({ platform, file }) => [platform.id, complaintOfGlibc(platform, readFileSync(file))]).filter(([, why]) => why !== null);
+  const complaints = [...lacking.map(({ platform, why }) => `without ${platform.id}: ${why}`), ...tooNew.map(([id, why]) => `${id}: ${why}`)];
+  if (complaints.length > 0) throw new CommandError(`--require: no tarball was made\n  ${complaints.join('\n  ')}`);
 }
 
 const mebibytes = (bytes) => `${(bytes / 2 ** 20).toFixed(1)} MiB`;
 
 await runMain('pack', async (words) => {
-  const options = optionsOf(words);
+  const { values: options } = parsed(words, { 'no-build': { type: 'boolean', default: false }, require: { type: 'string', default: '' } });
+  const required = requiredPlatforms(options.require);
   const failed = options['no-build'] ? new Set() : await buildNatives();
   const { found, absent } = findNatives(foldersFor, failed, committedNatives());
-  requireNatives({ found, absent }, options.required);
+  requireNatives({ found, absent }, required);
   const folder = inRepository('out', 'package');
   // Imported here, since set-up may just have installed the package that it needs.
   const { stagePackage, stageStudies } = await import('./pack/stage.mjs');

@@ -1,10 +1,10 @@
 // play: serves the live page on this machine and opens it: draw over objects, hear their materials
 import { spawn } from 'node:child_process';
 import path from 'node:path';
-import { CommandError, runMain } from './lib/process.mjs';
+import { CommandError, parsed, runMain } from './lib/process.mjs';
 import { setUp } from './lib/setup.mjs';
-import { buildEngine, hasBuiltEngine, pageFolder, stagePage } from './web/build.mjs';
-import { serveFolder } from './web/static_server.mjs';
+import { buildEngine, hasBuiltEngine, pageFolder, stagePage } from './lib/web_build.mjs';
+import { serveFolder } from './lib/static_server.mjs';
 
 const help = `usage: ./run play [--port NUMBER] [--no-open] [--rebuild]
 
@@ -17,17 +17,10 @@ serves it on the loopback address with the headers for shared memory, prints the
 
 /** @param {string[]} words */
 export function optionsOf(words) {
-  const options = { port: 0, opens: true, rebuilds: false };
-  for (let at = 0; at < words.length; at += 1) {
-    if (words[at] === '--no-open') options.opens = false;
-    else if (words[at] === '--rebuild') options.rebuilds = true;
-    else if (words[at] === '--port') {
-      at += 1;
-      options.port = Number(words[at]);
-      if (!/^\d+$/.test(words[at] ?? '') || options.port < 1 || options.port > 65535) throw new CommandError('--port takes a number from 1 to 65535', 2);
-    } else throw new CommandError(`"${words[at]}" is not an argument: \`./run play --help\` lists them`, 2);
-  }
-  return options;
+  const { values } = parsed(words, { port: { type: 'string', default: '0' }, 'no-open': { type: 'boolean', default: false }, rebuild: { type: 'boolean', default: false } });
+  const port = Number(values.port);
+  if (!/^\d+$/.test(values.port) || port > 65535) throw new CommandError(`--port ${values.port}: expected 1 to 65535`, 2);
+  return { port, opens: !values['no-open'], rebuilds: values.rebuild };
 }
 
 function openBrowser(/** @type {string} */ address) {

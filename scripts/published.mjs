@@ -1,10 +1,9 @@
 // published: brings the authors' published weights and writes them as a .haptoflow file that the plugin plays
 import { existsSync } from 'node:fs';
 import path from 'node:path';
-import { parseArgs } from 'node:util';
 import { buildNative } from './lib/native_build.mjs';
-import { CommandError, callerFolder, inRepository, run, runMain } from './lib/process.mjs';
-import { pythonOrFail, setUp } from './lib/setup.mjs';
+import { CommandError, callerFolder, parsed, run, runMain } from './lib/process.mjs';
+import { pythonOrFail, setUp, trainingEnvironment } from './lib/setup.mjs';
 import { bringCheckpoint, bringEncodec, cacheRoot, defaultSpec, encodecAddress, localCheckpoint, originLines, parseSpec } from './published/checkpoint.mjs';
 import { endpointOf } from './published/hub.mjs';
 import { progressBar } from './published/progress.mjs';
@@ -46,13 +45,7 @@ const options = {
 
 /** @returns what the words ask for; paths are absolute */
 function requestOf(words) {
-  let parsed;
-  try {
-    parsed = parseArgs({ args: words, options, allowPositionals: true });
-  } catch (error) {
-    throw new CommandError(error.message, 2);
-  }
-  const { values, positionals } = parsed;
+  const { values, positionals } = parsed(words, options, { allowPositionals: true });
   if (positionals.length > 1) throw new CommandError(`"${positionals[1]}" is one folder too many: expected one, or none for ${defaultSpec}`, 2);
   const absolute = (name) => (name === undefined ? undefined : path.resolve(callerFolder(), name));
   const [spec = defaultSpec] = positionals;
@@ -90,6 +83,6 @@ await runMain('published', async (words) => {
   const args = ['-m', 'haptoflow_paper', 'import-published', checkpoint.folder, '--encodec', codec.place, '-o', request.out];
   if (request.peak !== undefined) args.push('--peak-g', request.peak);
   if (request.info !== undefined) args.push('--dataset-info', request.info);
-  const { exitCode } = await run(pythonOrFail(), args, { cwd: callerFolder(), env: { PYTHONPATH: inRepository('Training'), OPENBLAS_NUM_THREADS: '1' } });
+  const { exitCode } = await run(pythonOrFail(), args, { cwd: callerFolder(), env: trainingEnvironment() });
   return exitCode;
 }, { help });

@@ -4,7 +4,7 @@ import os from 'node:os';
 import { addCounts, closingLine, judgeJunit, noCounts, results } from './lib/test_results.mjs';
 import { sha256Of, shippedModel, soakTable, withMeasuredPart } from './lib/measured_part.mjs';
 import { buildNative, presetFolder } from './lib/native_build.mjs';
-import { CommandError, inRepository, runMain } from './lib/process.mjs';
+import { inRepository, parsed, runMain } from './lib/process.mjs';
 import { setUp } from './lib/setup.mjs';
 
 const proofs = [
@@ -27,8 +27,7 @@ function publish() {
 }
 
 await runMain('test:soak', async (words) => {
-  const unknown = words.find((word) => word !== '--publish');
-  if (unknown !== undefined) throw new CommandError(`unknown option '${unknown}'; --publish writes the figures into the stability page`, 2);
+  const { publish: isPublished } = parsed(words, { publish: { type: 'boolean', default: false } }).values;
   await setUp(['build', 'test']);
   await buildNative({ tests: true });
   let counts = noCounts;
@@ -40,6 +39,6 @@ await runMain('test:soak', async (words) => {
     counts = addCounts(counts, await judgeJunit(file, executable, args, { env }));
   }
   console.log(`\n${closingLine(counts)}`);
-  if (words.includes('--publish') && counts.failed === 0) publish();
+  if (isPublished && counts.failed === 0) publish();
   return counts.failed > 0 ? 1 : 0;
 });

@@ -1,18 +1,9 @@
 // test: runs the tests and sums them into out/test/summary.json (--all: the long form; --only NAME; --help)
 import { mkdirSync, writeFileSync } from 'node:fs';
-import { parseArgs } from 'node:util';
-import { bringDotnet, rootCommand, setUp } from './lib/setup.mjs';
-import { CommandError, inRepository, runMain } from './lib/process.mjs';
+import { bringDotnet, requireInstallable, rootCommand, setUp } from './lib/setup.mjs';
+import { inRepository, parsed, runMain } from './lib/process.mjs';
 import { addCounts, closingLine, exitCodeOf, noCounts, runRunners } from './lib/test_results.mjs';
 import { chosenRunners, purposesOf, runners } from './lib/test_runners.mjs';
-
-function optionsOf(words) {
-  try {
-    return parseArgs({ args: words, options: { only: { type: 'string' }, all: { type: 'boolean', default: false } } }).values;
-  } catch (error) {
-    throw new CommandError(error.message, 2);
-  }
-}
 
 function showTable(rows) {
   const line = (cells) => cells.map((cell, column) => (column === 0 ? String(cell).padEnd(12) : String(cell).padStart(9))).join('');
@@ -31,17 +22,27 @@ Where the .NET SDK can't be reached everything else runs; the exit code is then 
   --all        the long form: every test, all sanitizers, libc++ and the other platforms
   --only NAME  one runner. Of the default form: ${namesOf(false)}; of the long form: ${namesOf(true)}
 
-scripts/lib/long_tests.mjs lists the tests that only the long form runs.`;
+Only the long form runs the tests of scripts/lib/long_tests.mjs, Python's with the mark "long" and Tests/Web/*.long.test.mjs.`;
 
 await runMain('test', async (words) => {
-  const { only, all } = optionsOf(words);
+  const { only, all } = parsed(words, { only: { type: 'string' }, all: { type: 'boolean', default: false } }).values;
   const chosen = chosenRunners({ only, all });
-  const leftOut = await setUp([...new Set(chosen.flatMap((name) => purposesOf(name, all)))]);
+  const purposes = [...new Set(chosen.flatMap((name) => purposesOf(name, all)))];
+  requireInstallable(purposes);
+  await setUp(purposesOf(chosen[0], all));
+  // The others' packages come while the first runner builds.
+  const others = setUp(purposes);
+  others.catch(() => {});
   const { rows, notRun } = await runRunners(chosen, {
-    execute: (name) => runners[name].execute({ all }),
+    execute: async (name) => {
+      if (name !== chosen[0]) await others;
+      return runners[name].execute({ all, installed: others });
+    },
+    isBeside: (name) => runners[name].isBeside ?? false,
     needsSdk: (name) => runners[name].purposes.includes('dotnet'),
-    bringSdk: () => bringDotnet({ asRoot: rootCommand() }),
+    bringSdk: () => others.then(() => bringDotnet({ asRoot: rootCommand() })),
   });
+  const leftOut = await others;
   const { passed, failed, skipped } = rows.reduce(addCounts, noCounts);
   mkdirSync(inRepository('out', 'test'), { recursive: true });
   writeFileSync(inRepository('out', 'test', 'summary.json'), `${JSON.stringify({ passed, failed, skipped, left_out: leftOut, not_run: notRun, runners: rows }, null, 2)}\n`);

@@ -1,6 +1,6 @@
 // train: trains the default model, all tiers, and writes its .haptoflow file (with arguments: haptoflow-training train)
 import { callerFolder, inRepository, run, runMain, runOrFail } from './lib/process.mjs';
-import { pythonOrFail, setUp } from './lib/setup.mjs';
+import { pythonOrFail, setUp, trainingEnvironment } from './lib/setup.mjs';
 import { bringRecordings, clusterOptions, judgementOf, trainingWords } from './lib/training_words.mjs';
 import { shippedModel } from './lib/measured_part.mjs';
 
@@ -42,7 +42,7 @@ await runMain('train', async (words) => {
   await setUp(['python']);
   const judgement = judgementOf(words);
   const own = words.filter((word) => word !== '--no-judgement');
-  const options = { cwd: callerFolder(), env: { PYTHONPATH: inRepository('Training'), OPENBLAS_NUM_THREADS: '1' } };
+  const options = { cwd: callerFolder(), env: trainingEnvironment() };
   const python = async (...args) => (await run(pythonOrFail(), ['-m', ...args], options)).exitCode;
   const listed = (words) => runOrFail(pythonOrFail(), ['-m', 'haptoflow_training', ...words], { ...options, quiet: true });
   const exitCode = await python('haptoflow_training', ...(own.includes('--cluster') ? await clusterCommand(own, listed) : commandOf(own)));

@@ -1,13 +1,10 @@
 #include "bench/bench.hpp"
 
-#include "bench/distribution.hpp"
 #include "bench/latency_bench.hpp"
-#include "bench/machine.hpp"
 #include "bench/measurements.hpp"
 #include "model/plain_text.hpp"
 
 #include <algorithm>
-#include <utility>
 
 namespace haptoflow::bench {
 namespace {
@@ -24,30 +21,6 @@ nlohmann::ordered_json identity(const std::filesystem::path& path, const model::
             {"file", path.filename().string()},
             {"crc32", model::hexadecimal(model.checksum())},
             {"provenance", model.header().provenance.statement}};
-}
-
-nlohmann::ordered_json goals() {
-    return {{"callback_us", "below 1 % of the block at p99, one voice"},
-            {"effects", "no run without a request"},
-            {"onset_ms", "one block; with bursts, one burst"},
-            {"contact_to_sound_ms", "one block, the delay of the output's filter, and 1.5 ms"},
-            {"stop_ms", "one block and 5 ms"},
-            {"speedup_vs_paper_architecture", "at least 60, hot"},
-            {"idle", "no inference"}};
-}
-
-nlohmann::ordered_json references() {
-    return {{"callback_us", "as many voices that write silence: p50 to p50"},
-            {"effects", "the same voice without the effect: p50 to p50"},
-            {"onset_ms", "the goal: p99 to goal"},
-            {"contact_to_sound_ms", "the goal: p99 to goal"},
-            {"stop_ms", "the goal: p99 to goal"},
-            {"inference_ms", "the paper's architecture through the same engine: its p50 to this p50"},
-            {"voices", "the same segments one by one: p50 to p50"},
-            {"idle", "the same two threads without engine: percent to percent"},
-            {"memory", "the model file: MiB to MiB"},
-            {"load", "plain reading of the model file: p50 to p50"},
-            {"contact", "the smallest scene: p50 to p50"}};
 }
 
 nlohmann::ordered_json notesFor(const nlohmann::ordered_json& report, const Subjects& subjects) {
@@ -79,7 +52,6 @@ nlohmann::ordered_json runBench(const BenchOptions& options, const BenchProgress
         {"inference", 35.0, [&](const Advance& advance) { return measureInference(subjects, plan, advance); }},
         {"voices", 10.0, [&](const Advance& advance) { return measureVoices(subjects, plan, advance); }},
         {"idle", 6.0, [&](const Advance& advance) { return measureIdle(subjects, plan, advance); }},
-        {"contact", 2.0, [&](const Advance& advance) { return measureContact(subjects.seed, plan, advance); }},
     };
     std::vector<Measurement> chosen;
     double total = 5.0;
@@ -118,8 +90,6 @@ nlohmann::ordered_json runBench(const BenchOptions& options, const BenchProgress
     report["sample_rate_hz"] = outputRateHz;
     report.update(measured);
     report.update(loading);
-    report["goals"] = goals();
-    report["references"] = references();
     report["notes"] = notesFor(report, subjects);
     return report;
 }

@@ -16,8 +16,8 @@
 namespace haptoflow::bench {
 
 /// Measurements that can be run alone. Loading and memory are always measured, because all others need the open model.
-inline constexpr std::array<std::string_view, 7> measurementNames{"callback", "effects", "latency", "inference",
-                                                                  "voices",   "idle",    "contact"};
+inline constexpr std::array<std::string_view, 6> measurementNames{"callback",  "effects", "latency",
+                                                                  "inference", "voices",  "idle"};
 
 struct BenchOptions {
     SubjectFiles files;

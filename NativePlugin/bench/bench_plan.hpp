@@ -6,7 +6,6 @@
 #include <chrono>
 #include <cstddef>
 #include <functional>
-#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -59,7 +58,6 @@ struct BenchPlan {
     std::vector<DeviceShape> devices{{256, 1}, {128, 1}, {512, 1}, {1024, 1}, {256, 2}, {1024, 2}};
     std::vector<std::size_t> callbackVoices{1, 2, 8};
     std::vector<std::size_t> batchVoices{1, 2, 4, 8, 16, 32, 64};
-    std::vector<std::size_t> surfaces{10, 100, 1000, 10000};
 
     /// All measurements, about three minutes.
     [[nodiscard]] static BenchPlan full() { return {}; }
@@ -77,7 +75,6 @@ struct BenchPlan {
     [[nodiscard]] std::size_t batchRuns() const noexcept { return std::max<std::size_t>(2, events / 5); }
     [[nodiscard]] double idleSeconds() const noexcept { return 0.02 * static_cast<double>(events); }
     [[nodiscard]] std::size_t loads() const noexcept { return std::max<std::size_t>(2, events / 10); }
-    [[nodiscard]] std::size_t contactUpdates() const noexcept { return 20 * events; }
 };
 
 /// Simulated time: calls `update(seconds)` whenever a contact state is due, and `block()` for each of `blocks` blocks

@@ -1,6 +1,5 @@
 #include "bench/measurements.hpp"
 
-#include "bench/distribution.hpp"
 #include "dsp/denormals.hpp"
 #include "inference/random_requests.hpp"
 
@@ -8,7 +7,6 @@
 #include <array>
 #include <deque>
 #include <random>
-#include <utility>
 
 namespace haptoflow::bench {
 namespace {

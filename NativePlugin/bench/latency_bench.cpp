@@ -1,9 +1,6 @@
 #include "bench/latency_bench.hpp"
 
-#include "bench/bench_plan.hpp"
-#include "bench/distribution.hpp"
 #include "bench/measurements.hpp"
-#include "bench/real_time_device.hpp"
 #include "dsp/waveform_resampler.hpp"
 #include "skeleton/condition.hpp"
 #include "skeleton/skeleton.hpp"
@@ -11,9 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
 #include <utility>
-#include <vector>
 
 namespace haptoflow::bench {
 namespace {

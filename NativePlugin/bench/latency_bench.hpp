@@ -39,11 +39,6 @@ public:
         behind_->generate(requests, segments);
         marking_.generate(requests, segments);
     }
-    void generateFromSketches(std::span<const inference::SegmentRequest> requests, std::span<float> segments,
-                              const Sketched& sketched) override {
-        generate(requests, segments);
-        sketched(0, segments);
-    }
     void levels(std::span<const inference::SegmentRequest> requests, std::span<float> levelsMps2) override {
         marking_.levels(requests, levelsMps2);
     }

@@ -1,6 +1,5 @@
 #include "bench/real_time_device.hpp"
 
-#include "bench/bench_plan.hpp"
 #include "engine/worker_thread.hpp"
 
 #include <algorithm>
@@ -99,9 +98,8 @@ void RealTimeDevice::run() {
 
 void RealTimeDevice::renderBlock(double playsAtSeconds) {
     const auto block = std::span(recording_.samples).subspan(written_, shape_.blockFrames);
-    const double seconds = secondsOf([&] { callback_(block); });
-    recording_.blocks.push_back(
-        {.playsAtSeconds = playsAtSeconds, .renderSeconds = seconds, .firstFrame = written_, .frames = block.size()});
+    callback_(block);
+    recording_.blocks.push_back({.playsAtSeconds = playsAtSeconds, .firstFrame = written_, .frames = block.size()});
     written_ += block.size();
 }
 

@@ -12,10 +12,9 @@
 
 namespace haptoflow::bench {
 
-/// One callback: the time at which its first sample plays, and how long the callback took.
+/// One callback, and the time at which its first sample plays.
 struct PlayedBlock {
     double playsAtSeconds = 0.0;
-    double renderSeconds = 0.0;
     std::size_t firstFrame = 0;
     std::size_t frames = 0;
 };

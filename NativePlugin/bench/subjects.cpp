@@ -1,15 +1,11 @@
 #include "bench/subjects.hpp"
 
-#include "bench/bench_plan.hpp"
-#include "bench/distribution.hpp"
-#include "bench/machine.hpp"
-#include "inference/tier_generator.hpp"
+#include "bench/measurements.hpp"
 
 #include <algorithm>
 #include <array>
 #include <fstream>
 #include <utility>
-#include <vector>
 
 namespace haptoflow::bench {
 

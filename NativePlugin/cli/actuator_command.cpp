@@ -3,28 +3,21 @@
 #include "effects/actuator_profile.hpp"
 #include "effects/compensation.hpp"
 #include "exponential_sweep.hpp"
-#include "headless/scenes/command_files.hpp"
+#include "headless/command_files.hpp"
 #include "messages.hpp"
 #include "model/plain_text.hpp"
-#include "model_location.hpp"
 #include "option_values.hpp"
 #include "output_file.hpp"
 #include "svg_plot.hpp"
 #include "texture_distance.hpp"
-#include "wav_file.hpp"
 
 #include <algorithm>
-#include <array>
-#include <chrono>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
 #include <iomanip>
-#include <iostream>
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace haptoflow::cli {
@@ -62,7 +55,7 @@ struct ShowOptions {
 };
 
 void runSweep(const SweepOptions& options) {
-    requireWavName({"-o", options.outputPath});
+    requireWavName("-o", options.outputPath);
     const ExponentialSweep& sweep = options.sweep;
     if (!(sweep.toHz >= 2.0 * sweep.fromHz)) {
         throw UsageError("--from-hz and --to-hz are less than an octave apart; the sweep rises from one to the other");
@@ -186,31 +179,13 @@ void runIdentify(const IdentifyOptions& options) {
     }
 }
 
-double microsecondsPerBlock(effects::Compensation& compensation, std::vector<float>& block) {
-    constexpr int blocks = 200;
-    double best = 1e9;
-    for (int round = 0; round < 5; ++round) {
-        const auto begin = std::chrono::steady_clock::now();
-        for (int i = 0; i < blocks; ++i) {
-            block.front() = 1.0F;
-            compensation.process(block);
-        }
-        const std::chrono::duration<double, std::micro> taken = std::chrono::steady_clock::now() - begin;
-        best = std::min(best, taken.count() / blocks);
-    }
-    return best;
-}
-
-void describeCompensation(const ActuatorProfile& profile, effects::Compensation& compensation,
+void describeCompensation(const ActuatorProfile& profile, const effects::Compensation& compensation,
                           const effects::CompensationSettings& settings) {
     resultStream() << "\nCompensation, at most +" << fixedDecimals(settings.maximumBoostDecibels, 1) << " dB\n";
     if (compensation.isTransparent()) {
         resultStream() << "  none: the profile asks for no change\n";
         return;
     }
-    constexpr std::size_t blockSamples = 480;
-    std::vector<float> block(blockSamples);
-    const double microseconds = microsecondsPerBlock(compensation, block);
     resultStream() << "  band          " << fixedDecimals(compensation.bandHz()[0], 0) << " to "
                    << fixedDecimals(compensation.bandHz()[1], 0) << " Hz, levelled to "
                    << fixedDecimals(compensation.levelDecibels(), 1) << " dB\n"
@@ -218,10 +193,7 @@ void describeCompensation(const ActuatorProfile& profile, effects::Compensation&
                    << " ms at the latest frequency of the band, "
                    << fixedDecimals(compensation.groupDelaySeconds(250.0) * 1000.0, 1) << " ms at 250 Hz\n"
                    << "  tail, memory  " << fixedDecimals(compensation.tailSeconds(), 2) << " s, "
-                   << sizeof(compensation) << " bytes\n"
-                   << "  cost          " << fixedDecimals(microseconds, 1)
-                   << " us for 10 ms at 48 kHz on this machine, " << fixedDecimals(microseconds / 100.0, 2)
-                   << " % of it\n\n"
+                   << sizeof(compensation) << " bytes\n\n"
                    << "      Hz  actuator dB  compensation dB  together dB\n";
     for (const double hz : {20.0, 25.0, 31.5, 40.0, 50.0, 63.0, 80.0, 100.0, 125.0, 160.0, 200.0, 250.0, 315.0, 400.0,
                             500.0, 630.0, 800.0, 1000.0}) {
@@ -280,7 +252,7 @@ void runShow(const ShowOptions& options) {
         plot.emplace("--plot", options.plotPath);
     }
     constexpr double shownRateHz = 48000.0;
-    effects::Compensation compensation(profile, shownRateHz, options.compensation);
+    const effects::Compensation compensation(profile, shownRateHz, options.compensation);
     describe(profile);
     describeCompensation(profile, compensation, options.compensation);
     if (options.labels) {
@@ -292,7 +264,7 @@ void runShow(const ShowOptions& options) {
     }
 }
 
-void addSweep(CLI::App& actuator, CommandOutcome& outcome) {
+void addSweep(CLI::App& actuator) {
     CLI::App* command = actuator.add_subcommand("sweep", "Write the sweep that is played to measure an actuator");
     const auto options = std::make_shared<SweepOptions>();
     command->add_option("-o,--output", options->outputPath, "The WAV file, one channel of 32-bit float")
@@ -320,13 +292,10 @@ void addSweep(CLI::App& actuator, CommandOutcome& outcome) {
         "above the noise.\n"
         "Example:\n"
         "  haptoflow actuator sweep -o sweep.wav --level 0.1");
-    command->callback([options, &outcome] {
-        runSweep(*options);
-        outcome.exitCode = exitDone;
-    });
+    command->callback([options] { runSweep(*options); });
 }
 
-void addIdentify(CLI::App& actuator, CommandOutcome& outcome) {
+void addIdentify(CLI::App& actuator) {
     CLI::App* command = actuator.add_subcommand("identify", "Make an actuator's profile from its recorded sweep");
     const auto options = std::make_shared<IdentifyOptions>();
     command->add_option("recording", options->recordingPath, "The sensor's recording, at any rate from 8 to 192 kHz")
@@ -362,15 +331,11 @@ void addIdentify(CLI::App& actuator, CommandOutcome& outcome) {
         "Example:\n"
         "  haptoflow actuator identify recording.wav --sweep sweep.wav -o pen.json --plot pen.svg\n"
         "Format and law are explained in Documentation~/devices.md.");
-    command->callback([options, &outcome] {
-        runIdentify(*options);
-        outcome.exitCode = exitDone;
-    });
+    command->callback([options] { runIdentify(*options); });
 }
 
-void addShow(CLI::App& actuator, CommandOutcome& outcome) {
-    CLI::App* command =
-        actuator.add_subcommand("show", "Print a profile, and the effect and cost of compensating for it");
+void addShow(CLI::App& actuator) {
+    CLI::App* command = actuator.add_subcommand("show", "Print a profile, and the effect of compensating for it");
     const auto options = std::make_shared<ShowOptions>();
     command->add_option("profile", options->profile, "A profile's file, or a built-in one: flat, voice-coil")
         ->required()
@@ -387,20 +352,17 @@ void addShow(CLI::App& actuator, CommandOutcome& outcome) {
     command->footer(
         "Example:\n"
         "  haptoflow actuator show voice-coil --labels --plot voice-coil.svg");
-    command->callback([options, &outcome] {
-        runShow(*options);
-        outcome.exitCode = exitDone;
-    });
+    command->callback([options] { runShow(*options); });
 }
 
 }  // namespace
 
-void addActuatorCommand(CLI::App& app, CommandOutcome& outcome) {
+void addActuatorCommand(CLI::App& app) {
     CLI::App* command = app.add_subcommand("actuator", "Measure an actuator, and show its compensation");
     command->require_subcommand(1);
-    addSweep(*command, outcome);
-    addIdentify(*command, outcome);
-    addShow(*command, outcome);
+    addSweep(*command);
+    addIdentify(*command);
+    addShow(*command);
     command->footer(
         "The steps: write the sweep, play it through the actuator while an accelerometer records, identify, show.\n"
         "  haptoflow actuator sweep -o sweep.wav\n"

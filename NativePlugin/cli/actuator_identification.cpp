@@ -3,6 +3,7 @@
 #include "dsp/fourier_transform.hpp"
 #include "effects/parallel_filter.hpp"
 #include "messages.hpp"
+#include "recordings/recording.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -399,12 +400,6 @@ std::vector<double> findResonances(const std::vector<double>& hz, const std::vec
     return found;
 }
 
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + std::ssize(values) / 2;
-    std::ranges::nth_element(values, middle);
-    return *middle;
-}
-
 double distortionPercent(const std::vector<Reading>& readings) {
     double harmonics = 0.0;
     double fundamental = 0.0;
@@ -468,7 +463,7 @@ Identification identifyActuator(const Recording& recording, const ExponentialSwe
         effects::ActuatorMeasurement{.sampleRateHz = recording.rateHz,
                                      .delaySeconds = rounded(arrival.lag / recording.rateHz + excessSeconds, 1e7),
                                      .distortionPercent = rounded(distortionPercent(readings), 100.0),
-                                     .signalToNoiseDecibels = rounded(median(signalToNoise), 10.0)};
+                                     .signalToNoiseDecibels = rounded(recordings::upperMedian(signalToNoise), 10.0)};
     return found;
 }
 

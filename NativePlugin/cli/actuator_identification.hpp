@@ -2,7 +2,7 @@
 
 #include "effects/actuator_profile.hpp"
 #include "exponential_sweep.hpp"
-#include "wav_file.hpp"
+#include "output_file.hpp"
 
 #include <optional>
 #include <string>

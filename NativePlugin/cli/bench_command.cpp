@@ -1,17 +1,14 @@
 #include "bench/bench.hpp"
 
 #include "commands.hpp"
-#include "headless/scenes/command_files.hpp"
+#include "headless/command_files.hpp"
 #include "inference/onnx_runtime.hpp"
 #include "messages.hpp"
-#include "model_location.hpp"
 #include "option_values.hpp"
 #include "output_file.hpp"
 
 #include <nlohmann/json.hpp>
 
-#include <array>
-#include <iostream>
 #include <memory>
 #include <optional>
 #include <string>
@@ -78,8 +75,8 @@ void runBench(const BenchCommandOptions& options) {
 
 }  // namespace
 
-void addBenchCommand(CLI::App& app, CommandOutcome& outcome) {
-    CLI::App* command = app.add_subcommand("bench", "Measure callback, latencies, inference, memory and contact");
+void addBenchCommand(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("bench", "Measure callback, latencies, inference and memory");
     const auto options = std::make_shared<BenchCommandOptions>();
     command->add_option("--model", options->modelPath, "Model file (default: the one shipped)")->type_name("FILE");
     command
@@ -89,7 +86,7 @@ void addBenchCommand(CLI::App& app, CommandOutcome& outcome) {
     command->add_flag("--quick", options->quick, "Fewer events and devices: half a minute for a first look");
     command
         ->add_option("--only", options->only,
-                     "Only these measurements: callback, effects, latency, inference, voices, idle, contact")
+                     "Only these measurements: callback, effects, latency, inference, voices, idle")
         ->delimiter(',')
         ->check(
             CLI::IsMember(std::vector<std::string>(bench::measurementNames.begin(), bench::measurementNames.end())));
@@ -106,10 +103,7 @@ void addBenchCommand(CLI::App& app, CommandOutcome& outcome) {
         "  haptoflow bench --quick\n"
         "  haptoflow bench --only inference --paper-model paper.haptoflow --json\n"
         "Keep the machine idle while it runs: other programs slow down every measurement.");
-    command->callback([options, &outcome] {
-        runBench(*options);
-        outcome.exitCode = exitDone;
-    });
+    command->callback([options] { runBench(*options); });
 }
 
 }  // namespace haptoflow::cli

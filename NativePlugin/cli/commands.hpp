@@ -1,21 +1,28 @@
 #pragma once
 
+#include "headless/contact_tracker.hpp"
+#include "headless/stroke_file.hpp"
+
 #include <CLI/CLI.hpp>
+
+#include <iosfwd>
+#include <string>
 
 namespace haptoflow::cli {
 
-/// The result of a command for main: the process's exit code (see messages.hpp).
-struct CommandOutcome {
-    int exitCode = 0;
-};
+/// Each function adds one subcommand, whose callback runs it. Errors in input files are thrown as InputError; main
+/// prints them and exits with code 3.
+void addRenderCommand(CLI::App& app);
+void addContactCommand(CLI::App& app);
+void addInspectCommand(CLI::App& app);
+void addActuatorCommand(CLI::App& app);
+void addBenchCommand(CLI::App& app);
+void addLearnCommand(CLI::App& app);
 
-/// Each function adds one subcommand, whose callback runs it and stores its exit code in `outcome`. Errors in input
-/// files are thrown as InputError; main prints them and exits with code 3.
-void addRenderCommand(CLI::App& app, CommandOutcome& outcome);
-void addContactCommand(CLI::App& app, CommandOutcome& outcome);
-void addInspectCommand(CLI::App& app, CommandOutcome& outcome);
-void addActuatorCommand(CLI::App& app, CommandOutcome& outcome);
-void addBenchCommand(CLI::App& app, CommandOutcome& outcome);
-void addLearnCommand(CLI::App& app, CommandOutcome& outcome);
+/// Plays the stroke in the scene at the scene's update rate, or in frames at its own samples, and writes one CSV line
+/// per frame. Throws InputError if the stroke, named `strokeName`, is too long.
+void writeContactStates(std::ostream& output, const headless::Scene& scene, const headless::Stroke& stroke,
+                        const std::string& strokeName, const headless::ContactSettings& settings,
+                        bool asRecorded = false);
 
 }  // namespace haptoflow::cli

@@ -1,11 +1,9 @@
-#include "contact_command.hpp"
 #include "commands.hpp"
 #include "headless/contact_tracker.hpp"
-#include "headless/scenes/scene_file.hpp"
-#include "headless/scenes/scene_materials.hpp"
-#include "headless/scenes/stroke_file.hpp"
+#include "headless/scene_file.hpp"
+#include "headless/scene_materials.hpp"
+#include "headless/stroke_file.hpp"
 #include "messages.hpp"
-#include "model_location.hpp"
 #include "option_values.hpp"
 #include "output_file.hpp"
 
@@ -122,7 +120,7 @@ void writeContactStates(std::ostream& output, const headless::Scene& scene, cons
     }
 }
 
-void addContactCommand(CLI::App& app, CommandOutcome& outcome) {
+void addContactCommand(CLI::App& app) {
     CLI::App* command = app.add_subcommand("contact", "Print what a stroke touches, frame by frame, as CSV");
     const auto options = std::make_shared<ContactOptions>();
     command->add_option("scene", options->scenePath, "SCENE.json: surfaces, their materials and motions")
@@ -166,10 +164,7 @@ void addContactCommand(CLI::App& app, CommandOutcome& outcome) {
         "Example:\n"
         "  haptoflow contact scene.json --stroke stroke.csv -o states.csv\n"
         "Both files are explained in Documentation~/scene-and-stroke.md.");
-    command->callback([options, &outcome] {
-        runContact(*options);
-        outcome.exitCode = exitDone;
-    });
+    command->callback([options] { runContact(*options); });
 }
 
 }  // namespace haptoflow::cli

@@ -7,8 +7,6 @@
 #include <charconv>
 #include <cmath>
 #include <numbers>
-#include <string>
-#include <utility>
 
 namespace haptoflow::cli {
 namespace {

@@ -1,9 +1,9 @@
 #include "commands.hpp"
-#include "headless/scenes/command_files.hpp"
+#include "headless/command_files.hpp"
 #include "messages.hpp"
 #include "model/material_file.hpp"
 #include "model/plain_text.hpp"
-#include "model_location.hpp"
+#include "option_values.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -232,7 +232,7 @@ void runInspect(const InspectOptions& options) {
 
 }  // namespace
 
-void addInspectCommand(CLI::App& app, CommandOutcome& outcome) {
+void addInspectCommand(CLI::App& app) {
     CLI::App* command = app.add_subcommand("inspect", "Verify a model or material file and show its content");
     const auto options = std::make_shared<InspectOptions>();
     command->add_option("model", options->modelPath, "The .haptoflow or .haptomaterial file")
@@ -242,10 +242,7 @@ void addInspectCommand(CLI::App& app, CommandOutcome& outcome) {
     command->footer(
         "Example:\n"
         "  haptoflow inspect default.haptoflow --json");
-    command->callback([options, &outcome] {
-        runInspect(*options);
-        outcome.exitCode = exitDone;
-    });
+    command->callback([options] { runInspect(*options); });
 }
 
 }  // namespace haptoflow::cli

@@ -1,12 +1,11 @@
 #include "commands.hpp"
-#include "headless/scenes/command_files.hpp"
+#include "headless/command_files.hpp"
 #include "learn_output.hpp"
 #include "learning/learner.hpp"
 #include "messages.hpp"
 #include "model/header_node.hpp"
 #include "model/model_file.hpp"
 #include "model/plain_text.hpp"
-#include "model_location.hpp"
 #include "option_values.hpp"
 #include "output_file.hpp"
 #include "recordings/recording_reader.hpp"
@@ -15,7 +14,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <iostream>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -186,7 +184,7 @@ void runLearn(const LearnOptions& options) {
     try {
         const learning::LearntMaterial learnt =
             learning::learnMaterial(recording.view(), model, tier, openRuntimeFor(model.header().tiers), settings);
-        writeMaterial(output, learnt.materialJson, model.header());
+        writeText(output, learnt.materialJson);
         if (report) {
             writeText(*report, learning::reportJson(learnt.report));
         }
@@ -211,7 +209,7 @@ void runLearn(const LearnOptions& options) {
 
 }  // namespace
 
-void addLearnCommand(CLI::App& app, CommandOutcome& outcome) {
+void addLearnCommand(CLI::App& app) {
     CLI::App* command =
         app.add_subcommand("learn", "Learn a material from a recording: ten seconds of one surface, at many speeds");
     const auto options = std::make_shared<LearnOptions>();
@@ -272,10 +270,7 @@ void addLearnCommand(CLI::App& app, CommandOutcome& outcome) {
         "Record strokes at slow and fast speeds, in all directions of interest: properties that the recording does "
         "not\n"
         "show are taken from the label that renders most like it.");
-    command->callback([options, &outcome] {
-        runLearn(*options);
-        outcome.exitCode = exitDone;
-    });
+    command->callback([options] { runLearn(*options); });
 }
 
 }  // namespace haptoflow::cli

@@ -1,17 +1,13 @@
 #include "learn_output.hpp"
 
-#include "headless/scenes/command_files.hpp"
 #include "messages.hpp"
-#include "model/material_file.hpp"
 #include "model/plain_text.hpp"
 #include "svg_plot.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <exception>
 #include <limits>
-#include <optional>
 #include <vector>
 
 namespace haptoflow::cli {
@@ -213,16 +209,6 @@ std::string fileNameOf(std::string_view words) {
     }
     const std::size_t first = name.find_first_not_of(" .-");
     return first == std::string::npos ? "material" : name.substr(first, name.find_last_not_of(" .-") - first + 1);
-}
-
-void writeMaterial(const OutputFile& file, const std::string& json, const model::ModelHeader& header) {
-    writeText(file, json);
-    try {
-        model::requireSpace(model::readMaterial(file.partial()), header);
-    } catch (const std::exception& error) {
-        throw InputError(file.path().string() + ": was not written, because it could not be read back (" +
-                         error.what() + ")");
-    }
 }
 
 }  // namespace haptoflow::cli

@@ -1,8 +1,6 @@
 #pragma once
 
 #include "learning/learning_report.hpp"
-#include "model/model_header.hpp"
-#include "output_file.hpp"
 
 #include <string>
 #include <string_view>
@@ -17,9 +15,5 @@ namespace haptoflow::cli {
 /// A file name, without folder and extension, from words that may hold anything: "../a/b" gives "a-b". Never empty,
 /// never hidden, no separator of any platform.
 [[nodiscard]] std::string fileNameOf(std::string_view words);
-
-/// Writes a material file and reads it back as every user of the file does; does not commit. Throws InputError that
-/// names the path if the disk is full or the file cannot be used with models of this header's space.
-void writeMaterial(const OutputFile& file, const std::string& json, const model::ModelHeader& header);
 
 }  // namespace haptoflow::cli

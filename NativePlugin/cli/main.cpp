@@ -1,5 +1,5 @@
 #include "commands.hpp"
-#include "headless/scenes/near_words.hpp"
+#include "headless/command_files.hpp"
 #include "messages.hpp"
 
 #include "inference/load_limits.hpp"
@@ -91,19 +91,18 @@ int run(int argc, char** argv) {
         "  haptoflow bench --quick\n"
         "Exit codes: 0 done, 2 wrong usage, 3 bad input file, 4 internal error.");
 
-    CommandOutcome outcome;
-    addRenderCommand(app, outcome);
-    addContactCommand(app, outcome);
-    addInspectCommand(app, outcome);
-    addActuatorCommand(app, outcome);
-    addLearnCommand(app, outcome);
-    addBenchCommand(app, outcome);
+    addRenderCommand(app);
+    addContactCommand(app);
+    addInspectCommand(app);
+    addActuatorCommand(app);
+    addLearnCommand(app);
+    addBenchCommand(app);
 
     const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
     try {
         requireSubcommand(app, words);
         app.parse(argc, argv);
-        return outcome.exitCode;
+        return exitDone;
     } catch (const CLI::ParseError& error) {
         if (app.exit(error) == 0) {
             return exitDone;

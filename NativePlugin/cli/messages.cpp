@@ -1,8 +1,7 @@
 #include "messages.hpp"
 
 #include "headless/scene.hpp"
-#include "headless/scenes/command_files.hpp"
-#include "headless/scenes/stroke_file.hpp"
+#include "headless/stroke_file.hpp"
 #include "model/plain_text.hpp"
 #include "recordings/recording.hpp"
 
@@ -14,7 +13,6 @@
 #include <iostream>
 #include <locale>
 #include <sstream>
-#include <string>
 #include <utility>
 
 namespace haptoflow::cli {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "headless/scenes/command_files.hpp"
+#include "headless/command_files.hpp"
 
 #include <functional>
 #include <iosfwd>

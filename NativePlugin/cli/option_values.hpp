@@ -1,10 +1,15 @@
 #pragma once
 
 #include "effects/actuator_profile.hpp"
+#include "inference/onnx_runtime.hpp"
+#include "model/model_file.hpp"
 
 #include <CLI/CLI.hpp>
 
 #include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
 #include <string>
 
 namespace haptoflow::cli {
@@ -22,5 +27,23 @@ namespace haptoflow::cli {
 /// The built-in actuator profile of this name, otherwise the profile in this file. Throws InputError that names the
 /// file and the key.
 [[nodiscard]] effects::ActuatorProfile readActuatorProfile(const std::string& nameOrPath);
+
+/// The model to use: `given` if it is not empty; otherwise the path in the environment variable HAPTOFLOW_MODEL;
+/// otherwise default.haptoflow beside the executable; otherwise that of the checkout in which the executable was built
+/// (../../Packages/com.haptoflow.runtime/Runtime/Models). Throws InputError that names all of these places.
+[[nodiscard]] std::filesystem::path findModel(const std::string& given);
+
+/// ONNX Runtime's library: the path in the environment variable HAPTOFLOW_ONNXRUNTIME; otherwise the library beside the
+/// executable; otherwise the npm package of the checkout (../../node_modules/com.github.asus4.onnxruntime/Plugins).
+/// Throws InputError that names all of these places.
+[[nodiscard]] std::filesystem::path findOnnxRuntime();
+
+/// Reads a model; errors become InputError.
+[[nodiscard]] model::ModelFile readModel(const std::filesystem::path& path);
+
+/// Opens the ONNX Runtime that findOnnxRuntime finds; errors become InputError.
+[[nodiscard]] std::shared_ptr<const inference::Runtime> openRuntime();
+/// The same where one of the tiers needs it; null otherwise.
+[[nodiscard]] std::shared_ptr<const inference::Runtime> openRuntimeFor(std::span<const model::Tier> tiers);
 
 }  // namespace haptoflow::cli

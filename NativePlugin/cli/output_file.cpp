@@ -1,17 +1,23 @@
 #include "output_file.hpp"
 
-#include "headless/scenes/command_files.hpp"
+#include "dsp/sample_rates.hpp"
+#include "headless/command_files.hpp"
 #include "messages.hpp"
+#include "recordings/recording_files.hpp"
+
+#include <sndfile.h>
 
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <fstream>
 #include <iostream>
 #include <system_error>
+#include <utility>
 
 namespace haptoflow::cli {
 namespace {
@@ -165,19 +171,98 @@ void writeText(const OutputFile& file, const std::string& text) {
     }
 }
 
-void requireWavName(const NamedPath& output) {
-    const std::string ending = output.path.extension().string();
-    std::string small = ending;
-    std::ranges::transform(small, small.begin(), [](char letter) {
-        return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter + 32) : letter;
-    });
-    if (ending.empty() || small == ".wav" || isSpecial(output.path)) {
+void requireWavName(const std::string& role, const fs::path& path) {
+    const std::string ending = path.extension().string();
+    if (ending.empty() || recordings::endingOf(path) == ".wav" || isSpecial(path)) {
         return;
     }
-    fs::path meant = output.path;
+    fs::path meant = path;
     meant.replace_extension(".wav");
-    throw UsageError(output.role + " " + output.path.string() + ": only WAV is written, not '" + ending +
-                     "'; did you mean " + meant.string() + "?");
+    throw UsageError(role + " " + path.string() + ": only WAV is written, not '" + ending + "'; did you mean " +
+                     meant.string() + "?");
+}
+
+struct WavWriter::SoundFile {
+    SNDFILE* handle = nullptr;
+};
+
+WavWriter::WavWriter(const std::filesystem::path& file, int rateHz, std::string shownAs, const std::string& comment)
+    : file_(std::make_unique<SoundFile>()), shownAs_(std::move(shownAs)) {
+    SF_INFO info{};
+    info.channels = 1;
+    info.samplerate = rateHz;
+    info.format = SF_FORMAT_WAV | SF_FORMAT_FLOAT;
+    file_->handle = sf_open(file.string().c_str(), SFM_WRITE, &info);
+    if (file_->handle == nullptr) {
+        throw InputError(shownAs_ + ": cannot be written (" + sf_strerror(nullptr) + ")");
+    }
+    // A peak chunk contains the time of writing, so that equal renders would have different bytes.
+    sf_command(file_->handle, SFC_SET_ADD_PEAK_CHUNK, nullptr, SF_FALSE);
+    if (!comment.empty()) {
+        sf_set_string(file_->handle, SF_STR_COMMENT, comment.c_str());
+    }
+}
+
+WavWriter::~WavWriter() {
+    if (file_->handle != nullptr) {
+        sf_close(file_->handle);
+    }
+}
+
+void WavWriter::write(std::span<const float> samples) {
+    const auto count = static_cast<sf_count_t>(samples.size());
+    if (sf_write_float(file_->handle, samples.data(), count) != count) {
+        throw InputError(shownAs_ + ": could not be written to its end; is the disk full?");
+    }
+}
+
+void WavWriter::close() {
+    if (sf_close(std::exchange(file_->handle, nullptr)) != 0) {
+        throw InputError(shownAs_ + ": could not be written to its end; is the disk full?");
+    }
+}
+
+Recording readRecording(const std::string& role, const std::string& path, int channel) {
+    headless::claimInput(role, path);
+    constexpr sf_count_t maximumSeconds = 600;
+    SF_INFO info{};
+    const std::unique_ptr<SNDFILE, int (*)(SNDFILE*)> file(sf_open(path.c_str(), SFM_READ, &info), sf_close);
+    if (file == nullptr) {
+        throw InputError(path + ": cannot be read (" + sf_strerror(nullptr) + "); expected a sound file such as WAV");
+    }
+    if (info.samplerate < dsp::minimumOutputRateHz || info.samplerate > dsp::maximumOutputRateHz) {
+        throw InputError(path + ": has a rate of " + std::to_string(info.samplerate) +
+                         " Hz; expected 8000 to 192000 Hz");
+    }
+    if (info.frames > maximumSeconds * info.samplerate) {
+        throw InputError(path + ": is longer than ten minutes; cut it to the sweep and the silence after it");
+    }
+    if (channel == 0 && info.channels != 1) {
+        throw InputError(path + ": has " + std::to_string(info.channels) +
+                         " channels; name the sensor's with --channel, which counts from 1");
+    }
+    if (channel > info.channels) {
+        throw InputError(path + ": has no channel " + std::to_string(channel) + "; it has " +
+                         std::to_string(info.channels));
+    }
+    const auto channels = static_cast<std::size_t>(info.channels);
+    std::vector<float> all(static_cast<std::size_t>(info.frames) * channels);
+    if (sf_readf_float(file.get(), all.data(), info.frames) != info.frames) {
+        throw InputError(path + ": cannot be read to its end; is it cut off?");
+    }
+    Recording recording;
+    recording.rateHz = info.samplerate;
+    const auto first = static_cast<std::size_t>(std::max(channel, 1) - 1);
+    for (std::size_t i = first; i < all.size(); i += channels) {
+        recording.samples.push_back(all[i]);
+    }
+    if (!std::ranges::all_of(recording.samples, [](float sample) { return std::isfinite(sample); })) {
+        throw InputError(path + ": holds samples that are not finite; expected a recording");
+    }
+    if (const char* comment = sf_get_string(file.get(), SF_STR_COMMENT)) {
+        recording.comment = comment;
+    }
+    return recording;
 }
 
 }  // namespace haptoflow::cli

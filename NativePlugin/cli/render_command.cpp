@@ -2,28 +2,24 @@
 #include "effects/actuator_profile.hpp"
 #include "effects/effect.hpp"
 #include "engine/offline_renderer.hpp"
+#include "headless/command_files.hpp"
 #include "headless/contact_tracker.hpp"
-#include "headless/scenes/near_words.hpp"
-#include "headless/scenes/scene_file.hpp"
-#include "headless/scenes/scene_materials.hpp"
-#include "headless/scenes/stroke_file.hpp"
+#include "headless/scene_file.hpp"
+#include "headless/scene_materials.hpp"
+#include "headless/stroke_file.hpp"
 #include "inference/tier_generator.hpp"
 #include "messages.hpp"
 #include "model/model_file.hpp"
-#include "model_location.hpp"
 #include "option_values.hpp"
 #include "output_file.hpp"
 #include "recordings/recording.hpp"
 #include "render_output.hpp"
-#include "wav_file.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
-#include <iostream>
 #include <limits>
 #include <map>
 #include <memory>
@@ -309,8 +305,8 @@ void runRender(const RenderOptions& options) {
     }
     const effects::EffectMask effects = requestedEffects(options.effects);
     RenderFiles files(options);
-    requireWavName({"-o", options.outputPath});
-    requireWavName({"--waveform", options.waveformPath});
+    requireWavName("-o", options.outputPath);
+    requireWavName("--waveform", options.waveformPath);
     const auto generator = inference::makeGenerator(openRuntimeFor(std::span(&tier, 1)), model, tier, solver, 1);
 
     const ProgressBar bar = progressBar("render", options.quiet);
@@ -347,7 +343,7 @@ void runRender(const RenderOptions& options) {
 
 }  // namespace
 
-void addRenderCommand(CLI::App& app, CommandOutcome& outcome) {
+void addRenderCommand(CLI::App& app) {
     CLI::App* command = app.add_subcommand("render", "Render the vibration of a stroke over a scene to WAV");
     const auto options = std::make_shared<RenderOptions>();
     command->add_option("scene", options->scenePath, "SCENE.json: surfaces and their materials")
@@ -420,10 +416,9 @@ void addRenderCommand(CLI::App& app, CommandOutcome& outcome) {
         "  haptoflow render scene.json --stroke stroke.csv -o taps.wav --effects texture,impact,edge --actuator "
         "voice-coil\n"
         "+-1 in the WAV is 200 m/s^2 (see --full-scale): most textures are quiet, at their true level.");
-    command->callback([options, &outcome] {
+    command->callback([options] {
         sortOutputs(*options);
         runRender(*options);
-        outcome.exitCode = exitDone;
     });
 }
 

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <cstdint>
 
 namespace haptoflow::cli {
 
@@ -86,8 +85,7 @@ float shareOf(float amplitudeMps2) {
 
 nlohmann::ordered_json errorOf(std::span<const float> wave, std::span<const effects::WaveFrame> frames,
                                const effects::WaveFeatureOptions& cut, effects::CarrierShape shape) {
-    const std::vector<float> played = effects::renderCarrier(frames, {.shape = shape});
-    const auto summary = effects::summarise(effects::intensityErrors(wave, played, cut));
+    const auto summary = effects::intensityErrors(wave, effects::renderCarrier(frames, shape), cut);
     return {{"felt_frames", summary.feltFrames},
             {"mean", summary.meanDb},
             {"mean_magnitude", summary.meanMagnitudeDb},

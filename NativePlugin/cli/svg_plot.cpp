@@ -1,9 +1,9 @@
 #include "svg_plot.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <locale>
+#include <map>
 #include <sstream>
 
 namespace haptoflow::cli {
@@ -28,24 +28,11 @@ std::string svgNumber(double value) {
 }
 
 std::string svgEscaped(const std::string& text) {
+    static const std::map<char, std::string> entities{{'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}};
     std::string result;
     for (const char letter : text) {
-        switch (letter) {
-            case '&':
-                result += "&amp;";
-                break;
-            case '<':
-                result += "&lt;";
-                break;
-            case '>':
-                result += "&gt;";
-                break;
-            case '"':
-                result += "&quot;";
-                break;
-            default:
-                result += letter;
-        }
+        const auto entity = entities.find(letter);
+        result += entity == entities.end() ? std::string(1, letter) : entity->second;
     }
     return result;
 }

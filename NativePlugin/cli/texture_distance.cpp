@@ -2,11 +2,13 @@
 
 #include "dsp/fourier_transform.hpp"
 #include "dsp/waveform_resampler.hpp"
-#include "inference/gaussian_noise.hpp"
 #include "inference/skeleton_generator.hpp"
 #include "skeleton/condition.hpp"
+#include "skeleton/gaussian_noise.hpp"
+#include "skeleton/skeleton_tensors.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <cstddef>
@@ -17,6 +19,9 @@
 
 namespace haptoflow::cli {
 namespace {
+
+/// 200 ms of a label's waveform at 2 kHz. Its level does not count.
+using TextureExcerpt = std::array<float, model::seedSamples>;
 
 constexpr std::size_t segment = inference::segmentSamples;
 /// Segments made before the excerpt and thrown away, because the filter begins in silence.
@@ -34,7 +39,7 @@ TextureExcerpt sketched(inference::SkeletonGenerator& sketch, std::span<const fl
     TextureExcerpt excerpt{};
     static_assert(excerpt.size() == 2 * segment);
     for (std::size_t index = 0; index < settlingSegments + 2; ++index) {
-        inference::fillStandardNormal({.seed = 1, .voice = voice, .segment = index}, noise);
+        skeleton::fillStandardNormal({.seed = 1, .voice = voice, .segment = index}, noise);
         std::shift_left(excerpt.begin(), excerpt.end(), segment);
         sketch.generate(std::span(&request, 1), std::span(excerpt).last<segment>());
         std::ranges::copy(std::span(excerpt).last<segment>(), previous.begin());
@@ -43,24 +48,22 @@ TextureExcerpt sketched(inference::SkeletonGenerator& sketch, std::span<const fl
     return excerpt;
 }
 
-}  // namespace
-
-LabelTextures::LabelTextures(const model::ModelFile& model)
-    : model_(model), native_(skeleton::readNativeParts(model)) {}
-
-std::vector<TextureExcerpt> LabelTextures::of(std::size_t label) const {
-    const model::ModelHeader& header = model_.header();
+/// What a label sounds like without the model's networks. The noise is fixed, so a label has the same excerpts each
+/// time.
+std::vector<TextureExcerpt> texturesOf(const model::ModelFile& model, const skeleton::NativeParts& native,
+                                       std::size_t label) {
+    const model::ModelHeader& header = model.header();
     std::vector<TextureExcerpt> excerpts;
     for (std::size_t seed = 0; seed < header.seeds.size(); ++seed) {
         if (header.seeds[seed].label == label) {
-            std::ranges::copy(model_.seed(seed), excerpts.emplace_back().begin());
+            std::ranges::copy(model.seed(seed), excerpts.emplace_back().begin());
         }
     }
     if (header.skeleton) {
-        inference::SkeletonGenerator sketch(native_, 1);
+        inference::SkeletonGenerator sketch(native, 1);
         for (const double speed : header.speedMps.percentiles) {
             for (const double force : header.forceNewtons.percentiles) {
-                excerpts.push_back(sketched(sketch, model_.embedding(label),
+                excerpts.push_back(sketched(sketch, model.embedding(label),
                                             {static_cast<float>(speed), 0.0F, static_cast<float>(force)},
                                             static_cast<std::uint32_t>(excerpts.size())));
             }
@@ -68,8 +71,6 @@ std::vector<TextureExcerpt> LabelTextures::of(std::size_t label) const {
     }
     return excerpts;
 }
-
-namespace {
 
 constexpr double rateHz = 8000.0;
 constexpr std::size_t window = 1024;
@@ -165,10 +166,11 @@ double distance(const LabelSpectra& label, Differences differences, double stren
 std::vector<TextureDistance> textureDistances(const model::ModelFile& model, const effects::ActuatorProfile& profile,
                                               const effects::CompensationSettings& settings) {
     effects::Compensation compensation(profile, rateHz, settings);
-    const LabelTextures textures(model);
+    const skeleton::NativeParts native = skeleton::readNativeParts(model);
     std::vector<LabelSpectra> labels;
     for (std::size_t label = 0; label < model.header().labels.size(); ++label) {
-        LabelSpectra spectra = spectraOf(model.header().labels[label].name, textures.of(label), profile, compensation);
+        LabelSpectra spectra =
+            spectraOf(model.header().labels[label].name, texturesOf(model, native, label), profile, compensation);
         if (!spectra.compensated.empty()) {
             labels.push_back(std::move(spectra));
         }

@@ -1,17 +1,10 @@
 #include "headless/contact_tracker.hpp"
 
-#include "headless/pose.hpp"
-#include "headless/tip_path.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <memory>
-#include <stdexcept>
-#include <string>
 #include <utility>
-#include <variant>
 
 namespace haptoflow::headless {
 namespace {
@@ -19,60 +12,8 @@ namespace {
 // Limits how far carried tangent axes turn after a pause: no further than in a slow frame.
 constexpr double maximumFrameSeconds = 0.05;
 
-void require(bool holds, const char* expectation) {
-    if (!holds) {
-        throw std::invalid_argument(std::string("contact: ") + expectation);
-    }
-}
-
 bool positive(double value) {
     return value > 0.0 && isUsable(value);
-}
-
-bool notNegative(double value) {
-    return value >= 0.0 && isUsable(value);
-}
-
-bool hasExtent(const Shape& shape) {
-    if (const auto* box = std::get_if<Box>(&shape)) {
-        return positive(box->sizeMetres.x) && positive(box->sizeMetres.y) && positive(box->sizeMetres.z);
-    }
-    if (const auto* sphere = std::get_if<Sphere>(&shape)) {
-        return positive(sphere->radiusMetres);
-    }
-    if (const auto* capsule = std::get_if<Capsule>(&shape)) {
-        return positive(capsule->radiusMetres) && positive(capsule->heightMetres);
-    }
-    const auto* mesh = std::get_if<std::shared_ptr<const TriangleMesh>>(&shape);
-    return mesh == nullptr || *mesh != nullptr;
-}
-
-/// Returns the scene after checking that it and the settings are in range.
-Scene checked(Scene scene, const ContactSettings& settings) {
-    const VelocitySettings& velocity = settings.velocity;
-    require(notNegative(scene.tipRadiusMetres), "tipRadiusMetres must be 0 or more");
-    require(positive(settings.maximumForceNewtons), "maximumForceNewtons must be above 0");
-    require(positive(settings.defaultStiffnessNewtonsPerMetre), "defaultStiffnessNewtonsPerMetre must be above 0");
-    require(notNegative(settings.releaseDistanceMetres), "releaseDistanceMetres must be 0 or more");
-    require(notNegative(settings.switchMarginMetres), "switchMarginMetres must be 0 or more");
-    require(notNegative(settings.openMeshDepthMetres), "openMeshDepthMetres must be 0 or more");
-    require(notNegative(settings.lostSeconds), "lostSeconds must be 0 or more");
-    require(positive(velocity.windowSeconds), "windowSeconds must be above 0");
-    require(positive(velocity.approachSeconds), "approachSeconds must be above 0");
-    require(notNegative(velocity.holdSeconds), "holdSeconds must be 0 or more");
-    require(velocity.stopSeconds > velocity.holdSeconds && isUsable(velocity.stopSeconds),
-            "stopSeconds must be above holdSeconds");
-    require(positive(velocity.maximumGapSeconds), "maximumGapSeconds must be above 0");
-    require(positive(velocity.minimumStepSeconds), "minimumStepSeconds must be above 0");
-    require(notNegative(velocity.minimumMoveMetres), "minimumMoveMetres must be 0 or more");
-    require(positive(velocity.maximumSpeedMps), "maximumSpeedMps must be above 0");
-    require(positive(velocity.jumpGainMps), "jumpGainMps must be above 0");
-    require(positive(velocity.jumpAccelerationMps2), "jumpAccelerationMps2 must be above 0");
-    require(positive(velocity.minimumJumpSeconds), "minimumJumpSeconds must be above 0");
-    for (const SceneSurface& surface : scene.surfaces) {
-        require(hasExtent(surface.shape), "every shape must have sizes above 0 and every mesh must be there");
-    }
-    return scene;
 }
 
 double stiffnessOf(const SceneSurface& surface, const ContactSettings& settings) {
@@ -96,7 +37,7 @@ double stiffnessOf(const SceneSurface& surface, const ContactSettings& settings)
 }  // namespace
 
 ContactTracker::ContactTracker(Scene scene, ContactSettings settings)
-    : scene_(checked(std::move(scene), settings)),
+    : scene_(std::move(scene)),
       settings_(std::move(settings)),
       broadPhase_(scene_.surfaces, scene_.tipRadiusMetres + settings_.releaseDistanceMetres),
       history_(settings_.velocity),

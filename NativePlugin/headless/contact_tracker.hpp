@@ -1,10 +1,9 @@
 #pragma once
 
-#include "headless/broad_phase.hpp"
 #include "headless/contact_transitions.hpp"
 #include "headless/contact_types.hpp"
+#include "headless/pose.hpp"
 #include "headless/scene.hpp"
-#include "headless/tangent_frame.hpp"
 #include "headless/tip_path.hpp"
 
 #include <cstddef>
@@ -27,7 +26,7 @@ namespace haptoflow::headless {
 /// A frame computes distances only for surfaces near the tip (see BroadPhase) and allocates nothing.
 class ContactTracker {
 public:
-    /// Copies the scene. Throws std::invalid_argument if a setting, the tip radius or a shape is out of range.
+    /// Every shape has an extent, as parseScene requires.
     explicit ContactTracker(Scene scene, ContactSettings settings = {});
 
     /// Processes the next frame. A sample with an unusable position keeps the last one for `lostSeconds`. A

@@ -26,14 +26,13 @@ struct Keyframe {
 /// should end in the pose that it began with.
 class Motion {
 public:
-    /// Throws std::invalid_argument unless there are at least two keyframes with usable, strictly increasing times.
+    /// Two keyframes or more, with strictly increasing times.
     Motion(std::vector<Keyframe> keyframes, bool loop);
 
     [[nodiscard]] Pose poseAt(double timeSeconds) const noexcept;
     /// A box around every position on the path, in metres, up to rounding.
     [[nodiscard]] Bounds bounds() const noexcept;
     [[nodiscard]] const std::vector<Keyframe>& keyframes() const noexcept { return keyframes_; }
-    [[nodiscard]] bool loops() const noexcept { return loop_; }
 
 private:
     [[nodiscard]] glm::dvec3 chordVelocity(std::size_t from, std::size_t to) const noexcept;
@@ -76,5 +75,52 @@ struct Scene {
     /// Contact states per second that are computed along a stroke.
     double updateRateHz = 90.0;
 };
+
+/// Finds the surfaces of a scene that are near the tip, so that a frame computes exact distances for those only. The
+/// surfaces are kept in a tree that is built once: a surface at rest in its bounding box, a moving one in a box around
+/// its whole path. A surface with a long path is therefore considered more often. Planes are infinite and are always
+/// considered.
+class BroadPhase {
+public:
+    /// `reachMetres`: the distance from the tip's centre up to which a surface matters. Every shape must have an
+    /// extent. Later changes to `surfaces` have no effect.
+    BroadPhase(const std::vector<SceneSurface>& surfaces, double reachMetres);
+
+    /// Calls `consider(surface)` once for every surface that `reaches` would accept, and for a few more, in no
+    /// particular order. `tipMetres` must be usable. With a distance, for every surface that would be accepted up to
+    /// that far from the tip.
+    template <typename Consider>
+    void visitNear(const glm::dvec3& tipMetres, Consider&& consider, double withinMetres = 0.0) const;
+
+    /// Whether the surface's bounding sphere is within reach of the tip, which is given in the surface's local frame.
+    [[nodiscard]] bool reaches(std::size_t surface, const glm::dvec3& localTipMetres) const noexcept;
+    /// Whether the tip came within reach of the surface's bounding sphere on its way between two positions relative to
+    /// the surface's pose then and now.
+    [[nodiscard]] bool passes(std::size_t surface, const glm::dvec3& tipBefore, const Pose& poseBefore,
+                              const glm::dvec3& tipMetres, const Pose& pose) const noexcept;
+
+private:
+    [[nodiscard]] Bounds withinReachOf(const SceneSurface& surface, const BoundingSphere& sphere) const noexcept;
+
+    double reachMetres_;
+    std::vector<BoundingSphere> spheres_;
+    /// Planes, and surfaces whose coordinates are not usable.
+    std::vector<std::uint32_t> endless_;
+    /// The tree's items, as indices of surfaces.
+    std::vector<std::uint32_t> bounded_;
+    BoundsTree tree_;
+};
+
+template <typename Consider>
+void BroadPhase::visitNear(const glm::dvec3& tipMetres, Consider&& consider, double withinMetres) const {
+    for (const std::uint32_t surface : endless_) {
+        consider(std::size_t{surface});
+    }
+    const double squaredLimit = withinMetres * withinMetres;
+    tree_.visitNear(tipMetres, squaredLimit, [&](std::uint32_t item) {
+        consider(std::size_t{bounded_[item]});
+        return squaredLimit;
+    });
+}
 
 }  // namespace haptoflow::headless

@@ -4,11 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numeric>
 #include <stdexcept>
-#include <string>
 #include <tuple>
 #include <utility>
 
@@ -80,11 +78,6 @@ std::pair<std::uint32_t, std::uint32_t> edgeKey(std::uint32_t from, std::uint32_
 
 TriangleMesh::TriangleMesh(std::vector<glm::dvec3> vertices, const std::vector<Triangle>& triangles)
     : vertices_(std::move(vertices)) {
-    for (std::size_t index = 0; index < vertices_.size(); ++index) {
-        if (!isUsable(vertices_[index])) {
-            throw std::invalid_argument("vertex " + std::to_string(index) + " is not finite");
-        }
-    }
     joinVertices();
     keepTrianglesWithArea(triangles);
     findSides();
@@ -120,11 +113,6 @@ void TriangleMesh::keepTrianglesWithArea(const std::vector<Triangle>& triangles)
     for (std::size_t index = 0; index < triangles.size(); ++index) {
         Triangle corners{};
         for (std::size_t corner = 0; corner < 3; ++corner) {
-            if (triangles[index][corner] >= vertices_.size()) {
-                throw std::invalid_argument("triangle " + std::to_string(index) + " names vertex " +
-                                            std::to_string(triangles[index][corner]) + " of " +
-                                            std::to_string(vertices_.size()));
-            }
             corners[corner] = joined_[triangles[index][corner]];
         }
         const glm::dvec3 ab = vertices_[corners[1]] - vertices_[corners[0]];

@@ -45,8 +45,8 @@ public:
     /// Normals closer than this cosine (45 degrees) count as the same side.
     static constexpr double sameSideCosine = 0.7071;
 
-    /// Throws std::invalid_argument if a vertex is not finite, an index is out of range, or no triangle has an area.
-    /// Triangles without area are skipped.
+    /// Vertices are finite and indices in range, as parseScene requires. Triangles without area are skipped; throws
+    /// std::invalid_argument if all are.
     TriangleMesh(std::vector<glm::dvec3> vertices, const std::vector<Triangle>& triangles);
 
     [[nodiscard]] MeshPoint closestPoint(const glm::dvec3& point) const;

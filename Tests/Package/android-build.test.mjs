@@ -1,19 +1,10 @@
 // The build for Android: finding its tools in simulated installations of three systems, and the commands that use them.
 import assert from 'node:assert/strict';
-import { chmodSync, existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
-import os from 'node:os';
+import { chmodSync, existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import test from 'node:test';
-import { androidCommands, androidTools, buildAndroid, findCmake, findJsonHeader, findNdk, presetVariables, rebuildAndroid } from '../../scripts/build/android.mjs';
-
-async function inFolder(act) {
-  const folder = mkdtempSync(path.join(os.tmpdir(), 'haptoflow-android-'));
-  try {
-    await act(folder);
-  } finally {
-    rmSync(folder, { recursive: true, force: true });
-  }
-}
+import { androidCommands, androidTools, buildAndroid, findCmake, findJsonHeader, findNdk, presetVariables, rebuildAndroid } from '../../scripts/lib/android.mjs';
+import { inFolder } from './support/folder.mjs';
 
 function write(file, text = '') {
   mkdirSync(path.dirname(file), { recursive: true });

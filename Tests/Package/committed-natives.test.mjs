@@ -1,33 +1,23 @@
 // The native libraries in git, with which Unity plays a clone, and the record of what they were built from.
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
-import { appendFileSync, cpSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
-import os from 'node:os';
+import { cpSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import test from 'node:test';
 import { inRepository } from '../../scripts/lib/process.mjs';
-import { testsOfCommitted } from '../../scripts/lib/runtime_tests.mjs';
-import { checkNatives } from '../../scripts/lint/checks.mjs';
+import { checkNatives } from '../../scripts/lib/lint_checks.mjs';
 import { committedNatives, committedPlatforms, complaintsOf, complaintsOfRecord, fileInPackage, hashOfInterface, hashOfSources, importFolder, largestBytes, putIntoPackage, readRecord, sourceFiles } from '../../scripts/lib/libraries.mjs';
 import { findNatives, platforms, pluginsFolder } from '../../scripts/pack/natives.mjs';
 import { PackageFiles } from '../../scripts/pack/package_files.mjs';
 import { checkMetasAreThere, checkMetasAreWanted } from '../../scripts/pack/rules_of_files.mjs';
 import { checkPlugins } from '../../scripts/pack/rules_of_plugins.mjs';
 import { elfOf } from './support/elf.mjs';
+import { inFolder } from './support/folder.mjs';
 
 const git = (...words) => spawnSync('git', ['-C', inRepository(), ...words], { encoding: 'utf8' });
 const hasGit = git('rev-parse', '--is-inside-work-tree').status === 0;
 const notInGit = platforms.filter(({ isInGit }) => !isInGit);
 const package_ = 'Packages/com.haptoflow.runtime';
-
-function inFolder(act) {
-  const folder = mkdtempSync(path.join(os.tmpdir(), 'haptoflow-natives-'));
-  try {
-    return act(folder);
-  } finally {
-    rmSync(folder, { recursive: true, force: true });
-  }
-}
 
 /** A copy of what the build of the plugin reads. */
 const inCopy = (act) => inFolder((folder) => {
@@ -116,20 +106,32 @@ test('the hash of the sources is that of any checkout, with the line ends of Win
   });
 });
 
-for (const [what, name, change] of [
-  ['a source', 'NativePlugin/src/dsp/gate.cpp', (text) => `${text}// More.\n`],
-  ['a profile', 'NativePlugin/profiles/flat.json', (text) => `${text}\n`],
-  ['a compiler option', 'NativePlugin/cmake/HaptoFlowTargets.cmake', (text) => text.replace('-ffp-contract=off', '-ffp-contract=on')],
-  ['the version of ONNX Runtime\'s headers', 'package.json', (text) => text.replace(/(com\.github\.asus4\.onnxruntime": ")[^"]*/, '$10.5.0')],
-]) {
-  test(`${what} changes the hash of the sources and not that of the interface`, () => {
-    inCopy((folder) => {
+/** [what, file, change of its text, whether it is of the interface] */
+const changes = [
+  ['a source', 'NativePlugin/src/dsp/gate.cpp', (text) => `${text}// More.\n`, false],
+  ['a profile', 'NativePlugin/profiles/flat.json', (text) => `${text}\n`, false],
+  ['a compiler option', 'NativePlugin/cmake/HaptoFlowTargets.cmake', (text) => text.replace('-ffp-contract=off', '-ffp-contract=on'), false],
+  ['the version of ONNX Runtime\'s headers', 'package.json', (text) => text.replace(/(com\.github\.asus4\.onnxruntime": ")[^"]*/, '$10.5.0'), false],
+  ['a comment in the header', header, (text) => `${text}/* haptoflow_other(void) says more. */\n\n`, false],
+  ['a comment in Unity\'s header', 'NativePlugin/src/unity/audio_effect_sdk.hpp', (text) => text.replace('\n\n', '\n\n// More.\n\n'), false],
+  ['a field of a struct', header, (text) => text.replace('float force_newtons;', 'double force_newtons;'), true],
+  ['a function\'s parameter', header, (text) => text.replace('haptoflow_version(void)', 'haptoflow_version(int32_t form)'), true],
+  ['the value of a constant', header, (text) => text.replace('#define HAPTOFLOW_PHASES 6', '#define HAPTOFLOW_PHASES 7'), true],
+  ['the version', header, (text) => text.replace(/(HAPTOFLOW_VERSION_TEXT ")[^"]*/, '$199.0.0'), true],
+  ['a struct shared with Unity', 'NativePlugin/src/unity/audio_effect_sdk.hpp', (text) => text.replace(/\n( +)(std::)?uint32_t /, '\n$1$2uint64_t '), true],
+];
+
+test('every change of what the build reads changes the hash of the sources, and a declaration that of the interface too', () => {
+  inCopy((folder) => {
+    for (const [what, name, change, isOfInterface] of changes) {
+      const before = readFileSync(path.join(folder, name));
       changed(folder, name, change);
-      assert.notEqual(hashOfSources(folder), hashOfSources());
-      assert.equal(hashOfInterface(folder), hashOfInterface());
-    });
+      assert.notEqual(hashOfSources(folder), hashOfSources(), what);
+      assert.equal(hashOfInterface(folder) !== hashOfInterface(), isOfInterface, what);
+      writeFileSync(path.join(folder, name), before);
+    }
   });
-}
+});
 
 test('a source that is added or renamed changes the hash of the sources', () => {
   inCopy((folder) => {
@@ -140,29 +142,6 @@ test('a source that is added or renamed changes the hash of the sources', () => 
     rmSync(added);
     writeFileSync(added.replace('added', 'renamed'), '');
     assert.notEqual(hashOfSources(folder), withOne);
-  });
-});
-
-for (const [what, name, change] of [
-  ['a field of a struct', header, (text) => text.replace('float force_newtons;', 'double force_newtons;')],
-  ['a function\'s parameter', header, (text) => text.replace('haptoflow_version(void)', 'haptoflow_version(int32_t form)')],
-  ['the value of a constant', header, (text) => text.replace('#define HAPTOFLOW_PHASES 6', '#define HAPTOFLOW_PHASES 7')],
-  ['the version', header, (text) => text.replace(/(HAPTOFLOW_VERSION_TEXT ")[^"]*/, '$199.0.0')],
-  ['a struct shared with Unity', 'NativePlugin/src/unity/audio_effect_sdk.hpp', (text) => text.replace(/\n( +)(std::)?uint32_t /, '\n$1$2uint64_t ')],
-]) {
-  test(`${what} changes the hash of the interface`, () => {
-    inCopy((folder) => {
-      changed(folder, name, change);
-      assert.notEqual(hashOfInterface(folder), hashOfInterface());
-    });
-  });
-}
-
-test('a comment in the header does not change the hash of the interface', () => {
-  inCopy((folder) => {
-    appendFileSync(path.join(folder, ...header.split('/')), '/* haptoflow_other(void) says more. */\n\n');
-    changed(folder, 'NativePlugin/src/unity/audio_effect_sdk.hpp', (text) => text.replace('\n\n', '\n\n// More.\n\n'));
-    assert.equal(hashOfInterface(folder), hashOfInterface());
   });
 });
 
@@ -212,9 +191,4 @@ test('in git every .meta of the plugins\' folder has its file or folder, and eve
   const names = git('ls-files', '-z', root).stdout.split('\0').filter((name) => name !== '').map((name) => name.slice(root.length + 1));
   const files = new PackageFiles(new Map(names.map((name) => [name, ''])));
   assert.deepEqual([checkMetasAreThere, checkMetasAreWanted].flatMap((rule) => rule(files)), []);
-});
-
-test('the tests that Mono and the program compiled ahead of time run with the library in git exist', () => {
-  const source = readFileSync(inRepository('Tests', 'Dotnet', 'HaptoFlow.RepositoryTests', 'NativeBindingTests.cs'), 'utf8');
-  for (const name of testsOfCommitted) assert.match(source, new RegExp(`\\[Test\\]\\s+public void ${name}\\(\\)`), name);
 });

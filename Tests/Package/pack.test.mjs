@@ -1,7 +1,6 @@
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
-import { cpSync, existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
-import os from 'node:os';
+import { cpSync, existsSync, mkdirSync, readFileSync, symlinkSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import test from 'node:test';
 import { inRepository } from '../../scripts/lib/process.mjs';
@@ -10,17 +9,9 @@ import { placeInPackage, studiesName } from '../../scripts/pack/layout.mjs';
 import { stagePackage } from '../../scripts/pack/stage.mjs';
 import { filesOfZip, runtimeBytes, tableOfContents } from '../../scripts/pack/dependency.mjs';
 import { elfOf } from './support/elf.mjs';
+import { inFolder } from './support/folder.mjs';
 
 const pack = (...words) => spawnSync(process.execPath, [inRepository('scripts', 'pack.mjs'), ...words], { encoding: 'utf8' });
-
-function inFolder(act) {
-  const folder = mkdtempSync(path.join(os.tmpdir(), 'haptoflow-pack-'));
-  try {
-    return act(folder);
-  } finally {
-    rmSync(folder, { recursive: true, force: true });
-  }
-}
 
 const elf = (machine) => elfOf({ machine });
 const android = (versions = ['LIBC']) => elfOf({ machine: 183, libraries: ['libc.so'], versions });

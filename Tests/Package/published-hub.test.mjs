@@ -180,19 +180,6 @@ test('a long file may be cut as often as each try brings a mebibyte', async () =
   assert.deepEqual(readFileSync((await bring()).place), weights);
 });
 
-test('what a killed run left is taken up, and what a running one writes is not', async () => {
-  const { sha256 } = await weightsEntry();
-  const dead = spawnSync(process.execPath, ['-e', '']).pid;
-  mkdirSync(path.join(into, 'accel'), { recursive: true });
-  const partOf = (pid) => path.join(into, 'accel', `model.safetensors.${sha256.slice(0, 8)}.${pid}-0123abcd.part`);
-  writeFileSync(partOf(dead), weights.subarray(0, 700_000));
-  writeFileSync(partOf(process.pid), weights.subarray(0, 900_000));
-  const { place } = await bring();
-  assert.deepEqual(hub.ranges('model.safetensors'), ['bytes=700000-']);
-  assert.deepEqual(readFileSync(place), weights);
-  assert.deepEqual(filesOf(into).sort(), ['model.safetensors', path.basename(partOf(process.pid))].sort());
-});
-
 test('a part of another version of the file is not continued', async () => {
   mkdirSync(path.join(into, 'accel'), { recursive: true });
   writeFileSync(path.join(into, 'accel', 'model.safetensors.00000000.part'), noise(1000, 'older'));
@@ -206,12 +193,6 @@ test('a server that does not heed the range begins anew, and the file is whole',
   const { place } = await bring({ advance: (bytes) => heard.push(bytes) });
   assert.deepEqual(readFileSync(place), weights);
   assert.equal(heard.reduce((sum, bytes) => sum + bytes, 0), weights.length);
-});
-
-test('two runs at once bring the same file whole', async () => {
-  const both = await Promise.all([bring(), bring()]);
-  for (const { place } of both) assert.deepEqual(readFileSync(place), weights);
-  assert.deepEqual(filesOf(into), ['model.safetensors']);
 });
 
 test('wrong bytes are deleted, and the message states both SHA-256', async () => {

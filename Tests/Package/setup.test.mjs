@@ -1,8 +1,12 @@
+// What set-up installs.
 import assert from 'node:assert/strict';
-import { readFileSync } from 'node:fs';
+import { spawnSync } from 'node:child_process';
+import { chmodSync, existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
+import os from 'node:os';
+import path from 'node:path';
 import test from 'node:test';
-import { missingFromLock, missingPackages, offeredPackages, optionalPurposes, packagesByPurpose, selectPackages } from '../../scripts/lib/setup.mjs';
 import { inRepository } from '../../scripts/lib/process.mjs';
+import { bringDotnet, dotnetEnvironment, findDotnet, missingFromLock, missingPackages, offeredPackages, optionalPurposes, packagesByPurpose, selectPackages } from '../../scripts/lib/setup.mjs';
 
 test('the demo installs no PyTorch, no test library and no cross compiler', () => {
   for (const name of selectPackages(['build', 'drawings'])) assert.doesNotMatch(name, /torch|gtest|mingw|aarch64|wine|clang/);
@@ -69,3 +73,82 @@ test('the sentence of each optional purpose names its packages and where to get 
     for (const name of packagesByPurpose[purpose]) assert.ok(sentence.includes(name), `${purpose}: ${name}`);
   }
 });
+
+const posixOnly = process.platform === 'win32' ? 'the programs of this test are shell scripts' : false;
+const sdk = (version) => `test "$1" = --list-sdks && echo "${version} [/somewhere]"`;
+
+/** Runs a function on a simulated machine that has only the given programs: name -> shell text. `log` holds what they wrote. */
+async function onMachine(programs, act) {
+  const root = mkdtempSync(path.join(os.tmpdir(), 'haptoflow-dotnet-'));
+  try {
+    const bin = path.join(root, 'bin');
+    mkdirSync(bin);
+    for (const tool of ['sh', 'bash', 'mkdir', 'chmod', 'cat', 'env']) {
+      symlinkSync(spawnSync('sh', ['-c', `command -v ${tool}`], { encoding: 'utf8' }).stdout.trim(), path.join(bin, tool));
+    }
+    for (const [name, text] of Object.entries(programs)) {
+      writeFileSync(path.join(bin, name), `#!/bin/sh\n${text}\n`);
+      chmodSync(path.join(bin, name), 0o755);
+    }
+    const log = path.join(root, 'log');
+    const folder = path.join(root, 'build', 'dotnet');
+    const notes = () => (existsSync(log) ? readFileSync(log, 'utf8') : '');
+    return await act({ place: { folder, env: { PATH: bin, BIN: bin, LOG: log } }, folder, notes });
+  } finally {
+    rmSync(root, { recursive: true, force: true });
+  }
+}
+
+const noApt = 'echo "N: Unable to locate package"';
+const aptOffers = 'printf "dotnet-sdk-10.0:\\n  Installed: (none)\\n  Candidate: 10.0.1\\n  Version table:\\n"';
+const aptInstalls = 'echo "apt $*" >> $LOG; printf "#!/bin/sh\\n%s\\n" \'echo "10.0.100 [/x]"\' > $BIN/dotnet; chmod +x $BIN/dotnet';
+// A stand-in for Microsoft's script that logs its arguments and puts an SDK into the folder named in them.
+const curlBrings = `echo "curl $*" >> $LOG
+while [ $# -gt 1 ]; do [ "$1" = -o ] && to="$2"; shift; done
+cat > "$to" <<'SCRIPT'
+echo "script $*" >> $LOG
+while [ $# -gt 1 ]; do [ "$1" = --install-dir ] && to="$2"; shift; done
+printf '#!/bin/sh\\necho "10.0.203 [/y]"\\n' > "$to/dotnet"
+chmod +x "$to/dotnet"
+SCRIPT`;
+
+test('an SDK 10 on PATH is used and nothing is installed', { skip: posixOnly }, () =>
+  onMachine({ dotnet: sdk('10.0.401'), 'apt-cache': aptOffers, 'apt-get': aptInstalls, curl: curlBrings }, async ({ place, notes }) => {
+    assert.equal(await bringDotnet({ ...place, asRoot: [] }), 'dotnet');
+    assert.equal(notes(), '');
+  }));
+
+test('an older SDK is not used, and apt installs the right one where it offers it', { skip: posixOnly }, () =>
+  onMachine({ dotnet: sdk('8.0.100'), 'apt-cache': aptOffers, 'apt-get': aptInstalls, curl: curlBrings }, async ({ place, notes }) => {
+    assert.equal(findDotnet(place), null);
+    assert.equal(await bringDotnet({ ...place, asRoot: [] }), 'dotnet');
+    assert.match(notes(), /^apt install .*dotnet-sdk-10\.0$/m);
+    assert.doesNotMatch(notes(), /curl/);
+  }));
+
+test('without an offer of apt the install script puts the SDK into the folder, without root, and it is used from there', { skip: posixOnly }, () =>
+  onMachine({ 'apt-cache': noApt, 'apt-get': aptInstalls, curl: curlBrings }, async ({ place, folder, notes }) => {
+    const brought = await bringDotnet({ ...place, asRoot: null });
+    assert.equal(brought, path.join(folder, 'dotnet'));
+    assert.match(notes(), /^curl .*https:\/\/dot\.net\/v1\/dotnet-install\.sh$/m);
+    assert.match(notes(), new RegExp(`^script --channel 10\\.0 --install-dir ${folder} --no-path$`, 'm'));
+    assert.doesNotMatch(notes(), /^apt /m);
+    assert.equal(findDotnet(place), brought);
+    assert.equal(dotnetEnvironment(brought).DOTNET_ROOT, folder);
+    const again = await bringDotnet({ ...place, asRoot: null });
+    assert.equal(again, brought);
+    assert.equal(notes().match(/^curl/gm).length, 1);
+  }));
+
+for (const [what, curl] of [['cannot be fetched', 'echo "curl: (6) Could not resolve host: dot.net" >&2; exit 6'], ['fails', curlBrings.replace('echo "script', 'echo "no space left"; exit 1; echo "script')]]) {
+  test(`where apt has none and the script ${what} one line gives the reasons and the command to run`, { skip: posixOnly }, () =>
+    onMachine({ 'apt-cache': noApt, curl }, async ({ place, folder }) => {
+      await assert.rejects(bringDotnet({ ...place, asRoot: [] }), (error) => {
+        assert.equal(error.exitCode, 2);
+        assert.doesNotMatch(error.message, /\n/);
+        assert.match(error.message, /apt has no dotnet-sdk-10\.0; Microsoft's install script (cannot be fetched: curl: \(6\)|ended with 1: no space left)/);
+        assert.ok(error.message.endsWith(`curl -fsSL https://dot.net/v1/dotnet-install.sh | bash -s -- --channel 10.0 --install-dir ${folder}`));
+        return true;
+      });
+    }));
+}

@@ -6,7 +6,7 @@ import path from 'node:path';
 import test, { after, before } from 'node:test';
 import { committedNatives } from '../../scripts/lib/libraries.mjs';
 import { inRepository } from '../../scripts/lib/process.mjs';
-import { repositoryFiles } from '../../scripts/lint/checks.mjs';
+import { repositoryFiles } from '../../scripts/lib/lint_checks.mjs';
 import { checkPackage } from '../../scripts/pack/check_package.mjs';
 import { dependencyName, packDependency } from '../../scripts/pack/dependency.mjs';
 import { packageName, studiesName } from '../../scripts/pack/layout.mjs';
@@ -60,7 +60,7 @@ test('the tarball has every library that was built or is in git with its import 
 
 test('the tarballs have model, samples, pages, tests, licence and notices, and nothing else of the repository', () => {
   const parts = [
-    'Runtime/Models/default.haptoflow', 'Runtime/Mixer/HaptoFlow.mixer', 'Editor/HaptoFlow.Editor.asmdef', 'Samples~/StylusTracing/StylusTracing.unity', 'Samples~/HeadlessScenes/crossing.scene.json',
+    'Runtime/Models/default.haptoflow', 'Runtime/Prefabs/HaptoFlow.mixer', 'Editor/HaptoFlow.Editor.asmdef', 'Samples~/StylusTracing/StylusTracing.unity', 'Samples~/HeadlessScenes/crossing.scene.json',
     'Documentation~/installation.md', 'Documentation~/index.html', 'Tests/Runtime/HaptoFlow.Tests.asmdef', 'CHANGELOG.md', 'Third Party Notices.md',
   ];
   for (const name of parts) assert.ok(files.has(name), name);
@@ -93,14 +93,14 @@ test('a player leaves the sample scenes out: nothing but a scene calls into thei
 });
 
 test('the mixer has the library\'s effect behind the attenuation, on a channel of its own, never suspended, under the names that the code looks for', () => {
-  const mixer = files.text('Runtime/Mixer/HaptoFlow.mixer');
+  const mixer = files.text('Runtime/Prefabs/HaptoFlow.mixer');
   assert.match(mixer, /m_EnableSuspend: 0/);
   const [, effects] = mixer.match(/m_Effects:\n((?: {2}- \{fileID: \d+\}\n)+)/);
   const order = [...effects.matchAll(/fileID: (\d+)/g)].map(([, anchor]) => mixer.match(new RegExp(`&${anchor}\\n[\\s\\S]*?m_EffectName: (.*)`))[1]);
   assert.deepEqual(order, ['Attenuation', 'HaptoFlow Voice']);
   assert.match(read('NativePlugin', 'src', 'unity', 'audio_effect_entry.cpp'), new RegExp(`"${order[1]}"`));
   const parameters = new Map([...mixer.matchAll(/m_ParameterName: (\w+)\n {4}m_GUID: ([0-9a-f]{32})/g)].map(([, name, id]) => [id, name]));
-  assert.deepEqual([...parameters.values()], [...read('NativePlugin', 'src', 'unity', 'voice_parameters.cpp').matchAll(/\.name = \{"(\w+)"\}/g)].map(([, name]) => name));
+  assert.deepEqual([...parameters.values()], [...read('NativePlugin', 'src', 'unity', 'voice_effect.cpp').matchAll(/\.name = \{"(\w+)"\}/g)].map(([, name]) => name));
   const values = Object.fromEntries([...mixer.matchAll(/^ {4}([0-9a-f]{32}): (.*)$/gm)].map(([, id, value]) => [parameters.get(id), Number(value)]));
   assert.deepEqual(values, { Strength: 1, Voice: 0, Channel: 1 });
   const exposed = Object.fromEntries([...mixer.matchAll(/- guid: ([0-9a-f]{32})\n {4}name: (\w+)/g)].map(([, id, name]) => [name, parameters.get(id)]));

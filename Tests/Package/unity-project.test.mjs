@@ -2,14 +2,17 @@
 // nothing to write, as far as files can say.
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
+import { readFileSync } from 'node:fs';
 import test from 'node:test';
+import { repositoryFiles } from '../../scripts/lib/lint_checks.mjs';
 import { inRepository } from '../../scripts/lib/process.mjs';
 import { PackageFiles } from '../../scripts/pack/package_files.mjs';
 import { guidsByName } from '../../scripts/pack/rules_of_files.mjs';
-import { projectFiles, rules } from '../../scripts/project/rules.mjs';
+import { manifestName, rules, writableFolders } from '../../scripts/pack/rules_of_projects.mjs';
 
-const files = await projectFiles();
-const feature = 'Packages/com.haptoflow.runtime/Runtime/Inputs/OpenXr/MxInkInteraction.cs';
+const isOfProject = (name) => name.startsWith('ProjectSettings/') || name === manifestName || writableFolders.some((folder) => name.startsWith(`${folder}/`));
+const files = new PackageFiles(new Map((await repositoryFiles()).filter(isOfProject).map((name) => [name, readFileSync(inRepository(name))])));
+const feature = 'Packages/com.haptoflow.runtime/Runtime/OpenXr/MxInkInteraction.cs';
 
 const complaintsOf = (changed) => Object.entries(rules).flatMap(([name, rule]) => rule(changed).map((complaint) => [name, complaint]));
 
@@ -182,7 +185,7 @@ test('git ignores what Unity, Rider and Visual Studio write', () => {
 test('git ignores nothing that the project is made of', () => {
   for (const name of [
     'Packages/manifest.json', 'ProjectSettings/ProjectSettings.asset', 'ProjectSettings/GraphicsSettings.asset', 'Assets/Desk.unity', 'Assets/Logs/x.txt', 'Assets/Library/x.asset',
-    'Tests/Dotnet/HaptoFlow.Core/HaptoFlow.Core.csproj', 'Tests/Dotnet/HaptoFlow.slnx', 'Packages/com.haptoflow.studies/Runtime/Logs/StudyLog.cs',
+    'Tests/Dotnet/HaptoFlow.Core.csproj', 'Tests/Dotnet/HaptoFlow.slnx', 'Packages/com.haptoflow.studies/Runtime/Logs/StudyLog.cs',
   ]) assert.ok(!isIgnored(name), name);
   assert.equal(git('ls-files', '--cached', '--ignored', '--exclude-standard').stdout, '');
 });

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import atexit
 import dataclasses
+import shutil
+import tempfile
 from pathlib import Path
 
 import numpy as np
@@ -12,10 +15,26 @@ from dataset_samples import small_recording
 from haptoflow_training.recordings.recording import Recording
 
 GOLDEN = Path(__file__).resolve().parents[1] / "Golden" / "parquet"
-COLUMNS, HUB = GOLDEN / "columns", GOLDEN / "hub"
+COLUMNS, HUB_FILES = GOLDEN / "columns", GOLDEN / "hub"
 # After 2^53 ns (104 days) a double cannot count single nanoseconds.
 FIRST_NANOSECONDS = 1_764_000_000_123_456_789
 HUB_NAMES = ("0_0_40_500_0", "0_90_40_500_1", "38_0_40_500_0", "38_90_40_500_1", "49_0_40_500_0")
+
+
+def _hub_release() -> Path:
+    """The files of `hub` in the layout of the data set's hub release, for as long as this process lasts."""
+    root = Path(tempfile.mkdtemp(prefix="hub-"))
+    atexit.register(shutil.rmtree, root, ignore_errors=True)
+    for file in HUB_FILES.glob("*.parquet"):
+        kind, name = file.stem.split("_", 1)
+        target = root / "sensor_data" / kind / name.split("_")[0] / f"{name}.parquet"
+        target.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(file, target)
+    shutil.copy(HUB_FILES / "texture_list.xlsx", root)
+    return root
+
+
+HUB = _hub_release()
 
 
 def column_table(rows: int, *, missing: bool = True) -> pandas.DataFrame:

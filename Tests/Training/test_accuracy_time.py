@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import zlib
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -13,18 +12,17 @@ import numpy as np
 import pytest
 from matplotlib import pyplot
 
-from haptoflow_paper.metrics.judged_figures import BY_KEY
-from haptoflow_paper.reference.reference_conditions import Condition, conditions
-from haptoflow_paper.reference.reference_rows import REFERENCE_ROWS, reference_waves
-from haptoflow_paper.reference.reference_set import ReferencePair
+from haptoflow_paper.report.cell_figures import BY_KEY
+from haptoflow_paper.rows.reference_conditions import Condition, conditions
+from haptoflow_paper.rows.reference_set import REFERENCE_ROWS, ReferencePair, reference_waves
 from haptoflow_paper.report.accuracy_time import table, timed_rows, with_times
 from haptoflow_paper.report.accuracy_time_chart import PANELS, chart_points, draw_chart, draw_panel, draw_spectra
 from haptoflow_paper.report.accuracy_time_report import write_document
 from haptoflow_paper.rows import accuracy
 from haptoflow_paper.rows.row_plan import PlannedRow
-from haptoflow_paper.rows.row_store import read_row
+from haptoflow_paper.rows.row_runner import weights_crc32
+from haptoflow_paper.rows.workplace import read_row
 from haptoflow_paper.rows.row_summary import median_interval, summary, with_interval
-from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.model_stamp import SHIPPED_MODEL
 
 ROOT = Path(__file__).parents[2]
@@ -138,11 +136,10 @@ def test_the_page_covers_the_measured_rows_and_starts_with_who_is_ahead(
     assert all((images / name).stat().st_size > 5000 for name in ("accuracy-time.png", "label-spectra.png"))
 
 
-@pytest.mark.parametrize("tier", ["draft", "standard"])
-def test_the_stored_row_of_each_shipped_tier_was_measured_with_the_shipped_graphs(tier: str) -> None:
-    graphs = read_model_file(ROOT / SHIPPED_MODEL).graphs
+@pytest.mark.parametrize("tier", ["sketch", "draft", "standard"])
+def test_the_stored_row_of_each_shipped_tier_was_measured_with_the_shipped_weights(tier: str) -> None:
     row = json.loads((ROOT / "Training" / "haptoflow_paper" / "results" / "rows" / f"{tier}-1.json").read_text(encoding="utf-8"))
-    assert row["made_from"]["graphs_crc32"] == f"{zlib.crc32(b''.join(graphs.values())):08x}"
+    assert row["made_from"]["graphs_crc32"] == weights_crc32(ROOT / SHIPPED_MODEL)
 
 
 matplotlib.use("Agg")

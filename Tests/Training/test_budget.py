@@ -12,7 +12,7 @@ import pytest
 
 from haptoflow_paper.runs.configuration import EvaluatedConfig
 from haptoflow_paper.runs.trainer import EvaluatedTrainer
-from haptoflow_training.commands.minutes import TiersMinutes
+from haptoflow_training.commands.train import TiersMinutes
 from haptoflow_training.training import trainer as trainer_module
 from haptoflow_training.training.budget import Budget
 from haptoflow_training.training.trainer import TimeLimit, Trainer, TrainingStopped, load_trained

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import sys
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 from types import ModuleType, SimpleNamespace
@@ -15,11 +16,13 @@ import torch
 
 from haptoflow_benchmark.engine_library import EngineLibrary, default_engine
 from haptoflow_paper.cli import main
-from haptoflow_paper.published.check import parity as reference_module
-from haptoflow_paper.published.check.lines import FAIL, NOT_APPLICABLE, PASS, Line
-from haptoflow_paper.published.check.parity import parity_lines
-from haptoflow_paper.published.check.points import BUDGET_MS, Measured, Point, points_of, time_lines
-from haptoflow_paper.published.check.signals import LabelWaves, signal_lines
+from haptoflow_paper.commands import check_published
+from haptoflow_paper.published import check_points
+from haptoflow_paper.published import check_parity as reference_module
+from haptoflow_paper.published.check_lines import FAIL, NOT_APPLICABLE, PASS, Line
+from haptoflow_paper.published.check_parity import parity_lines
+from haptoflow_paper.published.check_points import BUDGET_MS, Measured, Point, points_of, time_lines
+from haptoflow_paper.published.check_signals import LabelWaves, signal_lines
 from haptoflow_paper.published.checkpoint import read_checkpoint
 from haptoflow_paper.published.published_file import PublishedFile
 from haptoflow_paper.published.published_model import PublishedModel
@@ -32,6 +35,15 @@ from published_samples import (
 )
 
 ROOT = Path(__file__).parents[2]
+
+
+@pytest.fixture(scope="module", autouse=True)
+def one_block() -> Iterator[None]:
+    """Times of one short block of each pace: their figures are no test's."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(check_points, "_BLOCKS", 1)
+        patch.setattr(check_published, "_LEAST_RUNS", 2)
+        yield
 
 
 @pytest.fixture(scope="module")
@@ -57,6 +69,7 @@ def _parity(engine: EngineLibrary, path: Path, folder: Path | None) -> tuple[lis
     return parity_lines(read_model_file(path), path, folder, None, engine, ROOT)
 
 
+@pytest.mark.long(because="check-published runs whole; its lines of parity, signal and time are tested below")
 class TestReport:
     """The whole command on a small import."""
 
@@ -65,7 +78,7 @@ class TestReport:
         out = tmp_path_factory.mktemp("check")
         arguments = ["check-published", str(imported["heun"]), "--folder", str(PUBLISHED / "heun")]
         # Random weights have not the data set's level and spectrum.
-        assert main([*arguments, "--seconds-limit", "3", "-o", str(out)]) == 3
+        assert main([*arguments, "--seconds-limit", "0.5", "-o", str(out)]) == 3
         return out
 
     def test_the_page_has_every_line_of_the_json_and_both_pictures(self, out: Path) -> None:
@@ -97,8 +110,9 @@ class TestReport:
         assert all(each["difference"] > 0.0 and each["paced_ms"]["p50"] > 0.0 for each in points[:-1])
 
 
+@pytest.mark.long(because="check-published runs whole; its lines of parity, signal and time are tested below")
 def test_a_file_that_is_no_import_is_measured_and_its_parity_does_not_apply(tmp_path: Path) -> None:
-    code = main(["check-published", str(ROOT / SHIPPED_MODEL), "--seconds-limit", "2", "-o", str(tmp_path)])
+    code = main(["check-published", str(ROOT / SHIPPED_MODEL), "--seconds-limit", "0.5", "-o", str(tmp_path)])
     report = json.loads((tmp_path / "check.json").read_text(encoding="utf-8"))
     lines = {line["name"]: line for line in report["lines"]}
     assert lines["the file against the checkpoint"]["verdict"] == NOT_APPLICABLE
@@ -295,6 +309,10 @@ class TestTimes:
         assert BUDGET_MS == pytest.approx(1000.0 * 0.25 / 72.0)
 
 
+@pytest.mark.long(
+    because="a network of the published sizes is exported and run; test_published_engine.py holds the engine to the "
+    "authors' own arrays at small sizes"
+)
 def test_a_model_of_the_published_sizes_computes_the_same_in_the_engine_as_in_pytorch(tmp_path: Path) -> None:
     checkpoint = read_checkpoint(write_checkpoint_of_published_sizes(tmp_path / "published"))
     file = PublishedFile(checkpoint)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from haptoflow_training.closed_loop.render import PhaseTrack, SurfaceStatistics, run_closed_loop, spliced
+from haptoflow_training.training.closed_loop import PhaseTrack, SurfaceStatistics, run_closed_loop, spliced
 from haptoflow_training.recordings.synthetic import Material, load_materials
 from haptoflow_training.recordings.synthetic.features import rib_wander_turns, slips_of
 from haptoflow_training.recordings.synthetic.surface import TipPath
@@ -19,9 +19,11 @@ from training_fixtures import still_surfaces
 class Probe:
     """Records its requests and returns segments that count upwards."""
 
+    pasts, noise_before = 1, 0
+
     def __init__(self) -> None:
         self.motions: list[np.ndarray] = []
-        self.pasts: list[np.ndarray] = []
+        self.continued: list[np.ndarray] = []
         self.phases: list[np.ndarray] = []
         self.noises: list[np.ndarray] = []
 
@@ -35,9 +37,9 @@ class Probe:
     ) -> np.ndarray:
         self.phases.append(phases.copy())
         self.motions.append(motions.copy())
-        self.pasts.append(previous_mps2.copy())
+        self.continued.append(previous_mps2[:, 0].copy())
         self.noises.append(noise.copy())
-        return np.tile(1000.0 * len(self.pasts) + np.arange(200), (len(embeddings), 1)).astype(np.float32)
+        return np.tile(1000.0 * len(self.continued) + np.arange(200), (len(embeddings), 1)).astype(np.float32)
 
 
 @pytest.mark.parametrize("rate_hz", [30.0, 72.0, 120.0])
@@ -48,7 +50,7 @@ def test_each_past_is_the_two_hundred_samples_before_the_segment(rate_hz: float)
         update_rate_hz=rate_hz, seed=1,
     )  # fmt: skip
     padded = np.concatenate([np.zeros((2, 200), np.float32), run.waves], axis=1)
-    for start, past in zip(run.hop_starts, probe.pasts, strict=True):
+    for start, past in zip(run.hop_starts, probe.continued, strict=True):
         np.testing.assert_array_equal(past, padded[:, start : start + 200])
 
 

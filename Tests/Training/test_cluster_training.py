@@ -15,16 +15,17 @@ import pytest
 
 from haptoflow_benchmark.engine_render import render_motion
 from haptoflow_training.cli import main
+from haptoflow_training.commands import train_tiers
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.model_file import read_model_file
-from haptoflow_training.recordings.cluster_dataset import open_dataset
+from haptoflow_training.recordings.cluster_dataset import labels_of_textures, open_dataset
 from haptoflow_training.recordings.dataset_writer import TextureEntry, write_recording, write_texture_list
 from haptoflow_training.recordings.labels import LabelDefinition, LabelMap, load_labels
 from haptoflow_training.recordings.recording import Recording, RecordingIdentity
 from haptoflow_training.recordings.synthetic import load_materials, record_machine_condition
-from haptoflow_training.recordings.texture_labels import labels_of_textures
 from parquet_samples import HUB
 from test_skeleton_training import SMALL_BASE, SMALL_STANDARD
+from training_fixtures import run_here
 
 NAME = "tamago117/cluster-haptic-texture-dataset"
 SCRIPT = Path(__file__).resolve().parents[2] / "scripts" / "train.mjs"
@@ -76,6 +77,10 @@ def small(tmp_path: Path) -> list[str]:
     return ["--configs", "configs", "--out", "runs", "--lanes", "1", "--export", "cluster.haptoflow"]
 
 
+@pytest.mark.long(
+    because="a model is trained, two steps long, on files from a hub on the loopback address; "
+    "test_recordings_from_a_folder_become_a_model_of_the_shipped_kind trains such a model from a folder"
+)
 def test_a_model_of_chosen_textures_has_their_labels_and_licence(tmp_path: Path, small: list[str]) -> None:
     with loopback_hub() as (hub, _):
         ended = _train(hub, tmp_path, "--textures", "0,38", "--into", "data", *small)
@@ -86,6 +91,10 @@ def test_a_model_of_chosen_textures_has_their_labels_and_licence(tmp_path: Path,
     assert header["provenance"]["licence"] == "CC BY 4.0"
 
 
+@pytest.mark.long(
+    because="PyTorch starts four times; Tests/Package/cluster.test.mjs downloads chosen textures, damaged ones again, and reads "
+    "the training's words"
+)
 def test_chosen_textures_are_downloaded_once_and_handed_to_the_training(tmp_path: Path) -> None:
     words = ["--textures", "0,38", "--into", "data", "--configs", "gone"]
     with loopback_hub() as (hub, asked):
@@ -128,9 +137,9 @@ ROOT = Path(__file__).parents[2]
 CONFIGURATIONS = ROOT / "Training" / "configs" / "cluster"
 # Only sizes and steps are smaller than in the recipe.
 SMALLER = {
-    "base": "[model]\nhidden = 8\n[optimiser]\nlevel_steps = 2\nsteps = 2\nbatch_size = 4\n"
+    "base": "[model]\nhidden = [8, 8]\n[optimiser]\nlevel_steps = 2\nsteps = 2\nbatch_size = 4\n"
     "[recipe]\nfilter_steps = 2\nenergy_steps = 1\nenergy_batch_size = 2\nself_forcing_steps = 1\n",
-    "draft": "[model]\nhidden = 8\nwidth = 8\nprevious_width = 4\n[optimiser]\nbatch_size = 4\n"
+    "draft": "[model]\nhidden = [8, 8]\nwidth = 8\nprevious_width = 4\n[optimiser]\nbatch_size = 4\n"
     "[recipe]\nenergy_steps = 1\nenergy_batch_size = 2\nself_forcing_steps = 1\n",
 }
 SMALLER["standard"] = SMALLER["draft"]
@@ -168,7 +177,7 @@ def model(data_set: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     file = folder / "cluster.haptoflow"
     words = ["--configs", str(configs), "--recordings", str(data_set), "--out", str(folder / "runs"), "--lanes", "1"]
     with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("PYTHONPATH", str(ROOT / "Training"))
+        patch.setattr(train_tiers, "run_jobs", run_here)
         assert main(["train-tiers", *words, "--export", str(file)]) == 0
     return file
 

@@ -152,7 +152,7 @@ def test_a_checkpoint_of_another_configuration_is_refused(store: Store, tmp_path
         ("[training]\noutput_folder = 'a'\nshape = 3", r"\[training\] shape is unknown"),
         ("[optimiser]", "'optimiser' is unknown"),
         ("codec = 3", "'codec' is a value"),
-        ("[training", "not a TOML file"),
+        ("[training", "not valid TOML"),
     ],
 )
 def test_a_wrong_configuration_names_file_and_key(tmp_path: Path, text: str, message: str) -> None:

@@ -13,11 +13,10 @@ import pytest
 from dataset_samples import small_recording
 from haptoflow_training.cli import main
 from haptoflow_training.errors import InputError
-from haptoflow_training.recordings.apparatus import plane_powers, x_over_y_db
+from haptoflow_training.recordings.dataset_inspection import inspect_dataset, plane_powers, x_over_y_db
 from haptoflow_training.recordings.cluster_dataset import open_dataset, read_texture_list
 from haptoflow_training.recordings.cluster_dataset_files import DatasetFileError
 from haptoflow_training.recordings.dataset import Dataset
-from haptoflow_training.recordings.dataset_inspection import inspect_dataset
 from haptoflow_training.recordings.dataset_layout import published_name
 from haptoflow_training.recordings.dataset_writer import TextureEntry, write_recording, write_texture_list
 from haptoflow_training.recordings.labels import load_labels
@@ -81,13 +80,13 @@ def test_a_file_half_written_is_never_seen(tmp_path: Path, monkeypatch: pytest.M
     before = {path: path.read_bytes() for path in tmp_path.rglob("*.csv")}
 
     def half(self: Path, data: bytes) -> None:
-        assert self.name.startswith("."), "a reader could see this file"
+        assert self.suffix == ".part", "a reader could see this file"
         with self.open("wb") as file:
             file.write(data[: len(data) // 2])
-        raise OSError("No space left on device")
+        raise OSError(28, "No space left on device")
 
     monkeypatch.setattr(Path, "write_bytes", half)
-    with pytest.raises(OSError, match="No space"):
+    with pytest.raises(InputError, match="No space"):
         write_recording(tmp_path, small_recording(seconds=0.6))
     assert {path: path.read_bytes() for path in tmp_path.rglob("*.csv")} == before
 

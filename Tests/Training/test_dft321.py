@@ -9,7 +9,7 @@ from scipy import signal
 
 from haptoflow_training.native_library import native_library
 from haptoflow_training.preprocessing.dft321 import dft321
-from haptoflow_training.recordings.native_recording import EvenRecording, as_native
+from haptoflow_training.recordings.native_recording import as_native
 
 RATE_HZ = 8000
 CENTRES_HZ = 1000.0 * 2.0 ** (np.arange(-17, 0) / 3.0)
@@ -81,9 +81,8 @@ def test_dft321_keeps_the_length_of_inputs_around_the_frame_length(count: int) -
 
 def combined_by_the_library(axes: NDArray[np.float64]) -> NDArray[np.float32]:
     """One axis of 10 to 1000 Hz, as learning hears axes [n, 1 or 3] at 2 kHz."""
-    recording = EvenRecording(2000.0, axes.astype(np.float32), None, None)
     wave = np.zeros(len(axes), np.float32)
-    with as_native(recording) as handle:
+    with as_native(axes.astype(np.float32), np.zeros((len(axes), 2), np.float32), wave) as handle:
         pointer = wave.ctypes.data_as(ctypes.POINTER(ctypes.c_float))
         native_library().call("haptoflow_recording_wave", handle, pointer, ctypes.c_uint64(len(wave)))
     return wave

@@ -14,17 +14,18 @@ from published_samples import PUBLISHED
 
 from haptoflow_benchmark.engine_library import default_engine
 from haptoflow_paper.cli import main
-from haptoflow_paper.distil.rendering import (
+from haptoflow_paper.runs.distil_rendering import (
     SETTLING_SAMPLES, Rendering, generated_path, render_all, rendered, start_generated, write_generated, write_labels
 )
-from haptoflow_paper.distil.teacher import MotionRange, Teacher, strokes_of
+from haptoflow_paper.runs.distil_teacher import MotionRange, Teacher, strokes_of
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.preprocessing.pipeline import preprocess_parts
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
-from haptoflow_training.recordings.generated_dataset import GENERATED_FILE, GeneratedOrigin, open_generated
+from haptoflow_training.recordings.open_recordings import (
+    GENERATED_FILE, GeneratedOrigin, open_generated, open_recordings
+)
 from haptoflow_training.recordings.labels import load_labels
-from haptoflow_training.recordings.open_recordings import open_recordings
 from haptoflow_training.recordings.recording import RecordingIdentity
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -139,6 +140,7 @@ def test_a_recordings_vibration_belongs_to_its_motion_and_not_to_the_one_before(
     np.testing.assert_allclose(forces[40:], 1.0, atol=1e-5)
 
 
+@pytest.mark.long(because="strokes are rendered three times; the other tests render and prepare them once")
 def test_renderings_are_found_again_and_a_killed_one_goes_on(teacher: Teacher, tmp_path: Path) -> None:
     rendering = Rendering(teacher, 2, 10.0, 5)
     counted: list[int] = []
@@ -200,6 +202,10 @@ def test_words_that_cannot_be_meant_are_refused_before_anything_is_rendered(
     assert not (tmp_path / "work").exists()
 
 
+@pytest.mark.long(
+    because="a flow model is distilled whole; the tests beside it render and prepare its recordings, and "
+    "test_a_cluster_training_has_the_tiers_that_ship_and_states_the_data_set trains and exports such tiers"
+)
 def test_the_whole_way_from_a_flow_model_to_what_ships(model: Path, tmp_path: Path) -> None:
     out, work = tmp_path / "out.haptoflow", tmp_path / "work"
     command = ["distil", str(model), "-o", str(out), "--work", str(work), "--labels", "wood", "--update-hz", "10"]

@@ -30,12 +30,13 @@ def _golden_cases() -> list[dict[str, object]]:
     return cases
 
 
-def test_the_engine_s_segments_equal_those_of_pytorch(engine: EngineLibrary) -> None:
+def test_the_engine_s_segments_of_a_skeleton_equal_those_of_pytorch(engine: EngineLibrary) -> None:
     model = ROOT / "Packages" / "com.haptoflow.runtime" / "Runtime" / "Models" / "default.haptoflow"
-    for case in _golden_cases():
+    # A batch holds one past; what a network makes of two is tested natively.
+    for case in (case for case in _golden_cases() if case["tier"] == "sketch"):
         with EngineGenerator(engine, model, str(case["tier"]), str(case["solver"]), int(str(case["steps"]))) as generator:
             embedding, motion, previous, noise = (
-                np.array([case[key], case[key]], dtype=np.float32) for key in ("embedding", "motion", "previous", "noise")
+                np.array([case[key], case[key]], dtype=np.float32) for key in ("embedding", "motion", "own", "noise")
             )
             phases = np.array([case["phases"], case["phases"]], dtype=np.float32)
             made = generator.generate(embedding, motion, previous, noise, phases)

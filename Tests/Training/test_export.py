@@ -28,18 +28,16 @@ from haptoflow_paper.runs.trainer import EvaluatedTrainer
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.exponents import fit_exponents
 from haptoflow_training.export.exporter import export_run
-from haptoflow_training.export.label_info import LabelInfo
+from haptoflow_training.recordings.landing import LabelInfo, Landing, LandingMode, RibWander, StickSlip
 from haptoflow_training.export.model_file import (
-    VERSION, ModelFile, encode_model_file, model_space, read_model_file, write_model_file
+    VERSION, ModelFile, encode_model_file, model_space, read_model_file, with_label, write_model_file
 )
-from haptoflow_training.export.onnx_graphs import export_graph
+from haptoflow_training.export.trained_tier import export_graph
 from haptoflow_training.export.skeleton_tensors import condition_tensors, skeleton_tensors, skeleton_weights
-from haptoflow_training.fewshot.add_label import with_label
 from haptoflow_training.models.conditioning import MotionFeatures
 from haptoflow_training.models.level_model import LevelModel
-from haptoflow_training.models.skeleton import Skeleton
-from haptoflow_training.models.surface_waves import rate_features
-from haptoflow_training.recordings.landing import Landing, LandingMode, RibWander, StickSlip
+from haptoflow_training.models.skeleton import ATOMS, TAIL_THRESHOLDS, TAPS, Skeleton, SkeletonGains
+from haptoflow_training.models.label_embedding import rate_features
 from haptoflow_training.training.batches import HeldOut
 from haptoflow_training.training.recordings_source import Provenance, Source
 from haptoflow_training.training.trainer import Trainer
@@ -316,10 +314,12 @@ def _part(weights: dict[str, torch.Tensor], name: str, module: nn.Module) -> nn.
 
 def test_level_and_skeleton_are_written_again_as_they_were_read(file: ModelFile) -> None:
     weights = skeleton_weights(file)
-    level, skeleton = _part(weights, "level.", LevelModel()), _part(weights, "skeleton.", Skeleton())
+    # Of two perceptrons or one, a file knows one.
+    skeleton = _part(weights, "skeleton.", Skeleton((file.header["skeleton"]["hidden"],)))
+    level = _part(weights, "level.", LevelModel())
     assert isinstance(level, LevelModel) and isinstance(skeleton, Skeleton)
     for name, tensor in skeleton_tensors(level, skeleton).items():
-        np.testing.assert_array_equal(tensor, file.tensors[name])
+        np.testing.assert_allclose(tensor, file.tensors[name], rtol=1e-6, atol=0.0)
 
 
 SKELETON_FILE_GOLDEN = GOLDEN / "model"
@@ -397,6 +397,41 @@ def test_the_tensors_alone_give_level_filter_and_the_film_with_its_factors(
 
         film = _perceptron(skeleton_file, "standard.condition", _moving_condition(case))
         np.testing.assert_allclose(film, case["film"], atol=1e-4)
+
+
+def _kernels(skeleton: Skeleton, gains: SkeletonGains) -> NDArray[np.float64]:
+    """[2, thresholds, 64]: how the impulses of the positive tail and of the negative one ring."""
+    return (gains.impulses.reshape(2, len(TAIL_THRESHOLDS), ATOMS) @ skeleton.impulses.atoms).numpy()
+
+
+def test_the_golden_stream_is_made_sample_by_sample_by_one_filter_whose_impulses_ring_on() -> None:
+    stream = json.loads((SKELETON_FILE_GOLDEN / "skeleton.stream.json").read_text(encoding="utf-8"))
+    sketch = make_skeleton_model.exact(*make_skeleton_model.build())[0]
+    skeleton = sketch.skeleton
+    scales = skeleton.impulses.scales.flatten()[: len(TAIL_THRESHOLDS)].numpy()
+    past, ringing = list(stream["begun"]), np.zeros(500)
+    for state in stream["states"]:
+        given = sketch.embedding(torch.tensor([state["label"]])), torch.tensor([state["motion"]]).double()
+        phases = torch.tensor([state["phases"]]).double()
+        gains = skeleton.gains(*given, phases)
+        kernels, gain = _kernels(skeleton, gains), gains.log_gain.exp().item()
+        coefficients = gains.coefficients[0].numpy()
+        waves = [skeleton.swing_waves(phases), skeleton.line_waves(phases)]
+        swing, lines = (
+            (parts[:, :, 0] * cosines + parts[:, :, 1] * sines).sum(dim=(1, 2))[0].numpy()
+            for parts, (cosines, sines) in zip((gains.swing, gains.lines), waves, strict=True)
+        )
+        for n, noise in enumerate(state["noise"]):
+            excess = np.maximum(abs(noise) - np.array(TAIL_THRESHOLDS), 0.0) * scales * np.sign(noise)
+            ringing[:TAPS] += excess @ kernels[0 if noise > 0.0 else 1]
+            assert gain * ringing[0] == pytest.approx(state["impulses"][n], abs=1e-6)
+            drive = gain * (noise * np.exp(2.0 * np.tanh(0.5 * swing[n])) + lines[n] + ringing[0])
+            past.append(drive - coefficients @ past[:-25:-1])
+            assert past[-1] == pytest.approx(state["unit"][n], abs=1e-5)
+            ringing = np.append(ringing[1:], 0.0)
+    np.testing.assert_allclose(past[-24:], stream["past"], atol=1e-5)
+    np.testing.assert_allclose(ringing[:TAPS], stream["ringing"], atol=1e-6)
+    assert sum(np.abs(state["impulses"]).max() > 0.5 for state in stream["states"]) == len(stream["states"])
 
 
 def test_a_further_label_of_a_model_with_specimens_has_the_offsets_of_the_label_itself(skeleton_file: ModelFile) -> None:

@@ -15,22 +15,14 @@ from haptoflow_benchmark import cli as benchmark
 from haptoflow_benchmark.waveform_metrics import power_spectrum
 from haptoflow_paper import cli as paper
 from haptoflow_paper.cli import main
-from haptoflow_paper.few_shot.few_shot_cases import (
+from haptoflow_paper.studies.few_shot_cases import (
     SECONDS, FewShotCase, conditions, filtered_surfaces, make_case, study_materials
 )
-from haptoflow_paper.few_shot.few_shot_report import (
-    OTHER_DRAW,
-    ROWS,
-    assembled,
-    condition_figures,
-    curve_table,
-    page_words,
-    table,
-    write_chart,
-    write_results,
+from haptoflow_paper.studies.few_shot_report import (
+    OTHER_DRAW, ROWS, assembled, condition_figures, curve_table, page_words, table, write_chart, write_results
 )
-from haptoflow_paper.few_shot.few_shot_rivals import fit_autoregressive
-from haptoflow_paper.few_shot.few_shot_study import StudyPlan, cells_of, with_trained
+from haptoflow_paper.studies.few_shot_rivals import fit_autoregressive
+from haptoflow_paper.studies.few_shot_study import StudyPlan, cells_of, with_trained
 from haptoflow_training import cli as training
 from haptoflow_training.export.level_table import LevelTable
 from haptoflow_training.export.model_file import read_model_file
@@ -121,6 +113,9 @@ def test_the_report_has_every_row_tables_and_a_chart(tmp_path: Path) -> None:
     assert (tmp_path / "few-shot.png").read_bytes()[:8] == b"\x89PNG\r\n\x1a\n"
 
 
+@pytest.mark.long(
+    because="the few-shot study is run whole for one material; the tests of its report and of its cases run its parts"
+)
 def test_a_whole_study_of_one_material_measures_every_row(tmp_path: Path) -> None:
     plan = StudyPlan(DEFAULT, ENGINE, tmp_path, 3, seconds=(5.0, 10.0), seconds_limit=1.0)
     (material,) = study_materials(1, 3)
@@ -228,6 +223,10 @@ def commands() -> list[list[str]]:
     return [words for words in lines if words[:1] and words[0] in PROGRAMS]
 
 
+@pytest.mark.long(
+    because="every command of the page of the few-shot study runs; the commands of the page own-materials run in the "
+    "default form"
+)
 def test_every_command_of_the_page_runs_and_writes_what_it_names(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -247,7 +246,6 @@ def test_every_command_of_the_page_runs_and_writes_what_it_names(
         quick = {
             "add-material": ["--seconds-limit", "1"],
             "sliders": [],
-            "measure-wave-vectors": ["--every", "60"],
             # The slow cells are stored already.
             "few-shot": ["--materials", "1", "--work", str(work)],
         }[words[0]]
@@ -256,7 +254,7 @@ def test_every_command_of_the_page_runs_and_writes_what_it_names(
         for before, named in zip(words[:-1], words[1:], strict=True):
             if before in ("-o", "--results", "--chart"):
                 assert (tmp_path / named).stat().st_size > 0
-    assert ran == {"add-material", "sliders", "few-shot", "measure-wave-vectors"}
+    assert ran == {"add-material", "sliders", "few-shot"}
     assert (tmp_path / "doormat.haptomaterial").exists()
     assert "trained 10" in (tmp_path / "few-shot.json").read_text(encoding="utf-8")
     assert "learn 10" in (tmp_path / "few-shot.json").read_text(encoding="utf-8")

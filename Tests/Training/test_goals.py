@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from haptoflow_paper.metrics.judged_figures import BY_KEY, spread
+from haptoflow_paper.report.cell_figures import BY_KEY, spread
 from haptoflow_paper.report.accuracy_time import rivals, verdict
 from haptoflow_paper.report.goals import Goal, judge
 from haptoflow_paper.rows.row_summary import summary, with_interval

@@ -15,7 +15,7 @@ from training_fixtures import FakeRecording, FakeStore, level_offsets_db, travel
 
 from haptoflow_paper.codec.small_codec import read_small_codec_config
 from haptoflow_paper.codec.trainer import SegmentSampler
-from haptoflow_paper.reference.reference_conditions import conditions
+from haptoflow_paper.rows.reference_conditions import conditions
 from haptoflow_paper.runs.tier import build_seed_bank
 from haptoflow_training.export.exponents import draw_windows, fit_exponents
 from haptoflow_training.preprocessing.pipeline import preprocess_recording
@@ -127,6 +127,8 @@ def test_the_level_is_calibrated_only_on_windows_outside_the_bands() -> None:
     store = dataclasses.replace(STORE, waveform=level * noise)
 
     class Right:
+        pasts, noise_before = 1, 0
+
         def generate(self, embeddings: Any, motions: Any, previous_mps2: Any, noise: Any, phases: Any) -> Any:
             return noise
 

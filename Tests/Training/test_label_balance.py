@@ -17,8 +17,9 @@ from haptoflow_training.export.trained_tier import load_tiers, tier_of
 from haptoflow_training.models.rib_comb import PARTIALS
 from haptoflow_training.training.batches import SegmentBatch, SegmentBatches
 from haptoflow_training.training.config import BatchConfig, ModelConfig, RecipeConfig
-from haptoflow_training.training.energy_distance import energy_distance_loss, envelopes, spectra
-from haptoflow_training.training.label_balance import LabelBalance, LabelFeatures, label_features
+from haptoflow_training.training.energy_distance import (
+    LabelBalance, LabelFeatures, energy_distance_loss, envelopes, label_features, spectra
+)
 from haptoflow_training.training.losses import Losses
 from haptoflow_training.training.trainer import Trainer, build_model, load_trained, planned_steps
 from paper_samples import field_config
@@ -26,7 +27,7 @@ from test_trainer import ALONE, _config
 from training_fixtures import make_store
 
 ROWS = 32
-_MOMENTS = slice(101 + PARTIALS + 8, None)
+_MOMENTS = slice(101 + PARTIALS + 8, -4)
 
 
 def _features(wave: torch.Tensor, ribs_hz: tuple[float, float] = (0.0, 0.0)) -> LabelFeatures:
@@ -35,6 +36,20 @@ def _features(wave: torch.Tensor, ribs_hz: tuple[float, float] = (0.0, 0.0)) -> 
     ribs = torch.tensor([ribs_hz] * len(wave))
     heard = spectra(wave[:, :200], wave[:, 200:])
     return label_features(heard, ribs, nothing, nothing[:, 0], wave[:, 200:])
+
+
+def test_moments_of_what_drives_a_filter_count_where_it_is_known_and_are_those_of_that_waveform() -> None:
+    wave = torch.randn(3, 400, generator=torch.Generator().manual_seed(9))
+    nothing = torch.zeros(3, 2, PARTIALS)
+    heard = spectra(wave[:, :200], wave[:, 200:])
+    known, unknown = (
+        label_features(heard, nothing[:, 0, :2], nothing, nothing[:, 0], wave[:, 200:], driving)
+        for driving in (3.0 * wave[:, 240:], None)
+    )
+    assert (known.counted[:, -4:] == 1.0).all() and (unknown.counted[:, -4:] == 0.0).all()
+    assert torch.equal(known.values[:, :-4], unknown.values[:, :-4])
+    torch.testing.assert_close(known.values[:, -4], 3.0 * wave[:, 240:].abs().mean(dim=1))
+    torch.testing.assert_close(known.values[:, -3], 27.0 * wave[:, 240:].abs().pow(3.0).mean(dim=1))
 
 
 def _noise(generator: torch.Generator, shape: torch.Tensor) -> torch.Tensor:
@@ -78,8 +93,8 @@ def test_the_balance_loss_is_half_the_squared_log_error_and_its_gradient_is_the_
     for _ in range(20):
         waves = [_noise(generator, flat) for _ in range(3)]
         loss = _heard(balance, label, 0.2, waves[0], gain * waves[1], gain * waves[2])
-    # No lines and no ribs: two of four kinds of features apply; half of the moments grow with the gain, half with its
-    # third power.
+    # No lines, no ribs and no filter: two of five kinds of features apply; half of the moments grow with the gain, half
+    # with its third power.
     assert loss.item() == pytest.approx(0.5 * math.log(1.25) ** 2 * (1.0 + 0.5 * (1.0 + 9.0)), rel=0.15)
     (slope,) = torch.autograd.grad(loss, gain)
     assert slope.item() == pytest.approx(math.log(1.25) / 1.25 * (1.0 + 0.5 * (1.0 + 9.0)), rel=0.15)
@@ -212,22 +227,24 @@ def test_the_energy_distance_prefers_impacts_at_the_recorded_rate(rate: float) -
 
 def test_rendering_a_chain_appends_each_generated_hop() -> None:
     store = make_store()
-    model = build_model(_config(), [(), ()]).eval()
+    model = build_model(field_config(), [(), ()]).eval()
     losses = Losses(model)
     chain = SegmentBatches(store, "train", BatchConfig(chain_hops=(2, 2)), 4).draw_chains(3).chain
     assert chain is not None
     embedding = model.embedding(torch.tensor([0, 1, 0])).detach()
-    lived = losses.render_chain(chain, embedding, "energy", torch.Generator().manual_seed(1))
+    lived, before = losses.render_chain(chain, embedding, "energy", torch.Generator().manual_seed(1))
     generator = torch.Generator().manual_seed(1)
 
     def hop(number: int, previous: torch.Tensor) -> torch.Tensor:
         where = chain.motion[:, number], chain.position_mm[:, number], chain.wander[:, number]
-        return losses.generate(previous, embedding, *where, "energy", generator)[:, :, : chain.hop_samples]
+        noise = torch.randn(3, 1, 200, generator=generator)
+        return losses.generate(previous, noise, embedding, *where, "energy")[:, :, : chain.hop_samples]
 
     first = hop(0, chain.start)
     kept = torch.cat([chain.start[:, :, chain.hop_samples :], first], dim=2)
     second = hop(1, kept)
     torch.testing.assert_close(lived, torch.cat([kept[:, :, chain.hop_samples :], second], dim=2))
+    assert before.shape == (3, 1, 0)
 
 
 RECIPES = {
@@ -255,7 +272,7 @@ def test_a_recipe_runs_through_its_phases_and_states_its_tier_kind(name: str, tm
 def test_a_further_tier_keeps_the_level_and_embedding_of_its_base(tmp_path: Path) -> None:
     store = make_store()
     Trainer(_config(steps=5), store, tmp_path / "base", ALONE).run()
-    refinement = ModelConfig(network="refinement", hidden=8, width=8, previous_width=4, levels=1)
+    refinement = ModelConfig(network="refinement", hidden=(8, 8), width=8, previous_width=4, levels=1)
     recipe = RecipeConfig(shares_base=True)
     config = dataclasses.replace(_config(steps=5), tier="draft", model=refinement, recipe=recipe)
     Trainer(config, store, tmp_path / "draft", ALONE, tmp_path / "base").run()
@@ -299,7 +316,7 @@ def test_a_layer_with_more_outputs_keeps_the_old_ones_and_initialises_the_new_on
 def test_a_further_round_refuses_runs_with_other_shapes_or_labels(tmp_path: Path) -> None:
     store = make_store()
     Trainer(_config(steps=5), store, tmp_path / "first", ALONE).run()
-    wide = dataclasses.replace(_config(), model=ModelConfig(hidden=16))
+    wide = dataclasses.replace(_config(), model=ModelConfig(hidden=(16, 16)))
     with pytest.raises(InputError, match=r"--from .*'skeleton\..*does not fit"):
         Trainer(wide, store, tmp_path / "second", ALONE, start=tmp_path / "first")
     content = torch.load(tmp_path / "first" / "checkpoint.pt")

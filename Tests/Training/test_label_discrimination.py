@@ -12,14 +12,8 @@ from numpy.typing import NDArray
 
 from haptoflow_benchmark.engine_render import write_stroke
 from haptoflow_benchmark.label_discrimination import (
-    DiscriminationReport,
-    LabelClassifier,
-    StrokeOutcome,
-    concatenate,
-    discriminate,
-    train_classifier,
-    window_features,
-    write_report,
+    DiscriminationReport, LabelClassifier, StrokeOutcome, concatenate, discriminate, train_classifier,
+    window_features, write_report
 )
 from haptoflow_training.recordings.synthetic import load_materials
 
@@ -84,6 +78,10 @@ def test_the_report_counts_names_levels_and_order(tmp_path: Path) -> None:
     assert "| b | 1 | 0 | 1 | a |" in (tmp_path / "label-discrimination.md").read_text(encoding="utf-8")
 
 
+@pytest.mark.long(
+    because="all labels are rendered from the shipped model for minutes and told apart; the classifier and the order of "
+    "levels have tests of their own on short renders"
+)
 def test_the_shipped_model_s_renders_of_unseen_strokes_are_classified_correctly_and_ordered_by_level(
     tmp_path: Path
 ) -> None:

@@ -14,19 +14,19 @@ from numpy.typing import NDArray
 from haptoflow_paper.runs.continuing_comb import GAINS, ContinuingComb, spread_gains
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE
 from haptoflow_training.models.haptoflow_model import SkeletonModel
-from haptoflow_training.models.label_embedding import LabelEmbedding, rib_frequencies_hz, surface_phases
+from haptoflow_training.models.label_embedding import (
+    FAMILIES, RATE_FEATURES, LabelEmbedding, SurfaceWaves, advanced, path_of, rate_features, rib_frequencies_hz,
+    surface_phases, with_path
+)
 from haptoflow_training.models.level_model import LevelModel
 from haptoflow_training.models.rib_comb import PARTIALS, RibComb
 from haptoflow_training.models.skeleton import Skeleton
-from haptoflow_training.models.surface_waves import (
-    FAMILIES, RATE_FEATURES, SurfaceWaves, advanced, path_of, rate_features, with_path
-)
-from haptoflow_training.preprocessing.rib_phases import rib_phase_turns
+from haptoflow_training.training.found_wave_vectors import rib_phase_turns
 from haptoflow_training.recordings.synthetic.carriers import guided_ride
 from haptoflow_training.recordings.synthetic.contact import SIMULATION_RATE_HZ
 from haptoflow_training.training.config import ModelConfig, RecipeConfig
 from haptoflow_training.training.energy_distance import energy_distance_loss, envelopes, spectra
-from haptoflow_training.training.skeleton_losses import SkeletonLosses
+from haptoflow_training.training.losses import SkeletonLosses
 from haptoflow_training.training.trainer import Trainer, load_trained
 from test_trainer import ALONE, _config
 from training_fixtures import make_store
@@ -249,7 +249,8 @@ def test_the_energy_distance_prefers_draws_with_the_recording_s_rib_phase() -> N
 
 
 def test_training_does_not_change_wave_vectors_and_a_saved_run_has_them(tmp_path: Path) -> None:
-    config = dataclasses.replace(_config(steps=6), model=ModelConfig(hidden=8), recipe=RecipeConfig(energy_steps=3))
+    shape, recipe = ModelConfig(hidden=(8, 8)), RecipeConfig(energy_steps=3)
+    config = dataclasses.replace(_config(steps=6), model=shape, recipe=recipe)
     Trainer(config, make_store(), tmp_path, ALONE, wave_vectors=[((0.5, 0.0),), ()]).run()
     model = load_trained(tmp_path)[2]
     assert model.embedding.weight[:, -4:].tolist() == [[0.5, 0.0, 0.0, 0.0], [0.0, 0.0, 0.0, 0.0]]
@@ -303,7 +304,7 @@ def test_the_phase_of_ribs_is_found_wherever_a_recording_begins_and_while_it_dri
 @pytest.mark.parametrize("rate_hz", [60.0, -60.0, 180.0])
 def test_a_followed_phase_becomes_the_one_at_which_the_skeleton_s_fundamental_is_a_cosine_of_it(rate_hz: float) -> None:
     torch.manual_seed(3)
-    skeleton = Skeleton(16)
+    skeleton = Skeleton((16, 16))
     with torch.no_grad():
         skeleton.perceptron.layers[-1].bias.normal_(0.0, 0.3)
     model = SkeletonModel(wave_vectors=[[VECTOR]], level=LevelModel(16), skeleton=skeleton)
@@ -337,5 +338,5 @@ def test_a_followed_phase_becomes_the_one_at_which_the_skeleton_s_fundamental_is
 
 
 def test_what_the_recorder_states_is_left_as_it_is() -> None:
-    model = SkeletonModel(wave_vectors=[[VECTOR]], level=LevelModel(16), skeleton=Skeleton(16))
+    model = SkeletonModel(wave_vectors=[[VECTOR]], level=LevelModel(16), skeleton=Skeleton((16, 16)))
     assert not SkeletonLosses(model).ribs_followed

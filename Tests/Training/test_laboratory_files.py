@@ -14,10 +14,10 @@ from own_samples import csv_one_axis, stroke, with_sidecar
 from haptoflow_training.cli import main
 from haptoflow_training.preprocessing.preparation import prepare_store
 from haptoflow_training.recordings.labels import plain_name
-from haptoflow_training.recordings.own_dataset import open_own_dataset
+from haptoflow_training.recordings.own_files import open_own_dataset
 
 ROOT = Path(__file__).parents[2]
-DEFAULT = ROOT / "Packages" / "com.haptoflow.runtime" / "Runtime" / "Models" / "default.haptoflow"
+MODEL = ROOT / "Tests" / "Golden" / "model" / "skeleton.haptoflow"
 DEGREES = "columns Temp (\\xB0C) are not known and are ignored"
 
 
@@ -70,7 +70,7 @@ def test_inspect_shows_the_folder_and_says_what_is_wrong_with_each_file(folder: 
 
 def test_a_material_is_made_of_the_files_of_a_folder_that_can_be_used(folder: Path, tmp_path: Path) -> None:
     out = tmp_path / "denim.haptomaterial"
-    done = run("add-material", "--model", DEFAULT, "--recording", folder, "--seconds-limit", "1", "-o", out)
+    done = run("add-material", "--model", MODEL, "--recording", folder, "--seconds-limit", "1", "-o", out)
     assert done.returncode == 0, done.stderr
     assert out.is_file()
     assert "skipped: " in done.stderr and "turned.csv: force_newtons is negative" in done.stderr
@@ -82,7 +82,7 @@ def test_a_material_is_made_of_the_files_of_a_folder_that_can_be_used(folder: Pa
 def test_a_file_that_is_named_alone_is_refused_with_its_sentence(
     folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    words = ["add-material", "--model", str(DEFAULT), "-o", str(tmp_path / "a.haptomaterial"), "--recording"]
+    words = ["add-material", "--model", str(MODEL), "-o", str(tmp_path / "a.haptomaterial"), "--recording"]
     assert main([*words, str(folder / "turned.csv")]) == 3
     assert "--force-sign -1" in capsys.readouterr().err
     with_sidecar(folder / "turned.csv", {"label": "denim", "force_sign": -1})
@@ -92,7 +92,7 @@ def test_a_file_that_is_named_alone_is_refused_with_its_sentence(
 def test_training_takes_no_force_below_nothing_and_keeps_what_was_said(folder: Path, tmp_path: Path) -> None:
     dataset = open_own_dataset(folder)
     assert [problem.path.name for problem in dataset.problems] == ["broken.csv"]
-    store = prepare_store(list(dataset), ["denim"], tmp_path / "store", progress=False)
+    store = prepare_store(list(dataset), ["denim"], tmp_path / "store")
     assert [one.name for one in store.skipped] == ["turned.csv"]
     assert sorted(one.name for one in store.recordings) == ["degrees.csv", "good.csv", "m\\xe4rz.csv", "zero.csv"]
     assert sum("force_newtons is below 0" in note for note in store.notes) == 1

@@ -11,13 +11,15 @@ import pytest
 import torch
 from numpy.typing import NDArray
 
-from haptoflow_training.closed_loop.level_calibration import ClosedLoopLevels, TierSource, closed_loop_levels, hops
-from haptoflow_training.closed_loop.measured_levels import level_tables
+from haptoflow_training.training.level_calibration import (
+    ClosedLoopLevels, TierSource, closed_loop_levels, hops, level_tables
+)
 from haptoflow_training.export.exponents import LabelExponents, fit_exponents
 from haptoflow_training.export.exporter import export_run
 from haptoflow_training.export.level_table import LevelTable, MeasuredLevels, table_through
 from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.export.trained_tier import TrainedTier, load_tiers
+from haptoflow_training.models.skeleton import NOISE_BEFORE
 from haptoflow_training.models.level_model import LevelModel, level_loss, shift_level
 from haptoflow_training.preprocessing.pipeline import preprocess_recording
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
@@ -39,6 +41,8 @@ _Floats = NDArray[np.float32]
 class _KnownSource:
     """Noise at the store's own level, multiplied by `gain_db` of each label; the embedding's first value identifies
     it."""
+
+    pasts, noise_before = 1, 0
 
     def __init__(self, gain_db: tuple[float, float]) -> None:
         self._gain = 10.0 ** (np.array(gain_db) / 20.0)
@@ -74,6 +78,10 @@ def test_a_level_shift_affects_its_label_only_and_is_the_same_at_every_motion() 
     assert torch.allclose(after - before, shift.expand(3, 20), atol=1e-4)
 
 
+@pytest.mark.long(
+    because="two models are trained and exported to compare their sound; that a shifted level is the label's own is "
+    "tested on the network alone"
+)
 def test_a_level_shift_in_the_file_scales_the_closed_loop_by_the_same_factor(tmp_path: Path) -> None:
     store = make_store(seconds=6.0, recordings_per_split=4)
     Trainer(_config(), store, tmp_path / "run", ALONE).run()
@@ -125,6 +133,7 @@ class LawOrTables:
     """A perfect network whose level model has power laws only, or tables: noise of that level."""
 
     LAWS = ((2.6, 1.0), (3.0, 1.0))
+    pasts, noise_before = 1, 0
 
     def __init__(self, tables: Mapping[int, LevelTable]) -> None:
         self._tables = tables
@@ -181,13 +190,13 @@ def test_a_label_that_follows_the_level_model_gets_no_table(followed: tuple[dict
 
 
 def test_a_level_table_scales_only_its_own_label_in_the_closed_loop() -> None:
-    config = TrainingConfig(model=ModelConfig(hidden=8))
+    config = TrainingConfig(model=ModelConfig(hidden=(8, 8)))
     tier = TrainedTier(config, ["brick", "wood"], build_model(config, [(), ()]).eval().requires_grad_(False))
     table = LevelTable((0.05, 0.5), (1.0, 2.0), 1.0, 0.5, 1.0)
     embeddings = TierSource(tier).embeddings
     motions = np.array([[0.2, 0.0, 2.0], [0.2, 0.0, 2.0]], dtype=np.float32)
-    nothing = np.zeros((2, 200), dtype=np.float32)
-    noise = np.random.default_rng(1).standard_normal((2, 200)).astype(np.float32)
+    nothing = np.zeros((2, 2, 200), dtype=np.float32)
+    noise = np.random.default_rng(1).standard_normal((2, NOISE_BEFORE + 200)).astype(np.float32)
     phases = np.zeros((2, 6), dtype=np.float32)
     plain = TierSource(tier).generate(embeddings, motions, nothing, noise, phases)
     tabled = TierSource(tier, {0: table}).generate(embeddings, motions, nothing, noise, phases)
@@ -303,6 +312,10 @@ def _level_errors_db(taught: Taught, speed_mps: float) -> tuple[np.ndarray, np.n
     return np.array(law), np.array(clamped)
 
 
+@pytest.mark.long(
+    because="a network is trained to be compared with fast recordings; the arithmetic of the law is tested without a "
+    "network"
+)
 @pytest.mark.parametrize("speed_mps", FAST_MPS)
 def test_extrapolating_the_level_law_is_closer_to_fast_recordings_than_clamping(
     taught: Taught, speed_mps: float

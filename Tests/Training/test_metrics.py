@@ -9,11 +9,11 @@ import pytest
 from numpy.typing import NDArray
 
 from haptoflow_benchmark import waveform_metrics
-from haptoflow_paper.metrics import row_metrics, temporal_metrics
-from haptoflow_paper.metrics.cell_figures import measure_cell
-from haptoflow_paper.metrics.told_apart import logistic_regression, told_apart_percent
-from haptoflow_paper.reference.reference_conditions import Condition, is_on_other_label
-from haptoflow_paper.reference.reference_set import ReferencePair
+from haptoflow_paper.report import row_metrics, temporal_metrics
+from haptoflow_paper.report.cell_figures import measure_cell
+from haptoflow_paper.report.told_apart import logistic_regression, told_apart_percent
+from haptoflow_paper.rows.reference_conditions import Condition, is_on_other_label
+from haptoflow_paper.rows.reference_set import ReferencePair
 
 RATE_HZ = 2000
 

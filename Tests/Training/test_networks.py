@@ -10,6 +10,7 @@ from pathlib import Path
 import onnx
 import pytest
 import torch
+from torch import nn
 
 from haptoflow_paper.codec.representation import CodecRepresentation, build_representation
 from haptoflow_paper.codec.small_codec import SmallCodec, SmallCodecShape
@@ -20,7 +21,7 @@ from haptoflow_paper.runs.velocity_field import BandLimit, ContinuousImpulses, V
 from haptoflow_training.export.trained_tier import tier_of
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE, MotionFeatures
 from haptoflow_training.models.level_model import LevelModel, level_loss
-from haptoflow_training.models.tail_impulses import ATOMS, THRESHOLDS, TAIL_THRESHOLDS, TAPS, TailImpulses
+from haptoflow_training.models.skeleton import ATOMS, NOISE_BEFORE, TAIL_THRESHOLDS, TAPS, THRESHOLDS, TailImpulses
 from haptoflow_training.training.config import TrainingConfig, load_config
 from haptoflow_training.training.trainer import build_model
 from paper_samples import evaluated
@@ -224,8 +225,8 @@ def _tail_gains(seed: int) -> torch.Tensor:
 @pytest.mark.parametrize(("excess", "tail"), [(4.5, 0), (-4.5, 1)])
 def test_each_tail_rings_with_its_own_kernels(excess: float, tail: int) -> None:
     impulses, gains = TailImpulses(), _tail_gains(3)
-    noise = torch.zeros(1, 1, 200)
-    noise[0, 0, 60] = excess
+    noise = torch.zeros(1, 1, NOISE_BEFORE + 200)
+    noise[0, 0, NOISE_BEFORE + 60] = excess
     size = (abs(excess) - torch.tensor(TAIL_THRESHOLDS)) * impulses.scales.flatten()[: len(TAIL_THRESHOLDS)]
     ring = (size.unsqueeze(1) * (gains[0, tail] @ impulses.atoms)).sum(dim=0) * (1.0 if excess > 0.0 else -1.0)
     expected = torch.zeros(200)
@@ -244,6 +245,6 @@ def test_tails_with_equal_kernels_are_the_impulses_of_a_network() -> None:
     noise = 1.6 * torch.randn(4, 1, 200, generator=torch.Generator().manual_seed(5))
     same = torch.randn(1, GAINS, generator=torch.Generator().manual_seed(6))
     network = ContinuousImpulses()(noise, same.expand(4, -1))
-    both = _SameRungs()(noise, same.repeat(4, 2))
+    both = _SameRungs()(nn.functional.pad(noise, (NOISE_BEFORE, 0)), same.repeat(4, 2))
     torch.testing.assert_close(both, network, rtol=1e-4, atol=1e-4)
     assert network.square().mean() > 0.1

@@ -15,7 +15,7 @@ from scipy.io import wavfile
 
 from haptoflow_training.errors import InputError
 from haptoflow_training.recordings.material_recording import MaterialRecording, material_files, read_material_recordings
-from haptoflow_training.recordings.own_dataset import open_own_dataset
+from haptoflow_training.recordings.own_files import open_own_dataset
 
 MADE = stroke(4.0)
 TRIMMED_SPEED = float(np.hypot(*MADE.velocity_mps.T)[int(0.3 * RATE_HZ) : -int(0.3 * RATE_HZ)].mean())

@@ -105,7 +105,7 @@ def test_recordings_that_are_left_out_are_listed_with_the_reason(
 
 def test_a_row_without_a_number_is_dropped_and_a_gap_drops_only_samples_near_it(tmp_path: Path) -> None:
     recording = small_recording(HAND, label="denim", seconds=4.0)
-    whole = prepare_store([recording], ["denim"], tmp_path / "whole", progress=False)
+    whole = prepare_store([recording], ["denim"], tmp_path / "whole")
     write_recording(tmp_path / "data", recording)
     write_texture_list(tmp_path / "data", [TextureEntry(3, "denim", {})])
     path = tmp_path / "data" / "sensor_data" / "accel" / f"{HAND}.csv"
@@ -116,7 +116,7 @@ def test_a_row_without_a_number_is_dropped_and_a_gap_drops_only_samples_near_it(
     lost = [row for row in rows[1:] if not middle < float(row.split(",")[0]) < middle + 0.007]
     path.write_text("\n".join([rows[0], *lost]) + "\n")
     dataset = open_dataset(tmp_path / "data")
-    store = prepare_store(dataset, ["denim"], tmp_path / "store", progress=False)
+    store = prepare_store(dataset, ["denim"], tmp_path / "store")
     assert [one.name for one in store.recordings] == [HAND, f"{HAND} part 2"]
     assert store.skipped == []
     # 0.3 s are trimmed at each end of each part, which the padding may lengthen again.

@@ -18,13 +18,12 @@ from parquet_samples import COLUMNS, HUB, HUB_NAMES, column_table, hub_recording
 
 from haptoflow_training.cli import main
 from haptoflow_training.errors import InputError
-from haptoflow_training.recordings import parquet_files
+from haptoflow_training.recordings import cluster_dataset_files as parquet_files
 from haptoflow_training.recordings.cluster_dataset import open_dataset
-from haptoflow_training.recordings.cluster_dataset_files import DatasetFileError, read_sensor
+from haptoflow_training.recordings.cluster_dataset_files import DatasetFileError, read_parquet, read_sensor
 from haptoflow_training.recordings.dataset_layout import ACCELERATION, FORCE
 from haptoflow_training.recordings.dataset_writer import write_recording
 from haptoflow_training.recordings.own_files import read_own
-from haptoflow_training.recordings.parquet_files import read_parquet
 from haptoflow_training.recordings.recording import Recording
 
 FLAT = ("row-groups", *(f"codec-{each}" for each in ("uncompressed", "snappy", "gzip", "brotli", "zstd", "lz4hadoop")))
@@ -57,7 +56,7 @@ def test_numbers_beside_groups_and_lists_are_read_and_the_others_say_what_they_a
 
 def test_one_process_reads_many_files_and_ends_with_the_program() -> None:
     program = (
-        "import sys; from pathlib import Path; from haptoflow_training.recordings import parquet_files as files\n"
+        "import sys; from pathlib import Path; from haptoflow_training.recordings import cluster_dataset_files as files\n"
         "files._has_pyarrow = lambda: False\n"
         "ids = set()\n"
         "for path in sorted(Path(sys.argv[1]).glob('codec-*.parquet')) * 3:\n"
@@ -160,9 +159,9 @@ def test_the_remedy_is_named_where_node_or_its_packages_are_missing(
         with pytest.raises(InputError, match=r"codec-snappy\.parquet: .*nor Node is installed.*npm ci.*pip install"):
             read_parquet(path)
     # A checkout in which nobody ran `npm ci`.
-    for name in ("serve.mjs", "columns.mjs"):
+    for name in ("parquet_server.mjs", "parquet_columns.mjs"):
         shutil.copy(parquet_files.SCRIPT.parent / name, tmp_path)
-    monkeypatch.setattr(parquet_files, "SCRIPT", tmp_path / "serve.mjs")
+    monkeypatch.setattr(parquet_files, "SCRIPT", tmp_path / "parquet_server.mjs")
     with pytest.raises(InputError, match=r"codec-snappy\.parquet: .*nor hyparquet is installed; run `npm ci` in "):
         read_parquet(path)
 

@@ -10,13 +10,11 @@ import numpy as np
 import pytest
 
 from haptoflow_benchmark.engine_render import read_recorded_strokes
-from haptoflow_paper.place.creeping import hand_overs
-from haptoflow_paper.place import place_report
-from haptoflow_paper.place.place_study import RULED, Pass, Profile, bumps, likeness, over_place, second_passes, summary
-from haptoflow_paper.velocity.velocity_cases import made_motions, real_motions, sampled
-from haptoflow_paper.velocity.velocity_estimators import growing_parabola
-from haptoflow_paper.velocity.velocity_report import page_words
-from haptoflow_paper.velocity.velocity_study import PRODUCT, PRODUCT_SETTINGS, product_velocity
+from haptoflow_paper.studies.creeping import hand_overs
+from haptoflow_paper.studies import place_report
+from haptoflow_paper.studies.place_study import RULED, Pass, Profile, bumps, likeness, over_place, second_passes, summary
+from haptoflow_paper.studies.velocity_cases import growing_parabola, made_motions, real_motions, sampled
+from haptoflow_paper.studies.velocity_study import PRODUCT, PRODUCT_SETTINGS, page_words, product_velocity
 from haptoflow_training.model_stamp import with_measured_words
 
 

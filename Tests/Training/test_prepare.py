@@ -15,14 +15,14 @@ from dataset_samples import small_recording
 from haptoflow_training.cli import main
 from haptoflow_training.errors import InputError
 from haptoflow_training.preprocessing import preparation
-from haptoflow_training.preprocessing.preparation import prepare_cut_where_needed, prepare_store
+from haptoflow_training.preprocessing.preparation import prepare_store
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.preprocessing.split import SPLITS, split_of, time_parts
 from haptoflow_training.preprocessing.store import SegmentStore
 from haptoflow_training.recordings.dataset_writer import (
     TextureEntry, write_provenance, write_recording, write_texture_list
 )
-from haptoflow_training.recordings.own_dataset import open_own_dataset
+from haptoflow_training.recordings.own_files import open_own_dataset
 from haptoflow_training.recordings.recording import Recording, RecordingIdentity
 from haptoflow_training.recordings.synthetic import (
     hand_conditions, load_materials, machine_conditions, record_hand_condition, record_machine_condition
@@ -129,7 +129,7 @@ def some_recordings(directions: tuple[int, ...] = (0, 90, 180), repeats: int = 2
 def store(tmp_path_factory: pytest.TempPathFactory) -> SegmentStore:
     out = tmp_path_factory.mktemp("prepared") / "store"
     return prepare_store(
-        some_recordings(), LABELS, out, SETTINGS, seed=4, progress=False, provenance={"licence": "MIT"}
+        some_recordings(), LABELS, out, SETTINGS, seed=4, provenance={"licence": "MIT"}
     )
 
 
@@ -168,7 +168,7 @@ def test_no_pass_over_a_track_of_the_surface_is_in_two_splits(store: SegmentStor
 
 def test_a_recording_keeps_its_split_and_its_silence_when_others_are_added(store: SegmentStore, tmp_path: Path) -> None:
     more = some_recordings(directions=(0, 45, 90, 180))[::-1]
-    larger = prepare_store(more, LABELS, tmp_path / "larger", SETTINGS, seed=4, progress=False)
+    larger = prepare_store(more, LABELS, tmp_path / "larger", SETTINGS, seed=4)
     found = {stored.name: stored for stored in larger.recordings}
     assert len(found) > len(store.recordings)
     for stored in store.recordings:
@@ -180,7 +180,7 @@ def test_a_recording_keeps_its_split_and_its_silence_when_others_are_added(store
 
 def test_held_out_directions_and_speeds_land_in_the_test_split(tmp_path: Path) -> None:
     settings = replace(SETTINGS, held_out_directions=(90,), held_out_speeds_mmps=(40,))
-    store = prepare_store(some_recordings(), LABELS, tmp_path / "store", settings, seed=4, progress=False)
+    store = prepare_store(some_recordings(), LABELS, tmp_path / "store", settings, seed=4)
     held_out = [one for one in store.recordings if one.direction_degrees == 90 or one.speed_mmps == 40]
     assert held_out and {one.split for one in held_out} == {"test"}
     assert store.split("train")
@@ -189,7 +189,7 @@ def test_held_out_directions_and_speeds_land_in_the_test_split(tmp_path: Path) -
 def test_a_broken_recording_is_skipped_with_its_reason_and_the_rest_is_kept(tmp_path: Path) -> None:
     good, bad = small_recording("1_0_20_500_0", seconds=1.2), small_recording("1_0_30_500_0", seconds=1.2)
     bad.force_newtons[3] = np.nan
-    store = prepare_store([bad, good], LABELS, tmp_path / "store", SETTINGS, progress=False)
+    store = prepare_store([bad, good], LABELS, tmp_path / "store", SETTINGS)
     assert [stored.name for stored in store.recordings] == ["1_0_20_500_0"]
     assert [skipped.name for skipped in store.skipped] == ["1_0_30_500_0"]
     assert "force holds values that are not finite" in store.skipped[0].reason
@@ -197,7 +197,7 @@ def test_a_broken_recording_is_skipped_with_its_reason_and_the_rest_is_kept(tmp_
 
 def test_nothing_usable_is_an_error_that_names_the_first_problem(tmp_path: Path) -> None:
     with pytest.raises(InputError, match=r"no recording could be prepared \(1 were skipped.*1_0_20_500_0.*trimming"):
-        prepare_store([small_recording("1_0_20_500_0", seconds=0.15)], LABELS, tmp_path / "s", SETTINGS, progress=False)
+        prepare_store([small_recording("1_0_20_500_0", seconds=0.15)], LABELS, tmp_path / "s", SETTINGS)
     assert list(tmp_path.iterdir()) == []
 
 
@@ -212,14 +212,14 @@ def test_a_name_given_twice_or_an_unknown_label_is_refused(
     names: list[str], label: str, words: str, tmp_path: Path
 ) -> None:
     with pytest.raises(InputError, match=words):
-        prepare_store((OnDemand(name, label) for name in names), LABELS, tmp_path / "store", SETTINGS, progress=False)
+        prepare_store((OnDemand(name, label) for name in names), LABELS, tmp_path / "store", SETTINGS)
 
 
 def test_a_full_disk_is_an_input_error_and_leaves_the_older_store_as_it_was(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     out = tmp_path / "store"
-    prepare_store([OnDemand("1_0_20_500_0", "wood")], LABELS, out, SETTINGS, progress=False)
+    prepare_store([OnDemand("1_0_20_500_0", "wood")], LABELS, out, SETTINGS)
     before = {path.name: path.read_bytes() for path in out.iterdir()}
 
     def refuse(*_: object) -> None:
@@ -227,14 +227,14 @@ def test_a_full_disk_is_an_input_error_and_leaves_the_older_store_as_it_was(
 
     monkeypatch.setattr(preparation, "_append", refuse)
     with pytest.raises(InputError, match="No space left on device; make room"):
-        prepare_store([OnDemand("1_0_30_500_0", "wood")], LABELS, out, SETTINGS, progress=False)
+        prepare_store([OnDemand("1_0_30_500_0", "wood")], LABELS, out, SETTINGS)
     assert {path.name: path.read_bytes() for path in out.iterdir()} == before
     assert [path.name for path in tmp_path.iterdir()] == ["store"]
 
 
 def test_a_rename_that_fails_puts_the_older_store_back(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     out = tmp_path / "store"
-    prepare_store([OnDemand("1_0_20_500_0", "wood")], LABELS, out, SETTINGS, progress=False)
+    prepare_store([OnDemand("1_0_20_500_0", "wood")], LABELS, out, SETTINGS)
     rename = os.replace
 
     def refuse_the_new(source: Path, target: Path) -> None:
@@ -244,20 +244,20 @@ def test_a_rename_that_fails_puts_the_older_store_back(tmp_path: Path, monkeypat
 
     monkeypatch.setattr(os, "replace", refuse_the_new)
     with pytest.raises(InputError, match="Permission denied"):
-        prepare_store([OnDemand("1_0_30_500_0", "wood")], LABELS, out, SETTINGS, progress=False)
+        prepare_store([OnDemand("1_0_30_500_0", "wood")], LABELS, out, SETTINGS)
     assert [stored.name for stored in SegmentStore.open(out).recordings] == ["1_0_20_500_0"]
     assert [path.name for path in tmp_path.iterdir()] == ["store"]
 
 
 def test_an_older_store_is_replaced_but_a_folder_of_other_files_is_not(tmp_path: Path) -> None:
     out = tmp_path / "store"
-    prepare_store([OnDemand("1_0_20_500_0", "wood")], LABELS, out, SETTINGS, progress=False)
-    newer = prepare_store([OnDemand("1_0_30_500_0", "wood")], LABELS, out, SETTINGS, progress=False)
+    prepare_store([OnDemand("1_0_20_500_0", "wood")], LABELS, out, SETTINGS)
+    newer = prepare_store([OnDemand("1_0_30_500_0", "wood")], LABELS, out, SETTINGS)
     assert [stored.name for stored in newer.recordings] == ["1_0_30_500_0"]
     assert [path.name for path in tmp_path.iterdir()] == ["store"]
     (out / "notes.txt").write_text("mine")
     with pytest.raises(InputError, match="holds files that are not a store"):
-        prepare_store([OnDemand("1_0_20_500_0", "wood")], LABELS, out, SETTINGS, progress=False)
+        prepare_store([OnDemand("1_0_20_500_0", "wood")], LABELS, out, SETTINGS)
     assert (out / "notes.txt").read_text() == "mine"
 
 
@@ -277,7 +277,7 @@ def test_an_older_store_is_replaced_but_a_folder_of_other_files_is_not(tmp_path:
 )
 def test_a_damaged_store_is_refused_by_what_is_wrong_with_it(damage, words: str, tmp_path: Path) -> None:
     out = tmp_path / "store"
-    prepare_store([OnDemand("1_0_20_500_0", "wood")], LABELS, out, SETTINGS, progress=False)
+    prepare_store([OnDemand("1_0_20_500_0", "wood")], LABELS, out, SETTINGS)
     damage(out)
     with pytest.raises(InputError, match=words):
         SegmentStore.open(out)
@@ -370,7 +370,7 @@ def test_every_split_gets_its_share_and_no_sample_is_near_another_split_s(second
 def test_one_recording_of_each_label_trains_validates_and_tests(tmp_path: Path) -> None:
     csv_one_axis(tmp_path / "data", "denim", "denim", stroke(10.0, seed=1))
     csv_one_axis(tmp_path / "data", "felt", "felt", stroke(4.0, seed=2))
-    store = prepare_cut_where_needed(list(open_own_dataset(tmp_path / "data")), ["denim", "felt"], tmp_path / "store")
+    store = prepare_store(list(open_own_dataset(tmp_path / "data")), ["denim", "felt"], tmp_path / "store", is_cut=True)
     for label in ("denim", "felt"):
         own = [one for one in store.recordings if one.label == label]
         assert {one.split for one in own} == set(SPLITS)
@@ -396,7 +396,7 @@ def test_labels_with_recordings_enough_for_every_split_are_split_by_their_names(
     names = [f"stroke-{number:02d}" for number in range(24)]
     for number, name in enumerate(names):
         csv_one_axis(tmp_path / "data", name, "denim", stroke(1.5, seed=number))
-    store = prepare_cut_where_needed(list(open_own_dataset(tmp_path / "data")), ["denim"], tmp_path / "store")
+    store = prepare_store(list(open_own_dataset(tmp_path / "data")), ["denim"], tmp_path / "store", is_cut=True)
     assert [one.name for one in store.recordings] == [f"{name}.csv" for name in names]
     assert {one.split for one in store.recordings} == set(SPLITS)
 
@@ -414,7 +414,7 @@ def test_recordings_of_published_length_give_the_same_store_as_before(tmp_path: 
             record_hand_condition(material, identity, seed=1, duration_seconds=3.0)
             for identity in hand_conditions(material, seed=1, recordings=2)
         ]
-    store = prepare_store(recordings, [one.label for one in chosen], tmp_path / "store", progress=False)
+    store = prepare_store(recordings, [one.label for one in chosen], tmp_path / "store")
     found = [
         (one.name, one.split, one.start, one.length, one.padding_before, one.padding_after) for one in store.recordings
     ]

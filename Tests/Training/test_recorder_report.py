@@ -49,6 +49,10 @@ def test_a_material_measured_afresh_meets_its_targets(label):
     assert deviation.passes(), deviation
 
 
+@pytest.mark.long(
+    because="dozens of recordings are simulated at every speed; the targets of single materials are tested by "
+    "test_a_material_measured_afresh_meets_its_targets"
+)
 def test_the_pooled_centroid_grows_with_speed_as_in_published_textures_and_beyond():
     """About v^0.15 in the published statistics; with a fixed contact it is v^0.005 beyond 200 mm/s."""
     design = Design(
@@ -108,18 +112,18 @@ def test_the_report_names_a_material_that_misses_its_target_and_writes_table_num
     assert (out / "images" / "recorder-spectra.png").read_bytes().startswith(b"\x89PNG")
 
 
-@pytest.mark.parametrize("label", ["wood", "glass"])
-def test_the_measured_spread_of_specimens_is_what_the_material_states(label):
+def test_the_measured_spread_of_specimens_is_what_the_material_states():
+    label = "glass"
     found = measure_spread(MATERIALS[label], seed=5, design=replace(SMALL, duration_seconds=1.8, reference_repeats=2))
     assert found.specimen_db == pytest.approx(MATERIALS[label].specimen_spread_db, rel=0.2)
     assert found.specimen_slope_db_per_octave == pytest.approx(MATERIALS[label].specimen_tilt_db_per_octave, rel=0.4)
     assert found.mean_db == pytest.approx(0.0, abs=0.3)
-    plain = measure_spread(MATERIALS[label].without_spread, seed=5, design=SMALL)
+    plain = measure_spread(MATERIALS[label].without_spread, seed=5, design=replace(SMALL, directions_degrees=(0.0,)))
     assert plain.specimen_db < 0.25
 
 
 SPREAD = SpreadMeasurement(1.4, 0.4, 0.6, 0.1)
-_TINY = Design((50.0, 100.0, 200.0), (0.5, 2.0), (0.0, 45.0, 90.0, 135.0), 1.2, 2)
+_TINY = Design((50.0, 200.0), (0.5, 2.0), (0.0, 45.0, 90.0, 135.0), 1.2, 2, (800.0,))
 
 
 class _SameProcess:

@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from haptoflow_paper.reference import reference_set as subject
-from haptoflow_paper.reference.reference_conditions import CONSTANT_SPEEDS_MPS, Condition, conditions
-from haptoflow_paper.reference.reference_set import known_phases, record_pair
+from haptoflow_paper.rows import reference_set as subject
+from haptoflow_paper.rows.reference_conditions import CONSTANT_SPEEDS_MPS, Condition, conditions
+from haptoflow_paper.rows.reference_set import known_phases, record_pair
 from haptoflow_training.recordings.synthetic import FURTHER_SPECIMENS, HELD_OUT_SPECIMEN, Material, load_materials
-from haptoflow_training.recordings.synthetic.specimens import TRAINING_SPECIMENS
+from haptoflow_training.recordings.synthetic.surface import TRAINING_SPECIMENS
 
 MATERIALS = load_materials()
 CHOSEN = conditions(MATERIALS)

@@ -1,4 +1,5 @@
-"""The skeleton: noise that swings with the ribs, lines and impulses drive a filter that continues the past."""
+"""The skeleton: an all-pole filter that continues its own past. Noise whose gain follows the ribs, lines and impulses
+drive it."""
 
 from __future__ import annotations
 
@@ -14,12 +15,12 @@ from haptoflow_training.models.all_pole_filter import PredictedFilter, burg_refl
 from haptoflow_training.models.level_model import PREVIOUS_LIMIT, LevelModel
 from haptoflow_training.models.refiner import ENTERING, Refiner
 from haptoflow_training.models.skeleton import (
-    LINE_HARMONICS, ORDER, OUTPUTS, IMPULSE_GAINS, SWING_HARMONICS, Skeleton, SkeletonGains
+    IMPULSE_GAINS, LINE_HARMONICS, NOISE_BEFORE, ORDER, OUTPUTS, SWING_HARMONICS, Skeleton, SkeletonGains
 )
 from haptoflow_training.models.haptoflow_model import SkeletonModel
-from haptoflow_training.models.surface_waves import FAMILIES, SurfaceWaves, advanced
+from haptoflow_training.models.label_embedding import FAMILIES, SurfaceWaves, advanced
 
-SKELETON = Skeleton(hidden=16).eval().requires_grad_(False)
+SKELETON = Skeleton((16, 16)).eval().requires_grad_(False)
 # Mild resonances, at level 1.
 RAW = torch.tensor([[0.9, -0.7, 0.3, 0.2, -0.25] + [0.0] * (ORDER - 5) + [0.0]])
 COSINE, SINE = 0, 1
@@ -27,11 +28,14 @@ COSINE, SINE = 0, 1
 
 def _gains(raw: torch.Tensor = RAW) -> SkeletonGains:
     """Of the filter alone."""
+    coefficients, log_gain = PredictedFilter(ORDER)(raw)
     return SkeletonGains(
-        *PredictedFilter(ORDER)(raw),
+        coefficients,
+        log_gain,
         torch.zeros(1, FAMILIES, 2, SWING_HARMONICS, 1),
         torch.zeros(1, FAMILIES, 2, LINE_HARMONICS, 1),
         torch.zeros(1, IMPULSE_GAINS),
+        log_gain,
     )
 
 
@@ -48,8 +52,16 @@ def _nothing() -> SkeletonGains:
     return _gains(torch.zeros(1, ORDER + 1))
 
 
-def _noise(rows: int, seed: int, samples: int = 200) -> torch.Tensor:
+def _noise(rows: int, seed: int, samples: int = NOISE_BEFORE + 200) -> torch.Tensor:
     return torch.randn(rows, 1, samples, generator=torch.Generator().manual_seed(seed))
+
+
+def _wave(rows: int, seed: int) -> torch.Tensor:
+    return _noise(rows, seed, 200)
+
+
+QUIET = torch.zeros(1, 1, NOISE_BEFORE + 200)
+SILENCE = torch.zeros(1, 1, 200)
 
 
 def _phases(rates_hz: tuple[float, float, float], turns: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> torch.Tensor:
@@ -69,7 +81,7 @@ def test_without_ribs_and_rungs_its_power_is_1_in_the_long_run() -> None:
 @pytest.mark.parametrize("later", [1, 27, 150])
 def test_a_segment_begun_later_says_the_same_of_the_same_samples(later: int) -> None:
     gains, phases = _with_ribs(2), _phases((40.0, -25.0, 66.0), (0.1, 0.7, 0.4))
-    previous, noise = _noise(1, 3), _noise(1, 4)
+    previous, noise = _wave(1, 3), _noise(1, 4)
     first = SKELETON.parts(noise, previous, gains, phases).segment
     second = SKELETON.parts(
         torch.cat([noise[:, :, later:], _noise(1, 5, later)], dim=2),
@@ -83,8 +95,7 @@ def test_a_segment_begun_later_says_the_same_of_the_same_samples(later: int) -> 
 
 def _line(gains: SkeletonGains, phases: torch.Tensor) -> torch.Tensor:
     """[200]: the lines alone."""
-    silence = torch.zeros(1, 1, 200)
-    return SKELETON.parts(silence, silence, gains, phases).segment[0, 0]
+    return SKELETON.parts(QUIET, SILENCE, gains, phases).segment[0, 0]
 
 
 def test_lines_are_fixed_to_the_place_in_every_pass_and_met_backwards_on_the_way_back() -> None:
@@ -107,11 +118,11 @@ def test_a_line_at_the_output_has_amplitude_and_phase_of_the_filter_s_frequency_
 ) -> None:
     gains = _gains()
     gains.lines[0, 1, COSINE, order - 1, 0], gains.lines[0, 1, SINE, order - 1, 0] = 1.5, -0.7
-    made, phases, silence = torch.zeros(1, 1, 200), _phases((0.0, rate_hz, 0.0), (0.0, 0.3, 0.0)), torch.zeros(1, 1, 200)
+    made, phases = SILENCE, _phases((0.0, rate_hz, 0.0), (0.0, 0.3, 0.0))
     for _ in range(4):
         # The last of these begins when what the filter did at first has faded.
         phases = advanced(phases, 200)
-        made = SKELETON.parts(silence, made, gains, phases).segment
+        made = SKELETON.parts(QUIET, made, gains, phases).segment
     frequency = order * 60.0 / 2000.0
     _, response = scipy.signal.freqz(1.0, np.concatenate([[1.0], gains.coefficients[0]]), worN=[2.0 * np.pi * frequency])
     ahead = math.copysign(phases[0, 1].item(), rate_hz) * order
@@ -124,16 +135,16 @@ def test_a_line_at_the_output_has_amplitude_and_phase_of_the_filter_s_frequency_
 
 def test_the_impulses_drive_the_filter_beside_the_noise_and_relative_to_it() -> None:
     gains, phases = _gains(), _phases((0.0, 0.0, 0.0))
-    noise, silence = _noise(1, 31).clamp(-1.9, 1.9), torch.zeros(1, 1, 200)
-    noise[0, 0, 40] = 4.5
+    noise = _noise(1, 31).clamp(-1.9, 1.9)
+    noise[0, 0, NOISE_BEFORE + 40] = 4.5
     gains.impulses[0, 0] = 0.2
-    with_impulse = SKELETON.parts(noise, silence, gains, phases)
-    without = SKELETON.parts(noise, silence, gains._replace(impulses=torch.zeros(1, IMPULSE_GAINS)), phases)
+    with_impulse = SKELETON.parts(noise, SILENCE, gains, phases)
+    without = SKELETON.parts(noise, SILENCE, gains._replace(impulses=torch.zeros(1, IMPULSE_GAINS)), phases)
     assert with_impulse.impulses.nonzero()[:, 2].tolist() == [40]
     response = scipy.signal.lfilter([1.0], np.concatenate([[1.0], gains.coefficients[0]]), with_impulse.impulses[0, 0])
     difference = (with_impulse.segment - without.segment)[0, 0].numpy()
     np.testing.assert_allclose(difference, response, atol=1e-4)
-    louder = SKELETON.parts(noise, silence, gains._replace(log_gain=gains.log_gain + math.log(2.0)), phases)
+    louder = SKELETON.parts(noise, SILENCE, gains._replace(log_gain=gains.log_gain + math.log(2.0)), phases)
     torch.testing.assert_close(louder.impulses, 2.0 * with_impulse.impulses)
 
 
@@ -141,49 +152,45 @@ def test_the_impulses_drive_the_filter_beside_the_noise_and_relative_to_it() -> 
 def exact_skeleton() -> Iterator[Skeleton]:
     """In double precision, in which the same sum in another order differs by nothing."""
     torch.set_default_dtype(torch.float64)
-    yield Skeleton(hidden=16).eval().requires_grad_(False)
+    yield Skeleton((16, 16)).eval().requires_grad_(False)
     torch.set_default_dtype(torch.float32)
 
 
-@pytest.mark.parametrize("bare", [True, False], ids=["impulses of one sample", "ringing impulses that have faded"])
-def test_a_hand_over_with_the_same_noise_and_past_is_exact_although_lines_and_impulses_run(
-    bare: bool, exact_skeleton: Skeleton
-) -> None:
-    later, generator = 90, torch.Generator().manual_seed(32)
+@pytest.mark.parametrize("later", [12, 90, 150])
+def test_a_skeleton_goes_on_exactly_amid_lines_and_ringing_impulses(later: int, exact_skeleton: Skeleton) -> None:
+    generator = torch.Generator().manual_seed(32)
     gains, phases = _with_ribs(2), _phases((40.0, -25.0, 66.0), (0.1, 0.7, 0.4))
-    impulses = torch.randn(1, 10, 13, generator=generator)
-    noise = torch.randn(1, 1, 200, generator=generator)
-    if bare:
-        impulses[:, :, 1:] = 0.0
-    else:
-        noise[:, :, later - 64 : later] = noise[:, :, later - 64 : later].clamp(-1.9, 1.9)
-    noise[0, 0, 10], noise[0, 0, 130] = 4.4, -3.7
     gains = SkeletonGains(*(part.double() for part in gains))
-    gains = gains._replace(swing=0.3 * gains.swing, lines=0.2 * gains.lines, impulses=0.04 * impulses.flatten(1))
+    impulses = 0.04 * torch.randn(1, IMPULSE_GAINS, generator=generator)
+    gains = gains._replace(swing=0.3 * gains.swing, lines=0.2 * gains.lines, impulses=impulses)
     phases = phases.double()
-    previous = torch.randn(1, 1, 200, generator=generator)
-    first = exact_skeleton.parts(noise, previous, gains, phases)
+    noise = torch.randn(1, 1, NOISE_BEFORE + 200, generator=generator)
+    # One before the segment, and one shortly before it is handed over.
+    noise[0, 0, NOISE_BEFORE - 20], noise[0, 0, NOISE_BEFORE + later - 5] = 4.4, -3.7
+    own = torch.randn(1, 1, 200, generator=generator)
+    first = exact_skeleton.parts(noise, own, gains, phases)
     second = exact_skeleton.parts(
         torch.cat([noise[:, :, later:], noise[:, :, :later]], dim=2),
-        torch.cat([previous[:, :, later:], first.segment[:, :, :later]], dim=2),
+        torch.cat([own[:, :, later:], first.segment[:, :, :later]], dim=2),
         gains,
         advanced(phases, later),
     )
-    assert first.impulses[:, :, :later].abs().max() > 0.05 and first.impulses[:, :, later:].abs().max() > 0.05
+    for one, other in ((first.impulses, second.impulses), (first.segment, second.segment)):
+        torch.testing.assert_close(other[:, :, : 200 - later], one[:, :, later:], rtol=0.0, atol=1e-9)
+    assert first.impulses[:, :, :10].abs().max() > 0.01 and second.impulses[:, :, :10].abs().max() > 0.01
     assert first.segment.abs().max() < PREVIOUS_LIMIT
-    torch.testing.assert_close(second.segment[:, :, : 200 - later], first.segment[:, :, later:], rtol=0.0, atol=1e-9)
 
 
 def test_the_swing_modulates_the_drive_within_its_limit() -> None:
     gains, phases, noise = _nothing(), _phases((40.0, 0.0, 0.0), (0.2, 0.0, 0.0)), _noise(1, 7)
-    still = SKELETON.parts(noise, torch.zeros(1, 1, 200), gains, phases).segment
-    torch.testing.assert_close(still, noise)
+    still = SKELETON.parts(noise, SILENCE, gains, phases).segment
+    torch.testing.assert_close(still, noise[:, :, NOISE_BEFORE:])
     angle = 2.0 * math.pi * (0.2 + 40.0 * (torch.arange(200) + 0.5) / 2000.0)
     for size in (0.5, 1.5, 40.0):
         gains.swing[0, 0, COSINE, 0, 0], gains.swing[0, 0, SINE, 1, 0] = size, -0.5 * size
         swing = 2.0 * torch.tanh(0.5 * size * (angle.cos() - 0.5 * (2.0 * angle).sin()))
-        made = SKELETON.parts(noise, torch.zeros(1, 1, 200), gains, phases).segment
-        expected = (noise[0, 0] * swing.exp()).clamp(-PREVIOUS_LIMIT, PREVIOUS_LIMIT)
+        made = SKELETON.parts(noise, SILENCE, gains, phases).segment
+        expected = (noise[0, 0, NOISE_BEFORE:] * swing.exp()).clamp(-PREVIOUS_LIMIT, PREVIOUS_LIMIT)
         torch.testing.assert_close(made[0, 0], expected, rtol=2e-3, atol=1e-3)
         assert swing.abs().max() <= 2.0
 
@@ -196,30 +203,83 @@ def _own_condition() -> tuple[torch.Tensor, torch.Tensor]:
 
 
 def test_an_untrained_skeleton_has_a_filter_and_neither_swing_lines_nor_rungs() -> None:
-    gains = Skeleton(hidden=16).gains(*_own_condition(), STILL)
+    gains = Skeleton((16, 16)).gains(*_own_condition(), STILL)
     assert gains.coefficients.abs().max() > 0.0
     assert all(part.abs().max() == 0.0 for part in (gains.swing, gains.lines, gains.impulses))
 
 
-def test_the_waveform_trains_lines_swing_and_rungs_and_only_the_likelihood_trains_the_filter() -> None:
-    skeleton, filtering = Skeleton(hidden=16), OUTPUTS[0]
+def _moved_by(skeleton: Skeleton, loss: torch.Tensor) -> dict[str, bool]:
+    """Which weights the gradient of a loss reaches: those of the filter's perceptron, 16 wide, those of the other one,
+    and the rows of the last layer."""
+    weights = [skeleton.perceptron.layers[layer].weight for layer in (0, 2, 4)]
+    first, second, last = torch.autograd.grad(loss, weights, allow_unused=True)
+    names = "filter", "level", "swing", "lines", "impulses"
+    rows = dict(zip(names, last.split((ORDER, 1, *OUTPUTS[1:])), strict=True))
+    assert second[:16, 16:].abs().max() == 0.0 and second[16:, :16].abs().max() == 0.0
+    return {
+        "own layers": bool(first[:16].any() or second[:16, :16].any() or rows["level"][:, :16].any()),
+        "other layers": bool(first[16:].any() or second[16:, 16:].any()),
+        "noise": bool(rows["level"][:, 16:].any()),
+        **{name: bool(rows[name].any()) for name in ("filter", "swing", "lines", "impulses")},
+    }
+
+
+def _alive(seed: int) -> Skeleton:
+    """With all that the second perceptron says."""
+    torch.manual_seed(seed)
+    skeleton = Skeleton((16, 16))
+    last = skeleton.perceptron.layers[-1]
+    torch.nn.init.normal_(last.weight[ORDER, 16:], std=0.2)
+    torch.nn.init.normal_(last.weight[ORDER + 1 :, 16:], std=0.1)
+    return skeleton
+
+
+def test_the_waveform_moves_the_second_perceptron_and_the_likelihood_the_first_and_neither_the_other() -> None:
+    skeleton, phases = _alive(9), _phases((40.0, 25.0, 66.0)).expand(2, 6)
+    parts = skeleton.parts(2.0 * _noise(2, 11), _wave(2, 12), skeleton.gains(*_own_condition(), phases), phases)
+    driving = {"other layers", "noise", "swing", "lines", "impulses"}
+    moved = _moved_by(skeleton, parts.segment.square().sum())
+    assert {name for name, is_moved in moved.items() if is_moved} == driving
+    likelihood = skeleton.likelihood(_wave(2, 13), skeleton.gains(*_own_condition(), phases), phases)
+    moved = _moved_by(skeleton, likelihood.sum())
+    assert {name for name, is_moved in moved.items() if is_moved} == {
+        "own layers", "filter", "other layers", "swing", "lines",
+    }  # fmt: skip
+    tails = skeleton.tail_likelihood(_wave(2, 13), skeleton.gains(*_own_condition(), phases), phases)
+    moved = _moved_by(skeleton, tails.sum())
+    assert {name for name, is_moved in moved.items() if is_moved} == {"other layers", "noise", "impulses"}
+    distance = skeleton.filter_distance(_wave(2, 13), *_own_condition(), phases)
+    moved = _moved_by(skeleton, distance.sum())
+    assert {name for name, is_moved in moved.items() if is_moved} == {"own layers", "filter"}
+
+
+def test_the_noise_is_weaker_than_all_that_drives_the_filter_by_what_the_second_perceptron_says() -> None:
+    skeleton = _alive(9).requires_grad_(False)
+    with_less = skeleton.gains(*_own_condition(), STILL)
+    skeleton.perceptron.layers[-1].weight[ORDER, 16:] = 0.0
+    alike = skeleton.gains(*_own_condition(), STILL)
+    torch.testing.assert_close(alike.log_gain, alike.log_drive)
+    torch.testing.assert_close(with_less.log_drive, alike.log_drive)
+    assert (with_less.log_gain - with_less.log_drive).abs().min() > 0.01
+
+
+def test_two_perceptrons_are_one_with_blocks_of_zeros() -> None:
+    two = _alive(9).requires_grad_(False)
+    one = Skeleton((32,)).requires_grad_(False)
+    one.load_state_dict(two.state_dict())
     phases = _phases((40.0, 25.0, 66.0)).expand(2, 6)
-    weight = skeleton.perceptron.layers[-1].weight
-    parts = skeleton.parts(2.0 * _noise(2, 11), _noise(2, 12), skeleton.gains(*_own_condition(), phases), phases)
-    (weighed,) = torch.autograd.grad(parts.segment.square().sum(), weight)
-    assert weighed[:filtering].abs().max() == 0.0
-    swing, lines, impulses = weighed[filtering:].split(OUTPUTS[1:])
-    assert all(part.abs().max() > 0.0 for part in (swing, lines, impulses))
-    likelihood = skeleton.likelihood(_noise(2, 13), skeleton.gains(*_own_condition(), phases), phases)
-    (weighed,) = torch.autograd.grad(likelihood.sum(), weight)
-    assert weighed[:filtering].abs().max() > 0.0
+    first, second = (each.gains(*_own_condition(), phases) for each in (two, one))
+    for name in ("coefficients", "log_gain", "swing", "lines", "impulses"):
+        torch.testing.assert_close(getattr(first, name), getattr(second, name), rtol=0.0, atol=1e-6)
+    assert two.perceptron.layers[2].weight.eq(0.0).sum() == 2 * 16 * 16
 
 
 def _recorded(gains: SkeletonGains, phases: torch.Tensor, rows: int) -> torch.Tensor:
     """Segments of the skeleton, [rows, 1, 200]."""
     earlier = advanced(phases, -200).expand(rows, 6)
-    past = SKELETON.parts(_noise(rows, 20), _noise(rows, 21), gains, earlier).segment
-    return SKELETON.parts(_noise(rows, 22), past, gains, phases.expand(rows, 6)).segment
+    many = _many(gains, rows)
+    past = SKELETON.parts(_noise(rows, 20), _wave(rows, 21), many, earlier).segment
+    return SKELETON.parts(_noise(rows, 22), past, many, phases.expand(rows, 6)).segment
 
 
 def test_the_likelihood_is_best_at_the_true_filter_level_and_swing() -> None:
@@ -233,8 +293,8 @@ def test_the_likelihood_is_best_at_the_true_filter_level_and_swing() -> None:
     other = _gains(RAW + 0.15 * torch.randn(RAW.shape, generator=torch.Generator().manual_seed(1)))
     wrong = {
         "filter": true._replace(coefficients=other.coefficients),
-        "louder": true._replace(log_gain=true.log_gain + 0.1),
-        "softer": true._replace(log_gain=true.log_gain - 0.1),
+        "louder": true._replace(log_gain=true.log_gain + 0.1, log_drive=true.log_drive + 0.1),
+        "softer": true._replace(log_gain=true.log_gain - 0.1, log_drive=true.log_drive - 0.1),
         "swing": true._replace(swing=torch.zeros_like(true.swing)),
         "lines": true._replace(lines=0.8 * true.lines),
     }
@@ -242,11 +302,54 @@ def test_the_likelihood_is_best_at_the_true_filter_level_and_swing() -> None:
         assert likelihood(gains) > best + 0.003, name
 
 
+def _with_impulses(gains: SkeletonGains, up: float, down: float) -> SkeletonGains:
+    """Of one sample each, from the third threshold on."""
+    impulses = torch.zeros(1, 2, 5, 13)
+    impulses[0, 0, 2, 0], impulses[0, 1, 2, 0] = up, down
+    return gains._replace(impulses=impulses.reshape(1, -1))
+
+
+def test_the_noise_is_found_that_makes_a_sample_with_its_impulse() -> None:
+    generator = torch.Generator().manual_seed(41)
+    gains = torch.zeros(3, 2, 5, 13)
+    gains[..., 0] = 0.3 * torch.rand(3, 2, 5, generator=generator)
+    noise = torch.nn.functional.pad(1.7 * torch.randn(3, 1, 200, generator=generator), (NOISE_BEFORE, 0))
+    noise[0, 0, -1], noise[1, 0, -1], noise[2, 0, -1] = 4.6, -5.2, 0.0
+    driven = noise[:, 0, NOISE_BEFORE:] + SKELETON.impulses(noise, gains.flatten(1))[:, 0]
+    found, log_slope = SKELETON.impulses.unstretched(driven, gains.flatten(1))
+    torch.testing.assert_close(found, noise[:, 0, NOISE_BEFORE:].abs(), rtol=0.0, atol=1e-4)
+    assert log_slope[0, -1] > 1.0 and log_slope[2, -1] == 0.0
+
+
+def test_the_tails_are_most_likely_with_the_impulses_and_the_noise_that_made_them() -> None:
+    true = _with_impulses(_gains(), 0.4, 0.1)._replace(log_gain=_gains().log_gain - 0.1)
+    phases = _phases((0.0, 0.0, 0.0))
+    segment = _recorded(true, phases, 4000)
+
+    def likelihood(gains: SkeletonGains) -> float:
+        return SKELETON.tail_likelihood(segment, _many(gains, 4000), phases.expand(4000, 6)).mean().item()
+
+    best = likelihood(true)
+    wrong = {
+        "none": _with_impulses(true, 0.0, 0.0),
+        "strong": _with_impulses(true, 0.8, 0.2),
+        "the other way": _with_impulses(true, 0.1, 0.4),
+        "louder": true._replace(log_gain=true.log_gain + 0.1),
+        "softer": true._replace(log_gain=true.log_gain - 0.1),
+    }
+    for name, gains in wrong.items():
+        assert likelihood(gains) > best + 2e-4, name
+
+
+def _many(gains: SkeletonGains, rows: int) -> SkeletonGains:
+    return SkeletonGains(*(part.expand(rows, *part.shape[1:]) for part in gains))
+
+
 def test_lines_in_a_recording_do_not_count_as_errors_of_prediction() -> None:
     phases, gains = _phases((40.0, -25.0, 66.0), (0.1, 0.7, 0.4)), _with_ribs(2)
     gains, plain = (gains._replace(swing=0.3 * gains.swing, lines=share * gains.lines) for share in (0.2, 0.0))
     many = phases.expand(4, 6)
-    with_lines, without = (SKELETON.parts(_noise(4, 22), _noise(4, 21), each, many).segment for each in (gains, plain))
+    with_lines, without = (SKELETON.parts(_noise(4, 22), _wave(4, 21), each, many).segment for each in (gains, plain))
     assert (with_lines - without).abs().max() > 0.5 and with_lines.abs().max() < PREVIOUS_LIMIT
     found = SKELETON.likelihood(with_lines, gains, many)
     torch.testing.assert_close(found, SKELETON.likelihood(without, plain, many), rtol=0.0, atol=1e-4)
@@ -254,7 +357,7 @@ def test_lines_in_a_recording_do_not_count_as_errors_of_prediction() -> None:
 
 
 def test_the_distance_of_a_filter_is_zero_at_burg_s_estimate_and_the_level_of_unit_scale_and_no_other() -> None:
-    skeleton, segment = Skeleton(hidden=16).requires_grad_(False), _noise(2, 33)
+    skeleton, segment = Skeleton((16, 16)).requires_grad_(False), _wave(2, 33)
     given = segment, *_own_condition(), _phases((0.0, 0.0, 0.0)).expand(2, 6)
     last = skeleton.perceptron.layers[-1]
     last.weight.zero_()
@@ -281,7 +384,7 @@ def test_the_rates_of_the_surface_s_waves_change_every_gain_and_the_film() -> No
 def _refined(*, trained: bool) -> tuple[SkeletonModel, SkeletonModel]:
     """A skeleton alone, and with a refinement over it."""
     torch.manual_seed(15)
-    alone = SkeletonModel(wave_vectors=[(), ()], level=LevelModel(8), skeleton=Skeleton(16))
+    alone = SkeletonModel(wave_vectors=[(), ()], level=LevelModel(8), skeleton=Skeleton((16, 16)))
     torch.nn.init.normal_(alone.skeleton.perceptron.layers[-1].weight, std=0.2)
     refiner = Refiner(width=16, previous_width=8)
     if trained:
@@ -292,20 +395,37 @@ def _refined(*, trained: bool) -> tuple[SkeletonModel, SkeletonModel]:
 
 def _given() -> tuple[torch.Tensor, ...]:
     phases = _phases((40.0, -25.0, 66.0), (0.1, 0.7, 0.4)).expand(2, 6)
-    return _noise(2, 16), _noise(2, 17), *_own_condition(), phases
+    return _noise(2, 16), torch.cat([_wave(2, 17), _wave(2, 18)], dim=1), *_own_condition(), phases
 
 
 def test_an_untrained_refinement_is_the_skeleton_and_a_trained_one_is_not() -> None:
     alone, untrained = _refined(trained=False)
     assert torch.equal(untrained.one_step(*_given()), alone.one_step(*_given()))
     alone, trained = _refined(trained=True)
-    assert (trained.one_step(*_given()) - alone.one_step(*_given())).abs().max() > 0.01
+    difference = trained.one_step(*_given()) - alone.one_step(*_given())
+    assert difference[:, 0].abs().max() > 0.01 and difference[:, 1].abs().max() == 0.0
+
+
+def test_the_skeleton_continues_its_own_past_and_the_network_sees_both() -> None:
+    noise, pasts, *condition = _given()
+    for model in _refined(trained=True):
+        made = model.one_step(noise, pasts, *condition)
+        played = model.one_step(noise, torch.cat([_wave(2, 19), pasts[:, 1:]], dim=1), *condition)
+        beneath = model.one_step(noise, torch.cat([pasts[:, :1], _wave(2, 19)], dim=1), *condition)
+        assert torch.equal(played[:, 1], made[:, 1]) and (beneath - made).abs().amax(dim=(0, 2)).min() > 0.01
+        assert torch.equal(played[:, 0], made[:, 0]) == (model.refiner is None)
+    correction = made[:, :1] - made[:, 1:]
+    parts = model.skeleton.parts(noise, pasts[:, 1:], model.skeleton.gains(*condition), condition[-1])
+    assert model.refiner is not None
+    torch.testing.assert_close(correction, model.refiner(parts, pasts, *condition), rtol=0.0, atol=1e-5)
+    exchanged = model.refiner(parts, pasts.flip(1), *condition)
+    assert (exchanged - correction).abs().max() > 1e-3
 
 
 def test_a_refinement_sees_segment_impulses_and_the_harmonics_of_all_families_added() -> None:
     _, model = _refined(trained=True)
     noise, previous, embedding, motion, phases = _given()
-    parts = model.skeleton.parts(noise, previous, model.skeleton.gains(embedding, motion, phases), phases)
+    parts = model.skeleton.parts(noise, previous[:, 1:], model.skeleton.gains(embedding, motion, phases), phases)
     seen = Refiner.entering(parts)
     assert seen.shape == (2, ENTERING, 200)
     torch.testing.assert_close(seen[:, :2], torch.cat([parts.segment, parts.impulses], dim=1))

@@ -15,26 +15,27 @@ from dataset_samples import small_recording
 from test_export import PROVENANCE
 from paper_samples import field_config
 from test_trainer import ALONE, _config, ask_to_stop_after
-from training_fixtures import FakeStore, make_store, travelled_mm
+from training_fixtures import FakeStore, make_store, run_here, travelled_mm
 
 from haptoflow_paper.runs.trainer import EvaluatedTrainer
 from haptoflow_training.cli import main
-from haptoflow_training.closed_loop.level_calibration import TierSource
-from haptoflow_training.closed_loop.render import SurfaceStatistics, run_closed_loop
+from haptoflow_training.commands import train_tiers
+from haptoflow_training.training.level_calibration import TierSource
+from haptoflow_training.training.closed_loop import SurfaceStatistics, run_closed_loop
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.exporter import export_run
-from haptoflow_training.export.label_info import LabelInfo
+from haptoflow_training.recordings.landing import LabelInfo, RibWander, StickSlip
 from haptoflow_training.export.model_file import ModelFile, read_model_file
 from haptoflow_training.export.trained_tier import load_tiers
 from haptoflow_training.models.haptoflow_model import SkeletonModel
-from haptoflow_training.models.surface_waves import path_of
+from haptoflow_training.models.label_embedding import path_of
+from haptoflow_training.models.skeleton import NOISE_BEFORE, SkeletonGains
 from haptoflow_training.recordings.dataset_writer import TextureEntry, write_recording, write_texture_list
-from haptoflow_training.recordings.landing import RibWander, StickSlip
-from haptoflow_training.training import skeleton_losses
+from haptoflow_training.training import losses as skeleton_losses
 from haptoflow_training.training.batches import SegmentBatch, SegmentBatches
 from haptoflow_training.training.config import BatchConfig, ModelConfig, RecipeConfig, TrainingConfig
 from haptoflow_training.training.recordings_source import Source
-from haptoflow_training.training.skeleton_losses import SkeletonLosses
+from haptoflow_training.training.losses import SkeletonLosses
 from haptoflow_training.training.trainer import Trainer, TrainingStopped, build_model, load_trained
 
 WAVE_VECTORS = [[(0.5, 0.0)], []]
@@ -54,7 +55,7 @@ def _store() -> FakeStore:
 def _sketch(steps: int = 6) -> TrainingConfig:
     recipe = RecipeConfig(filter_steps=3, energy_steps=4, energy_batch_size=6, self_forcing_steps=2)
     return dataclasses.replace(
-        _config(steps=steps), tier="sketch", model=ModelConfig(network="skeleton", hidden=16), recipe=recipe
+        _config(steps=steps), tier="sketch", model=ModelConfig(network="skeleton", hidden=(16, 16)), recipe=recipe
     )
 
 
@@ -63,7 +64,7 @@ def _refinement(tier: str = "standard", levels: int = 2) -> TrainingConfig:
     return dataclasses.replace(
         config,
         tier=tier,
-        model=ModelConfig(network="refinement", hidden=16, width=16, previous_width=8, levels=levels),
+        model=ModelConfig(network="refinement", hidden=(16, 16), width=16, previous_width=8, levels=levels),
         recipe=dataclasses.replace(config.recipe, filter_steps=0, shares_base=True),
     )
 
@@ -104,6 +105,7 @@ def test_training_moves_the_skeleton_and_its_specimens_and_a_refinement_leaves_b
     assert isinstance(sketch, SkeletonModel) and isinstance(standard, SkeletonModel)
     assert sketch.embedding.pieces is not None and sketch.embedding.pieces.abs().max() > 0.0
     assert sketch.skeleton.perceptron.layers[-1].weight[60:].abs().max() > 0.0, "lines and impulses began at zero"
+    assert sketch.skeleton.perceptron.layers[-1].weight[24, 16:].abs().max() > 0.0, "so did the second one's share of the gain"
     for part in ("embedding", "level", "skeleton"):
         own, base = (getattr(model, part).state_dict() for model in (standard, sketch))
         assert all(torch.equal(own[name], base[name]) for name in base), part
@@ -166,8 +168,32 @@ def test_the_file_of_a_skeleton_has_its_tensors_and_no_level_graph(exported: Mod
     assert exported.tensors["pieces"].shape == (2, 3, 60)
     assert set(exported.graphs) == {"draft.field", "standard.field"}
     graph = onnx.load_from_string(exported.graphs["draft.field"])
-    assert [value.name for value in graph.graph.input] == ["entering", "past", "film"]
+    shapes = {
+        value.name: [size.dim_value for size in value.type.tensor_type.shape.dim][1:] for value in graph.graph.input
+    }
+    assert {name: shape for name, shape in shapes.items() if name != "film"} == {
+        "entering": [12, 1, 200], "past": [1, 1, 200], "own": [1, 1, 200],
+    }  # fmt: skip
+    assert list(shapes) == ["entering", "past", "own", "film"]
     assert [value.name for value in graph.graph.output] == ["correction"]
+
+
+@pytest.mark.parametrize(("hidden", "fits"), [((16, 16), True), ((32,), True), ((8, 24), False)])
+def test_a_file_s_perceptron_is_read_as_the_two_that_it_was_or_as_one(
+    hidden: tuple[int, ...], fits: bool, exported: ModelFile, runs: Path, store: FakeStore, tmp_path: Path
+) -> None:
+    assert exported.header["skeleton"]["hidden"] == 32
+    config = dataclasses.replace(_sketch(), model=ModelConfig(network="skeleton", hidden=hidden))
+    given = (config, store, tmp_path, ALONE)
+    if not fits:
+        with pytest.raises(InputError, match="'skeleton.perceptron.layers.2.weight' does not fit; begin with its"):
+            Trainer(*given, wave_vectors=WAVE_VECTORS, start=runs / "m.haptoflow")
+        return
+    begun = Trainer(*given, wave_vectors=WAVE_VECTORS, start=runs / "m.haptoflow").model
+    trained = load_trained(runs / "sketch")[2]
+    assert isinstance(begun, SkeletonModel) and isinstance(trained, SkeletonModel)
+    for name, weights in trained.skeleton.state_dict().items():
+        torch.testing.assert_close(begun.skeleton.state_dict()[name], weights, msg=name)
 
 
 def test_labels_state_how_their_ribs_wander_and_how_they_slip(exported: ModelFile) -> None:
@@ -188,6 +214,62 @@ def test_a_skeleton_and_a_refinement_sound_in_closed_loop(name: str, runs: Path)
     labels, statistics = np.arange(2), SurfaceStatistics.of_labels(WANDERING)
     run = run_closed_loop(source, source.embeddings, motions, labels, statistics, update_rate_hz=72.0, seed=1)
     assert np.isfinite(run.waves).all() and (run.waves.std(axis=1) > 0.0).all()
+    often = run_closed_loop(source, source.embeddings, motions, labels, statistics, update_rate_hz=200.0, seed=1)
+    # At a constant motion a skeleton alone is one stream, however often it is handed over; phases round differently.
+    apart = np.abs(often.waves - run.waves).max(axis=1) / run.waves.std(axis=1)
+    assert name != "sketch" or apart.max() < 0.02
+
+
+def test_in_a_chain_the_skeleton_continues_itself_whatever_the_network_adds(store: FakeStore) -> None:
+    torch.manual_seed(4)
+    refined = build_model(_refinement(), WAVE_VECTORS)
+    assert isinstance(refined, SkeletonModel) and refined.refiner is not None
+    torch.nn.init.normal_(refined.refiner.leave.weight, std=0.2)
+    torch.nn.init.normal_(refined.skeleton.perceptron.layers[-1].bias[139:], std=0.3)
+    three = BatchConfig(chain_hops=(3, 3))
+    chain = SegmentBatches(store, "train", three, 4).draw_chains(4).chain  # type: ignore[arg-type]
+    assert chain is not None
+    embedding = refined.embedding(torch.tensor([0, 1, 0, 1])).detach()
+
+    def rendered() -> tuple[torch.Tensor, torch.Tensor]:
+        generator = torch.Generator().manual_seed(1)
+        return SkeletonLosses(refined).render_chain(chain, embedding, "energy", generator)
+
+    (played, own), noise = rendered()[0].unbind(dim=1), rendered()[1]
+    torch.nn.init.zeros_(refined.refiner.leave.weight)
+    alone, same_noise = rendered()
+    assert torch.equal(own, alone[:, 1]) and torch.equal(alone[:, 0], alone[:, 1])
+    rendered_samples = 3 * chain.hop_samples
+    assert (played - own)[:, -min(200, rendered_samples) :].abs().max() > 0.01 * own.std()
+    assert noise.shape == (4, 1, NOISE_BEFORE) and torch.equal(noise, same_noise)
+
+
+def test_both_draws_after_a_chain_hear_its_impulses_ring_and_those_after_a_recording_do_not(store: FakeStore) -> None:
+    _, losses, _ = _losses_and_batch(store)
+    generator = torch.Generator().manual_seed(1)
+    batches = SegmentBatches(store, "train", BatchConfig(), 4)  # type: ignore[arg-type]
+    for batch in (batches.draw(6), batches.draw_chains(6)):
+        given = losses._scaled(batch, "energy", generator)
+        first, second = given.noise_before.chunk(2)
+        assert torch.equal(first, second) == (batch.chain is not None)
+        assert given.previous.shape == (6, 2, 200) and first.shape == (6, 1, NOISE_BEFORE)
+        noise, *drawn = losses.two_draws(given, generator)
+        assert torch.equal(noise[:, :, :NOISE_BEFORE], first) and not torch.equal(*drawn)
+
+
+def test_the_energy_distance_moves_neither_the_filter_s_perceptron_nor_the_embedding(
+    monkeypatch: pytest.MonkeyPatch, store: FakeStore
+) -> None:
+    model, losses, batch = _losses_and_batch(store)
+    for likelihood in ("likelihood", "tail_likelihood"):
+        monkeypatch.setattr(model.skeleton, likelihood, lambda segment, gains, phases: torch.zeros(len(segment)))
+    losses(batch, "energy", torch.Generator().manual_seed(6))[1].backward()
+    layers = [model.skeleton.perceptron.layers[layer].weight.grad for layer in (0, 2, 4)]
+    assert all(layer is not None for layer in layers)
+    assert not any((layers[0][:16].any(), layers[1][:16].any(), layers[2][:24].any(), layers[2][:, :16].any()))
+    assert layers[2][24, 16:].any() and layers[2][139:, 16:].any(), "it moves the noise's gain and impulses"
+    learnt = model.embedding.learnt.weight.grad
+    assert learnt is None or not learnt.any()
 
 
 def _shift_loss(monkeypatch: pytest.MonkeyPatch, store: FakeStore, *, trained: bool) -> float:
@@ -356,8 +438,41 @@ def test_a_skeleton_keeps_its_likelihood_in_the_energy_phase(monkeypatch: pytest
         losses(batch, objective, torch.Generator().manual_seed(6))[1].backward()
         weight = model.skeleton.perceptron.layers[-1].weight
         assert weight.grad is not None and weight.grad[filtering].abs().max() > 0.0
-        # The untrained impulses do nothing to a likelihood.
-        assert (weight.grad[139:].abs().max() > 0.0) == (objective == "energy")
+        # The likelihood of tails moves them, if they are there.
+        assert weight.grad[139:].abs().max() > 0.0
+
+
+def test_impulses_as_strong_as_recorded_are_best_for_what_drives_a_resonating_filter(store: FakeStore) -> None:
+    model, losses, batch = _losses_and_batch(store)
+    skeleton, generator = model.skeleton, torch.Generator().manual_seed(8)
+    raw = torch.zeros(1, 25)
+    raw[0, :2] = torch.tensor([1.2, -1.4])
+    coefficients, log_gain = skeleton.predicted(raw)
+    still = skeleton.gains(torch.zeros(1, 64), torch.zeros(1, 3), torch.zeros(1, 6))
+    kernels = torch.zeros(2, 5, 13)
+    kernels[:, 1:3, 0] = 0.25
+
+    def gains(strength: float) -> SkeletonGains:
+        impulses = strength * kernels.reshape(1, -1)
+        known = still._replace(coefficients=coefficients, log_gain=log_gain, log_drive=log_gain, impulses=impulses)
+        return SkeletonGains(*(part.detach().expand(512, *part.shape[1:]) for part in known))
+
+    def drawn(strength: float) -> torch.Tensor:
+        noise = torch.randn(512, 1, NOISE_BEFORE + 200, generator=generator)
+        return skeleton.parts(noise, torch.zeros(512, 1, 200), gains(strength), torch.zeros(512, 6)).segment
+
+    given = losses._scaled(batch, "energy", generator)
+    recorded = dataclasses.replace(
+        given, segment=drawn(1.0), recorded_previous=torch.zeros(512, 1, 200), unsteadiness=torch.zeros(512)
+    )
+    found = [
+        losses._driving_loss(
+            recorded,
+            [losses._driving(each, gains(1.0)) for each in (recorded.segment, drawn(strength), drawn(strength))],
+        ).item()
+        for strength in (0.0, 1.0, 2.0)
+    ]
+    assert found[1] < min(found[0], found[2]) - 0.02
 
 
 SMALL_BASE = """
@@ -368,7 +483,7 @@ threads = 1
 source = "folders"
 [model]
 network = "skeleton"
-hidden = 8
+hidden = [8, 8]
 [optimiser]
 batch_size = 4
 level_steps = 2
@@ -402,7 +517,7 @@ shares_base = true
 def test_recordings_from_a_folder_become_a_model_of_the_shipped_kind(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    monkeypatch.setenv("PYTHONPATH", str(Path(__file__).parents[2] / "Training"))
+    monkeypatch.setattr(train_tiers, "run_jobs", run_here)
     recordings = tmp_path / "recordings"
     for texture in (0, 66):
         for direction in range(0, 360, 45):

@@ -19,15 +19,8 @@ from haptoflow_training.preprocessing.preparation import prepare_store
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.recordings.landing import RibWander, StickSlip, landing_of, landing_of_spring
 from haptoflow_training.recordings.synthetic import (
-    FURTHER_SPECIMENS,
-    HELD_OUT_SPECIMEN,
-    TRAINING_SPECIMENS,
-    Material,
-    hand_conditions,
-    load_materials,
-    machine_conditions,
-    record_condition,
-    training_specimen,
+    FURTHER_SPECIMENS, HELD_OUT_SPECIMEN, TRAINING_SPECIMENS, Material, hand_conditions, load_materials,
+    machine_conditions, record_condition, training_specimen
 )
 from haptoflow_training.recordings.synthetic.contact import SIMULATION_RATE_HZ
 from haptoflow_training.recordings.synthetic.features import impact_acceleration, rib_wander_turns, ruling_height
@@ -35,8 +28,9 @@ from haptoflow_training.recordings.synthetic.materials import (
     DEFAULT_MATERIALS_PATH, Calibrated, Ruling, select_materials, write_calibrated
 )
 from haptoflow_training.recordings.synthetic.measurement import band_level
-from haptoflow_training.recordings.synthetic.specimens import character_of, surface_gain
-from haptoflow_training.recordings.synthetic.surface import OCTAVE_WAVELENGTHS_MM, RandomField, TipPath, random_height
+from haptoflow_training.recordings.synthetic.surface import (
+    OCTAVE_WAVELENGTHS_MM, RandomField, TipPath, character_of, random_height, surface_gain
+)
 from haptoflow_training.training.config import DataConfig, load_config
 from haptoflow_training.training.recordings_source import synthetic_label_infos
 
@@ -434,7 +428,7 @@ def test_a_store_keeps_wander_specimen_and_the_fraction_of_the_slip_s_phase(tmp_
         )
         for label, seed, specimen in (("rubber", 1, 3), ("jute", 2, 9), ("rubber", 4, 0))
     ]  # fmt: skip
-    store = prepare_store([*recordings, small_recording()], ["rubber", "jute", "wood"], tmp_path / "store", progress=False)
+    store = prepare_store([*recordings, small_recording()], ["rubber", "jute", "wood"], tmp_path / "store")
     assert [one.specimen for one in store.recordings] == [3, 9, 0, None]
     assert store.wander_turns.shape == (len(store.waveform), 3) and store.wander_turns.dtype == np.float32
     for recording, stored in zip(recordings, store.recordings, strict=False):

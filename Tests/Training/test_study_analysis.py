@@ -17,7 +17,7 @@ from haptoflow_training.studies.analysis import analyse_latency, analyse_similar
 from haptoflow_training.studies.log_table import LATENCY, SIMILARITY
 from haptoflow_training.studies.rating_tests import Pair
 from haptoflow_training.studies.simulation import METHODS, RatingModel, planted
-from haptoflow_training.studies.study_folder import read_faultless
+from haptoflow_training.studies.session_file import read_faultless
 
 
 def pictures_of(page: str) -> list[str]:

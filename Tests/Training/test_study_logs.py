@@ -16,9 +16,8 @@ from haptoflow_training.cli import main
 from haptoflow_training.errors import InputError
 from haptoflow_training.studies.log_table import COLUMNS
 from haptoflow_training.studies.plans import latency_plan, similarity_plan
-from haptoflow_training.studies.session_file import read_session
+from haptoflow_training.studies.session_file import read_faultless, read_folder, read_session
 from haptoflow_training.studies.analysis import listed_names
-from haptoflow_training.studies.study_folder import read_faultless, read_folder
 
 SESSIONS = Path(__file__).parents[1] / "Golden" / "studies" / "sessions"
 

@@ -14,7 +14,7 @@ from haptoflow_training.cli import main
 from haptoflow_training.errors import InputError
 from haptoflow_training.model_stamp import with_measured_words
 from haptoflow_training.studies.delay_budget import (
-    BenchFigures, Block, Budget, Spread, budgets, page_words, page_words as budget_words, read_bench, read_lags
+    BenchFigures, Block, Budget, Spread, budgets, page_words as budget_words, read_bench
 )
 from haptoflow_training.studies.log_table import COLUMNS
 from haptoflow_training.studies.plans import SplitMix64, latency_plan, similarity_plan, williams_design
@@ -161,19 +161,6 @@ def test_the_chart_and_the_page_are_written_together(tmp_path: Path) -> None:
     assert chart.startswith(b"\x89PNG") and read_bench(PUBLISHED).model_sha256.encode() in chart
 
 
-def _row(lag_ms: float) -> dict[str, object]:
-    rates = {rate: {"lag_ms": lag_ms, "correlation": 0.9} for rate in ("72", "90", "120")}
-    return {"lags": {"scribbles": rates, "real strokes": rates}}
-
-
-def test_the_lag_from_stylus_to_vibration_is_a_row_for_each_kind_of_stroke_and_version(tmp_path: Path) -> None:
-    path = tmp_path / "lag.json"
-    path.write_text(json.dumps({"before": _row(30.0), "now": _row(12.04)}), encoding="utf-8")
-    words = page_words(read_bench(PUBLISHED), "c.png", None, read_lags(path))
-    assert "| scribbles, before | 30.0 | 30.0 | 30.0 |" in words
-    assert "| real strokes, now | 12.0 | 12.0 | 12.0 |" in words
-
-
 ROOT = Path(__file__).parents[2]
 PAGES = ROOT / "Documentation~"
 FILES, STUDIES = PAGES / "study-files.md", PAGES / "studies.md"
@@ -203,9 +190,8 @@ def commands(page: Path) -> list[list[str]]:
 def test_every_command_of_a_page_runs_in_its_order(
     page: Path, steps: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    (tmp_path / "Training" / "results" / "default").mkdir(parents=True)
-    for name in ("benchmarks.md", "default/stylus-lag.json"):
-        (tmp_path / "Training" / "results" / name).write_bytes((RESULTS / name).read_bytes())
+    (tmp_path / "Training" / "results").mkdir(parents=True)
+    (tmp_path / "Training" / "results" / "benchmarks.md").write_bytes((RESULTS / "benchmarks.md").read_bytes())
     monkeypatch.chdir(tmp_path)
     ran = []
     for words in commands(page):
@@ -231,5 +217,5 @@ def test_every_column_and_key_of_the_logs_is_explained() -> None:
 def test_the_published_budget_is_that_of_the_published_benchmark() -> None:
     page = (RESULTS / "delay-budget.md").read_text(encoding="utf-8")
     chart = "../../Documentation~/images/delay-budget.png"
-    words = budget_words(read_bench(PUBLISHED), chart, None, read_lags(RESULTS / "default" / "stylus-lag.json"))
+    words = budget_words(read_bench(PUBLISHED), chart)
     assert page == with_measured_words(page, words), "write it anew: haptoflow-training study budget --page"

@@ -10,23 +10,14 @@ from scipy import optimize, special, stats
 
 from haptoflow_training.cli import main
 from haptoflow_training.studies.plans import CONDITIONS
-from haptoflow_training.studies.power import latency_power
+from haptoflow_training.studies.simulation import PAPER_CURVES, AnswerModel, RatingModel, latency_power
 from haptoflow_training.studies.psychometric import (
     Answers, Curve, expanded_interval, fit, fit_curve, share, threshold_difference
 )
 from haptoflow_training.studies.rating_tests import (
-    adjusted,
-    analysed,
-    cohen_dz,
-    equivalence,
-    factors,
-    friedman,
-    holm,
-    possible_true_counts,
-    rank_biserial,
-    signed_rank_p,
+    adjusted, analysed, cohen_dz, equivalence, factors, friedman, holm, possible_true_counts, rank_biserial,
+    signed_rank_p
 )
-from haptoflow_training.studies.simulation import PAPER_CURVES, AnswerModel, RatingModel
 
 def ratings_of(seed: int, participants: int, means: list[float], spread: float = 1.2) -> np.ndarray:
     random = np.random.default_rng(seed)

@@ -124,7 +124,7 @@ def _prepared_wave(label, *, material=None, speed=0.03, seconds=6.0, seeds=range
     return np.concatenate(waves)
 
 
-@pytest.mark.parametrize("label", ["concrete", "stone", "brick", "sandpaper"])
+@pytest.mark.parametrize("label", ["stone", "sandpaper"])
 def test_asperities_that_mostly_push_up_skew_the_vibration_of_rough_stone_upwards(label):
     def skewness(material):
         wave = _prepared_wave(label, material=material)

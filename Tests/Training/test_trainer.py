@@ -28,7 +28,7 @@ def _config(steps: int = 30) -> TrainingConfig:
         name="test",
         tier="standard",
         threads=1,
-        model=ModelConfig(hidden=8),
+        model=ModelConfig(hidden=(8, 8)),
         optimiser=OptimiserConfig(
             batch_size=8, level_steps=20, steps=steps, level_polish_steps=10, warm_up_steps=5, average_decay=0.9
         ),
@@ -121,6 +121,9 @@ def _free_port() -> str:
         return str(listener.getsockname()[1])
 
 
+@pytest.mark.long(
+    because="two processes of PyTorch start and find each other; what they compute is tested in one process"
+)
 def test_two_torchrun_processes_end_with_equal_weights_on_a_machine_whose_name_does_not_resolve(tmp_path: Path) -> None:
     script = Path(__file__).with_name("two_process_training.py")
     environment = dict(os.environ, OMP_NUM_THREADS="1", PYTHONPATH=os.pathsep.join(sys.path))

@@ -27,7 +27,7 @@ def _load(tmp_path: Path, text: str) -> TrainingConfig:
 
 TRAININGS = sorted(
     path.relative_to(TRAINING).as_posix()
-    for pattern in ("configs/own.toml", "configs/*/*.toml", "haptoflow_paper/configs/*.toml")
+    for pattern in ("configs/own.toml", "configs/refine-*.toml", "configs/*/*.toml", "haptoflow_paper/configs/*.toml")
     for path in TRAINING.glob(pattern)
     if path.name not in ("rows.toml", "codec-small.toml")
 )
@@ -151,13 +151,13 @@ def test_a_wrong_plan_is_refused_with_row_and_key_named(tmp_path: Path, text: st
         ("[recipe]\nobjective = 'average-velocity'\nenergy_steps = 5", "'recipe.objective' is out of range"),
         ("[model]\nnetwork = 'gan'", "'model.network' is out of range, expected one of field, skeleton, refinement"),
         ("[model]\nnetwork = 'refinement'", "'recipe.shares_base' is out of range, expected true"),
-        ("[model]\nnetwork = 'skeleton'\nhidden = 4", "'model.hidden' is out of range"),
+        ("[model]\nnetwork = 'skeleton'\nhidden = [8, 4]", "'model.hidden' is out of range"),
         ("tier = 'quick'", "'tier' is out of range, expected one of sketch, draft, standard"),
         ("[batch]\nheld_out_speed_mps = [0.3, 0.2]", "'batch.held_out_speed_mps' is out of range"),
         ("extends = 'nowhere.toml'", "nowhere.toml"),
         ("[batch]\nhop_samples = [50, 20]", "'batch.hop_samples' is out of range"),
         ("data = 3", "'data' must be a table"),
-        ("not toml at all", "is not TOML"),
+        ("not toml at all", "not valid TOML"),
     ],
 )
 def test_a_wrong_key_or_value_is_named_with_its_file(tmp_path: Path, text: str, complaint: str) -> None:

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from haptoflow_training.closed_loop.level_calibration import closed_loop_levels, offsets_db
-from haptoflow_training.closed_loop.render import SurfaceStatistics
+from haptoflow_training.cli import main
+from haptoflow_training.training.level_calibration import closed_loop_levels, offsets_db
+from haptoflow_training.training.closed_loop import SurfaceStatistics
 from haptoflow_training.training.batches import HeldOut
+from haptoflow_training.training.processes import Job
 
 RATE_HZ = 2000
 
@@ -79,6 +81,13 @@ def make_store(*, seconds: float = 4.0, recordings_per_split: int = 2, seed: int
         ["tone", "noise"],
         recordings,
     )
+
+
+def run_here(jobs: Sequence[Job], lanes: int, progress: Callable[[int], None]) -> None:
+    """`run_jobs` of `train-tiers` without processes of their own, each of which imports PyTorch."""
+    for finished, job in enumerate(jobs, start=1):
+        assert main(list(job.words)) == 0, job.name
+        progress(finished)
 
 
 def still_surfaces(labels: int) -> SurfaceStatistics:

@@ -1,5 +1,4 @@
 using System.Runtime.CompilerServices;
 
 [assembly: InternalsVisibleTo("HaptoFlow.EditorTests")]
-[assembly: InternalsVisibleTo("HaptoFlow.SampleTests")]
-[assembly: InternalsVisibleTo("HaptoFlow.ShimTests")]
+[assembly: InternalsVisibleTo("HaptoFlow.Tests")]

@@ -11,10 +11,14 @@ class MadeContext extends EventTarget {
   /** Listed, though gone. */
   ghosts = 0;
   refusals = 0;
+  /** How long time still passes on an output that is gone. */
+  ghostSeconds = 0;
   #time = 0;
+  #chosenAtMs = 0;
 
   get currentTime() {
-    if (this.state === 'running' && (this.sinkId !== '' || this.outputs > 0)) this.#time += 0.1;
+    const isGhostAlive = this.ghosts > 0 && performance.now() - this.#chosenAtMs < 1000 / 20 * this.ghostSeconds;
+    if (this.state === 'running' && (this.sinkId !== '' || this.outputs > 0 || isGhostAlive)) this.#time += 0.1;
     return this.#time;
   }
 
@@ -31,6 +35,7 @@ class MadeContext extends EventTarget {
     }
     if (id === '' && this.outputs + this.ghosts === 0) throw new Error('the device is not found');
     this.sinkId = id;
+    this.#chosenAtMs = performance.now();
   }
 
   async resume() {
@@ -38,9 +43,10 @@ class MadeContext extends EventTarget {
   }
 }
 
-/** Longer than the watch looks whether time passes. */
+const { setTimeout: realTimeout } = globalThis;
+/** Longer than the watch looks whether time passes, which here takes a twentieth. */
 const proven = () => new Promise((resolve) => {
-  setTimeout(resolve, 700);
+  realTimeout(resolve, 1700 / 20);
 });
 const settle = () => new Promise((resolve) => {
   setImmediate(resolve);
@@ -54,6 +60,7 @@ async function watched(/** @type {any} */ context, /** @type {(pass: (seconds: n
   const cleared = mock.method(globalThis, 'clearInterval', (/** @type {number} */ number) => {
     if (number) timers[number - 1] = () => {};
   });
+  const quick = mock.method(globalThis, 'setTimeout', (/** @type {() => void} */ action, /** @type {number} */ milliseconds) => realTimeout(action, milliseconds / 20));
   const devices = mock.method(navigator, 'mediaDevices', () => ({ enumerateDevices: async () => Array.from({ length: context.outputs + context.ghosts }, () => ({ kind: 'audiooutput' })) }), { getter: true });
   try {
     /** @type {string[]} */
@@ -68,7 +75,7 @@ async function watched(/** @type {any} */ context, /** @type {(pass: (seconds: n
     }, states, watch);
     watch.close();
   } finally {
-    [made, cleared, devices].forEach(({ mock: each }) => each.restore());
+    [made, cleared, quick, devices].forEach(({ mock: each }) => each.restore());
   }
 }
 if (!globalThis.navigator) Object.defineProperty(globalThis, 'navigator', { value: {}, configurable: true });
@@ -107,6 +114,37 @@ test('an output that is listed but gone is not taken for one that is back', asyn
     assert.deepEqual(context.sinkId, { type: 'none' });
     context.ghosts = 0;
     context.outputs = 1;
+    await pass(1);
+    assert.deepEqual(states, ['lost', 'back']);
+  });
+});
+
+test('an output that is gone, but on which time passes for a while, is not taken for one that is back', async () => {
+  const context = new MadeContext();
+  await watched(context, async (pass, states, watch) => {
+    context.ghosts = 1;
+    context.ghostSeconds = 0.6;
+    context.unplug();
+    await pass(2);
+    assert.deepEqual(states, ['lost']);
+    assert.equal(watch.hasLost, true);
+  });
+});
+
+test('an output that fails while it is tried is not taken for one that is back', async () => {
+  const context = new MadeContext();
+  await watched(context, async (pass, states, watch) => {
+    context.unplug();
+    context.outputs = 1;
+    const choose = context.setSinkId.bind(context);
+    context.setSinkId = async (id) => {
+      await choose(id);
+      if (id === '') context.dispatchEvent(new Event('error'));
+    };
+    await pass(2);
+    assert.deepEqual(states, ['lost']);
+    assert.equal(watch.hasLost, true);
+    context.setSinkId = choose;
     await pass(1);
     assert.deepEqual(states, ['lost', 'back']);
   });

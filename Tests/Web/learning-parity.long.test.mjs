@@ -2,13 +2,14 @@ import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import { test } from 'node:test';
-import { learn } from '../../Web/engine/js/offline.mjs';
-import { coreWithModel, hasCommandLine, native } from './support/engine.mjs';
-import { recording } from './support/made-recording.mjs';
+import { learn, render } from '../../Web/engine/js/offline.mjs';
+import { coreWithModel, hasCommandLine, native, recording, sample } from './support/engine.mjs';
 
 // Takes half a minute.
 
-const core = await coreWithModel();
+/** @type {{share: number, doing: string}[]} */
+const reports = [];
+const core = await coreWithModel({ onProgress: (share, doing) => reports.push({ share, doing }) });
 
 test('a table is learnt to the command line\'s own material', { skip: !hasCommandLine }, () => {
   const table = recording(11);
@@ -26,4 +27,8 @@ test('a table is learnt to the command line\'s own material', { skip: !hasComman
   assert.ok(Math.abs(learnt.report.level_error_db - report.level_error_db) < 0.05);
   const [web, other] = [learnt.material, material].map((text) => JSON.parse(text).embedding);
   assert.ok(Math.max(...web.map((number, index) => Math.abs(number - other[index]))) < 1e-3);
+  assert.ok(reports.length > 3 && reports.every(({ share, doing }) => share >= 0 && share <= 1 && doing !== ''));
+  const scene = sample('tracing.scene.json').replace(/"material": "[^"]+"/g, '"material": "rough"');
+  const options = { scene, stroke: sample('tracing.stroke.csv'), quality: 'sketch', materials: [learnt.material] };
+  assert.ok(render(core, options).samples.some((number) => Math.abs(number) > 0.001));
 });

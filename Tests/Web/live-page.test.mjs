@@ -1,14 +1,11 @@
 import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
-import { after, afterEach, before, describe, test } from 'node:test';
+import { after, before, describe, test } from 'node:test';
 import { gzipSync } from 'node:zlib';
-import { pageFolder } from '../../scripts/web/build.mjs';
-import { hasBrowser, isLong } from './support/browser.mjs';
-import { hasCommandLine, native, wavSamples } from './support/engine.mjs';
-import { recording } from './support/made-recording.mjs';
-import { openLivePage, watch } from './support/page.mjs';
-import { repository } from './support/places.mjs';
+import { pageFolder } from '../../scripts/lib/web_build.mjs';
+import { hasBrowser, isLong, openLivePage, watch } from './support/browser.mjs';
+import { hasCommandLine, native, repository, wavSamples } from './support/engine.mjs';
 
 const documentation = readFileSync(path.join(repository, 'Documentation~', 'in-the-browser.md'), 'utf8');
 /** @type {Awaited<ReturnType<typeof openLivePage>>} */
@@ -66,7 +63,7 @@ describe('the live page', { skip: !hasBrowser }, () => {
 
   test('the mouse held still presses harder, up to two newtons', async () => {
     await draw([[0.185, 0], [0.19, 0]]);
-    await pause(2200);
+    await pause(1600);
     const force = await inPage(() => globalThis.haptoflowPage.tips[0].place.forceNewtons);
     await opened.page.mouse.up();
     assert.ok(force > 1.9 && force <= 2, `${force}`);
@@ -149,10 +146,12 @@ describe('the live page', { skip: !hasBrowser }, () => {
       const { tips } = globalThis.haptoflowPage;
       globalThis.timer = setInterval(() => tips[0].contact?.touching && globalThis.heard.push(tips[0].contact.surfaceName), 5);
     });
+    await opened.page.locator('#speed').fill('2');
     await opened.page.locator('#record').click();
     await opened.page.getByRole('button', { name: 'Along the front' }).click();
     await opened.page.waitForFunction(() => globalThis.haptoflowPage.hand.isPlaying);
     await opened.page.waitForFunction(() => !globalThis.haptoflowPage.hand.isPlaying, null, { timeout: 15000 });
+    await opened.page.locator('#speed').fill('1');
     await isQuiet();
     await opened.page.locator('#record').click();
     const downloads = [];
@@ -235,31 +234,6 @@ describe('the live page', { skip: !hasBrowser }, () => {
     await page.locator('#effect-impact').check();
   });
 
-  test('a dropped recording becomes a material of the palette, and learning can be cancelled', async () => {
-    const { page } = opened;
-    const drop = () => inPage((content) => {
-      const transfer = new DataTransfer();
-      transfer.items.add(new File([content], 'rough.csv', { type: 'text/csv' }));
-      document.querySelector('#drop').dispatchEvent(new DragEvent('drop', { dataTransfer: transfer, bubbles: true, cancelable: true }));
-    }, recording(11));
-    await inPage(() => {
-      globalThis.haptoflowPage.ownMaterial.secondsLimit = 2;
-    });
-    await drop();
-    await page.locator('#learn-cancel').click();
-    await page.waitForFunction(() => document.querySelector('#learn-result').textContent === 'Cancelled.');
-    await drop();
-    await page.waitForFunction(() => document.querySelector('#labels input[value="rough"]'), null, { timeout: 60000 });
-    assert.match(await text('#learn-result'), /“rough” is in the palette/);
-    await page.locator('#paint-object').selectOption({ label: 'Paper' });
-    await page.getByRole('button', { name: 'Paint it' }).click();
-    const stop = await watch(page);
-    await draw(rub(0.062, -0.112));
-    await page.mouse.up();
-    assert.ok(loudest(await stop(), 'paper sheet') > 0.01);
-    assert.equal(await inPage(() => globalThis.haptoflowPage.table.materials[13]), 'rough');
-  });
-
   test('a phone\'s motor and a gamepad\'s follow the stroke, and rest after it', async () => {
     const found = await inPage(async () => {
       const rumbles = [];
@@ -310,13 +284,6 @@ describe('the live page', { skip: !hasBrowser }, () => {
     assert.equal(report.sharing, 'shared');
   });
 
-  test('a file that is no recording is refused in words', async () => {
-    const { page } = opened;
-    await page.locator('#recording').setInputFiles({ name: 'letter.csv', mimeType: 'text/csv', buffer: Buffer.from('dear,friend\n1,2\n') });
-    await page.waitForFunction(() => document.querySelector('#learn-result').textContent.includes('letter.csv'), null, { timeout: 20000 });
-    assert.equal(await page.locator('#learn-progress').isHidden(), true);
-  });
-
   if (isLong) test('a lost worker is told in words, and the page sounds again', async () => {
     await inPage(() => globalThis.haptoflowPage.haptics[Symbol.for('haptoflow.worker')].terminate());
     await opened.page.waitForFunction(() => /started again/.test(document.querySelector('#message-text').textContent), null, { timeout: 20000 });
@@ -336,6 +303,13 @@ describe('the live page', { skip: !hasBrowser }, () => {
     assert.ok(await inPage(() => globalThis.loudestHeard) > 1e-3);
   });
 
+  test('sound that waits for a gesture says so, and a tap starts it', async () => {
+    // As a browser does before a gesture, or when it takes the device away.
+    await inPage(() => globalThis.haptoflowPage.haptics.context.suspend());
+    await opened.page.getByRole('button', { name: 'Tap to start' }).click();
+    await opened.page.waitForFunction(() => document.querySelector('#start').hidden);
+  });
+
   test('every control has a name', async () => {
     const nameless = await inPage(() => [...document.querySelectorAll('button, input, select, canvas:not([aria-hidden]), meter, progress')].filter((element) => {
       const labels = /** @type {any} */ (element).labels;
@@ -350,17 +324,16 @@ describe('the live page', { skip: !hasBrowser }, () => {
     assert.ok(await opened.page.getByRole('button', { name: 'Try again' }).isVisible());
   });
 
-  test('nothing was asked of another origin, and nothing was complained of', () => {
+  test('nothing was asked of another origin, nothing was complained of, and nothing is missing', async () => {
+    assert.equal(await opened.page.locator('#missing').isHidden(), true, await opened.page.locator('#missing').textContent());
     assert.deepEqual(opened.strangers, []);
     assert.deepEqual(opened.complaints, []);
   });
 });
 
-describe('the live page elsewhere', { skip: !hasBrowser }, () => {
-  afterEach(() => opened.close());
-
-  test('without the headers it says that it uses a ring, and sounds; 360 pixels need no scrolling aside; dark is dark', async () => {
-    opened = await openLivePage({ isolated: false, viewport: { width: 360, height: 720 }, colorScheme: 'dark' });
+test('without the headers it says that it uses a ring, and sounds; 360 pixels need no scrolling aside; dark is dark; less motion stops the grille', { skip: !hasBrowser }, async () => {
+  opened = await openLivePage({ isolated: false, viewport: { width: 360, height: 720 }, colorScheme: 'dark', reducedMotion: 'reduce' });
+  try {
     assert.match(await opened.page.locator('#device-line').textContent(), /ring that adds \d+ ms/);
     const stop = await watch(opened.page);
     await draw(rub(-0.185, -0.112));
@@ -369,27 +342,8 @@ describe('the live page elsewhere', { skip: !hasBrowser }, () => {
     assert.ok(await inPage(() => document.documentElement.scrollWidth <= innerWidth));
     const ground = await inPage(() => getComputedStyle(document.body).backgroundColor.match(/\d+/g).map(Number));
     assert.ok(Math.max(...ground) < 60, `${ground}`);
-  });
-
-  test('sound that waits for a gesture says so, and a tap starts it; less motion stops the grille', async () => {
-    opened = await openLivePage({ reducedMotion: 'reduce' });
-    // As a browser does before a gesture, or when it takes the device away.
-    await inPage(() => globalThis.haptoflowPage.haptics.context.suspend());
-    await opened.page.getByRole('button', { name: 'Tap to start' }).click();
-    await opened.page.waitForFunction(() => document.querySelector('#start').hidden);
     assert.equal(await inPage(() => globalThis.haptoflowPage.table.tops.some(({ isMoving }) => isMoving)), false);
-  });
-
-  for (const [what, changes, expected] of /** @type {[string, Record<string, any>, RegExp][]} */ ([
-    ['a missing model', { 'engine/model.haptoflow': () => 404 }, /model .*could not be loaded.*404/i],
-    ['a model that was cut short', { 'engine/model.haptoflow': (bytes) => bytes.subarray(0, 100000) }, /model is damaged/],
-    ['a missing scene', { 'scene/workbench.json': () => 404 }, /workbench\.json.*404/],
-  ])) {
-    test(`${what} is told in words, with a way to try again`, async () => {
-      opened = await openLivePage({ changes, waits: false });
-      await opened.page.waitForFunction(() => document.querySelector('#message')?.dataset.kind === 'error', null, { timeout: 20000 });
-      assert.match(await text('#message-text'), expected);
-      assert.ok(await opened.page.getByRole('button', { name: 'Try again' }).isVisible());
-    });
+  } finally {
+    await opened.close();
   }
 });

@@ -1,9 +1,8 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { pause } from '../../Web/engine/js/pause.mjs';
-import { openBarePage } from './support/bare-browser.mjs';
 import { hasBrowser } from './support/browser.mjs';
-import { hasSoundServer, startSoundServer } from './support/sound-server.mjs';
+import { hasSoundServer, openBarePage, startSoundServer } from './support/programs.mjs';
 
 /** Notes in the page what sounds, and follows the engine's events. */
 const watch = `(() => {

@@ -1,13 +1,16 @@
 import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import path from 'node:path';
 import { after, before, describe, test } from 'node:test';
 import { hasBrowser, isLong, openPage } from './support/browser.mjs';
-import { sample } from './support/engine.mjs';
+import { repository, sample } from './support/engine.mjs';
 
 // In Chromium. The machine may be busy, so that times are judged with room.
 
 /** @type {Awaited<ReturnType<typeof openPage>>} */
 let opened;
 const inPage = (action, argument) => opened.page.evaluate(action, argument);
+const denim = readFileSync(path.join(repository, 'Tests', 'Golden', 'material', 'denim.haptomaterial'), 'utf8');
 
 for (const isolated of [true, false]) {
   describe(isolated ? 'with shared memory' : 'without shared memory', { skip: !hasBrowser }, () => {
@@ -22,7 +25,7 @@ for (const isolated of [true, false]) {
         const { haptics, voice, events } = await started();
         const tap = voice.waveTap();
         const motor = voice.motorTap();
-        await hand(voice, 2, slide('wood'));
+        await hand(voice, 1.2, slide('wood'));
         const wave = new Float32Array(24000);
         tap.latest(wave);
         const loud = rms(wave);
@@ -43,7 +46,7 @@ for (const isolated of [true, false]) {
       assert.equal(found.voice.underruns, 0);
       assert.equal(found.voice.nonFiniteSamples, 0);
       assert.equal(found.voice.failures, 0);
-      assert.ok(found.voice.inferences > 30);
+      assert.ok(found.voice.inferences > 15);
       assert.equal(found.engine.tier, 'standard');
       assert.ok(found.points.length > 100);
       assert.ok(Math.max(...found.points.map(({ share }) => share)) > 0.05);
@@ -125,23 +128,38 @@ for (const isolated of [true, false]) {
       assert.ok(found.end < 0.1 * found.loudest, `a step at the end: ${JSON.stringify(found)}`);
     });
 
-    if (isolated || isLong) test('a lost worker is told, and the voice sounds again by itself', async () => {
-      const found = await inPage(async () => {
+    if (isolated || isLong) test('a lost worker is told, and the voice sounds again by itself, on an added material too', async () => {
+      const found = await inPage(async (text) => {
         const { started, hand, slide, rms, pause } = globalThis.tools;
         const { haptics, voice, events } = await started({ quality: 'draft' });
+        const failureOf = (action) => Promise.resolve().then(action).then(() => null, ({ code, message }) => ({ code, message }));
+        const unknown = await failureOf(() => voice.publish({ touching: true, material: 'denim' }));
+        const taken = await failureOf(() => haptics.addMaterial('{"name": "wood"}'));
+        const invalid = await failureOf(() => haptics.addMaterial('{"name": "denim"}'));
+        const label = await haptics.addMaterial(text);
+        const again = await haptics.addMaterial(text);
+        const scene = haptics.loadScene({ surfaces: [{ name: 'table', shape: { plane: {} }, material: 'denim' }] });
         voice.gain = 0.5;
         const tap = voice.waveTap();
-        await hand(voice, 0.3, slide('wood'));
+        await hand(voice, 0.3, slide('denim'));
         const recovered = new Promise((resolve) => haptics.addEventListener('recovered', ({ detail }) => resolve(detail.milliseconds)));
         haptics[Symbol.for('haptoflow.worker')].terminate();
         const milliseconds = await Promise.race([recovered, pause(15000)]);
         const wave = new Float32Array(9600);
-        await hand(voice, 0.6, slide('wood'));
+        await hand(voice, 0.6, slide('denim'));
         tap.latest(wave);
-        const result = { milliseconds, events, level: rms(wave), recoveries: haptics.statistics().recoveries, gain: voice.gain };
+        const result = {
+          milliseconds, events, level: rms(wave), recoveries: haptics.statistics().recoveries, gain: voice.gain,
+          unknown, taken, invalid, label, again, surface: scene.surfaces[0].material, labels: haptics.labels.length,
+        };
         await haptics.close();
         return result;
-      });
+      }, denim);
+      assert.match(found.unknown.message, /"denim": there is no such label/);
+      assert.match(found.taken.message, /"wood", which is a label of the model/);
+      assert.equal(found.invalid.code, 'MATERIAL_INVALID');
+      assert.deepEqual([found.label.index, found.label.isAdded, found.again.index, found.labels], [20, true, 20, 21]);
+      assert.deepEqual(found.surface, { denim: 1 });
       assert.ok(found.milliseconds > 0, 'it did not recover');
       const [error] = found.events.filter(({ type }) => type === 'error');
       assert.equal(error.error.code, 'worker-lost');
@@ -187,54 +205,11 @@ if (isLong) describe('a ring whose worker is busy', { skip: !hasBrowser }, () =>
   });
 });
 
-describe('what goes wrong on the way', { skip: !hasBrowser }, () => {
+describe('silences and contact', { skip: !hasBrowser }, () => {
   before(async () => {
     opened = await openPage();
   });
   after(() => opened.close());
-
-  const failureOf = (options) => inPage(async (given) => {
-    try {
-      const haptics = await globalThis.HaptoFlow.create(given);
-      await haptics.close();
-      return null;
-    } catch (error) {
-      return { name: error.name, code: error.code, message: error.message };
-    }
-  }, options);
-
-  const cases = [
-    ['a model that is not there', {}, ['/engine/model.haptoflow', () => 404], 'model-unreachable', /model\.haptoflow: 404.*check the address/],
-    ['a model cut short', {}, ['/engine/model.haptoflow', (bytes) => bytes.subarray(0, 100000)], 'MODEL_TRUNCATED', /./],
-    ['a page in place of a model', {}, ['/engine/model.haptoflow', () => Buffer.from('<!doctype html>'.repeat(100))], 'NOT_A_MODEL', /./],
-    ['an engine that is not there', {}, ['/engine/engine.wasm', () => 404], 'engine-unreachable', /engine\.wasm: 404.*base/],
-    ['an engine cut short', {}, ['/engine/engine.wasm', (bytes) => bytes.subarray(0, 1000)], 'engine-unreachable', /is not the engine/],
-    ['ONNX Runtime that is not there', {}, ['/engine/ort-wasm-simd-threaded.wasm', () => 503], 'runtime-unreachable', /503.*onnxruntime-web 1\.30\.0/],
-    ['a worker script that is not there', {}, ['/engine/live-worker.mjs', () => 404], 'worker-lost', /live-worker\.mjs/],
-    ['an audio script that is not there', {}, ['/engine/worklet.mjs', () => 404], 'engine-unreachable', /worklet\.mjs/],
-    ['a quality that does not exist', { quality: 'best' }, null, 'invalid-argument', /"best": expected/],
-  ];
-  for (const [name, options, change, code, message] of cases) {
-    test(`${name}: a plain message, and the next attempt works`, async () => {
-      if (change) opened.server.changes.set(change[0], change[1]);
-      const failure = await failureOf(options);
-      opened.server.changes.clear();
-      assert.equal(failure?.name, 'HaptoFlowError');
-      assert.equal(failure.code, code, failure.message);
-      assert.match(failure.message, message);
-      assert.equal(await failureOf({ quality: 'sketch' }), null);
-    });
-  }
-
-  test('loading is aborted by a signal', async () => {
-    const code = await inPage(async () => {
-      const controller = new AbortController();
-      const loading = globalThis.HaptoFlow.create({ signal: controller.signal });
-      setTimeout(() => controller.abort(), 30);
-      return loading.then(() => 'loaded', (error) => error.code);
-    });
-    assert.equal(code, 'aborted');
-  });
 
   test('a hidden tab falls silent and sounds again when it is back', async () => {
     const other = await opened.context.newPage();
@@ -316,77 +291,5 @@ describe('what goes wrong on the way', { skip: !hasBrowser }, () => {
     assert.ok(found.level > 1e-5);
     assert.equal(found.impacts, 1);
     assert.ok(found.surfaces > 0);
-  });
-
-  test('a render in the page has the samples of the render in Node', async () => {
-    const { render } = await import('../../Web/engine/js/offline.mjs');
-    const { coreWithModel } = await import('./support/engine.mjs');
-    const options = { scene: sample('tracing.scene.json'), stroke: sample('tracing.stroke.csv'), quality: 'standard' };
-    const found = await inPage(async (given) => {
-      const shares = [];
-      const { samples, ...figures } = await globalThis.HaptoFlow.render({ ...given, onProgress: (share) => shares.push(share) });
-      return { figures, samples: Array.from(samples.subarray(40000, 44000)), shares };
-    }, options);
-    const here = render(await coreWithModel(), options);
-    assert.deepEqual(found.samples, Array.from(here.samples.subarray(40000, 44000)));
-    assert.equal(found.figures.touches, here.touches);
-    assert.ok(found.shares.length > 2);
-  });
-
-  test('learning ends at once by its signal, a refused recording says why, and measuring gives a row for each tier', async () => {
-    const found = await inPage(async () => {
-      const controller = new AbortController();
-      const samples = Float32Array.from({ length: 24000 }, () => Math.random());
-      const recording = { name: 'rough', accelerationMps2: samples, sampleRateHz: 2000, constantVelocityMps: [0.1, 0], constantForceNewtons: 1 };
-      const learning = globalThis.HaptoFlow.learn({ recording, signal: controller.signal, onProgress: (share, doing) => doing !== 'loading' && controller.abort() });
-      const aborted = await learning.then(() => 'learnt', ({ code }) => code);
-      const refused = await globalThis.HaptoFlow.learn({ recording: [{ name: 'rough.csv', bytes: new Uint8Array(9) }] }).then(() => 'learnt', ({ code }) => code);
-      const haptics = await globalThis.HaptoFlow.create({ quality: 'sketch' });
-      const rows = await haptics.measure({ seconds: 0.4 });
-      const costs = await haptics.measureEffects();
-      await haptics.close();
-      return { aborted, refused, rows, costs };
-    });
-    assert.equal(found.aborted, 'aborted');
-    assert.equal(found.refused, 'RECORDING_UNUSABLE');
-    assert.deepEqual(found.rows.map(({ tier }) => tier), ['sketch', 'draft', 'standard']);
-    assert.deepEqual(found.costs.map(({ effect }) => effect), ['texture', 'impact', 'edge', 'delay', 'compensation', 'listen']);
-    assert.ok(found.costs[0].microsecondsPerBlock > 0);
-    assert.ok(found.rows.every(({ hotMs, pacedMs }) => hotMs.median > 0 && pacedMs.median >= hotMs.minimum));
-  });
-
-  test('an added material is a label of states and scenes, also after a recovery; what cannot be one says why', async () => {
-    const { learn } = await import('../../Web/engine/js/offline.mjs');
-    const { coreWithModel } = await import('./support/engine.mjs');
-    const { recording } = await import('./support/made-recording.mjs');
-    const bytes = new TextEncoder().encode(recording(11));
-    const { material } = learn(await coreWithModel(), { recording: [{ name: 'mine.csv', bytes }], secondsLimit: 1 });
-    const found = await inPage(async (text) => {
-      const { started, hand, slide, rms } = globalThis.tools;
-      const { haptics, voice } = await started({ quality: 'sketch' });
-      const failureOf = (action) => Promise.resolve().then(action).then(() => null, ({ code, message }) => ({ code, message }));
-      const unknown = await failureOf(() => voice.publish({ touching: true, material: 'mine' }));
-      const taken = await failureOf(() => haptics.addMaterial('{"name": "wood"}'));
-      const invalid = await failureOf(() => haptics.addMaterial('{"name": "mine"}'));
-      const label = await haptics.addMaterial(text);
-      const again = await haptics.addMaterial(text);
-      const scene = haptics.loadScene({ surfaces: [{ name: 'table', shape: { plane: {} }, material: 'mine' }] });
-      const recovered = new Promise((resolve) => haptics.addEventListener('recovered', resolve));
-      haptics[Symbol.for('haptoflow.worker')].terminate();
-      await recovered;
-      const tap = voice.waveTap();
-      const wave = new Float32Array(9600);
-      await hand(voice, 0.5, slide('mine'));
-      tap.latest(wave);
-      const result = { unknown, taken, invalid, label, again, level: rms(wave), surface: scene.surfaces[0].material, labels: haptics.labels.length };
-      await haptics.close();
-      return result;
-    }, material);
-    assert.match(found.unknown.message, /"mine": there is no such label/);
-    assert.match(found.taken.message, /"wood", which is a label of the model/);
-    assert.equal(found.invalid.code, 'MATERIAL_INVALID');
-    assert.deepEqual([found.label.index, found.label.isAdded, found.again.index, found.labels], [20, true, 20, 21]);
-    assert.deepEqual(found.surface, { mine: 1 });
-    assert.ok(found.level > 1e-5);
   });
 });

@@ -4,7 +4,7 @@ import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync
 import os from 'node:os';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
-import { packEngine } from '../../scripts/web/build.mjs';
+import { packEngine } from '../../scripts/lib/web_build.mjs';
 import { hasBrowser, openPage } from './support/browser.mjs';
 import { sample } from './support/engine.mjs';
 

@@ -3,7 +3,7 @@ import { test } from 'node:test';
 import { Hand } from '../../Web/page/xr/hand.mjs';
 import { Hands } from '../../Web/page/xr/hands.mjs';
 import { Placement } from '../../Web/page/xr/frames.mjs';
-import { sceneOpener } from './support/contact.mjs';
+import { sceneOpener } from './support/engine.mjs';
 
 // The real contact model; a voice and motors that note what they are told.
 

@@ -1,9 +1,10 @@
 import assert from 'node:assert/strict';
 import path from 'node:path';
 import { test } from 'node:test';
-import { hasBrowser } from './support/browser.mjs';
-import { openLivePage } from './support/page.mjs';
-import { repository } from './support/places.mjs';
+import { hasBrowser, openLivePage } from './support/browser.mjs';
+import { repository } from './support/engine.mjs';
+
+const emulator = path.join(repository, 'node_modules', 'iwer', 'build', 'iwer.js');
 
 /** An emulated Quest from the first script on; the emulator calls all its poses guessed. */
 function emulate() {
@@ -17,12 +18,8 @@ function emulate() {
 }
 
 test('the live page offers the headset, loads three.js only on entering, and shows afterwards what was painted there', { skip: !hasBrowser }, async () => {
-  const { page, complaints, strangers, close } = await openLivePage({ viewport: { width: 200, height: 150 } });
+  const { page, complaints, strangers, close } = await openLivePage({ viewport: { width: 200, height: 150 }, script: emulator, before: emulate });
   try {
-    assert.equal(await page.locator('#enter-vr').isHidden(), true, 'without a headset there is no button');
-    await page.addInitScript({ path: path.join(repository, 'node_modules', 'iwer', 'build', 'iwer.js') });
-    await page.addInitScript(emulate);
-    await page.reload();
     await page.waitForSelector('#enter-vr:not([hidden])', { state: 'attached', timeout: 30000 });
     const isLoaded = () => performance.getEntriesByType('resource').some(({ name }) => name.endsWith('/three.module.js'));
     assert.equal(await page.evaluate(isLoaded), false);
@@ -72,24 +69,21 @@ test('the live page offers the headset, loads three.js only on entering, and sho
 });
 
 test('a headset\'s browser without graphics, states of sight, joints or motors costs these, and the page goes on', { skip: !hasBrowser }, async () => {
-  const { page, complaints, close } = await openLivePage({ viewport: { width: 200, height: 150 } });
+  const lack = () => {
+    const { getContext } = HTMLCanvasElement.prototype;
+    globalThis.hasGraphics = false;
+    HTMLCanvasElement.prototype.getContext = function (kind, ...more) {
+      return kind === '2d' || globalThis.hasGraphics ? getContext.call(this, kind, ...more) : null;
+    };
+    Object.defineProperty(globalThis.XRSession.prototype, 'visibilityState', { get: () => undefined });
+    delete globalThis.XRFrame.prototype.getJointPose;
+    for (const { inputSource } of Object.values(globalThis.device.controllers)) {
+      Object.defineProperty(inputSource.gamepad, 'hapticActuators', { get() { throw new DOMException('denied', 'SecurityError'); } });
+      Object.defineProperty(inputSource.gamepad, 'vibrationActuator', { get() { throw new DOMException('denied', 'SecurityError'); } });
+    }
+  };
+  const { page, complaints, close } = await openLivePage({ viewport: { width: 200, height: 150 }, script: emulator, before: [emulate, lack] });
   try {
-    await page.addInitScript({ path: path.join(repository, 'node_modules', 'iwer', 'build', 'iwer.js') });
-    await page.addInitScript(emulate);
-    await page.addInitScript(() => {
-      const { getContext } = HTMLCanvasElement.prototype;
-      globalThis.hasGraphics = false;
-      HTMLCanvasElement.prototype.getContext = function (kind, ...more) {
-        return kind === '2d' || globalThis.hasGraphics ? getContext.call(this, kind, ...more) : null;
-      };
-      Object.defineProperty(globalThis.XRSession.prototype, 'visibilityState', { get: () => undefined });
-      delete globalThis.XRFrame.prototype.getJointPose;
-      for (const { inputSource } of Object.values(globalThis.device.controllers)) {
-        Object.defineProperty(inputSource.gamepad, 'hapticActuators', { get() { throw new DOMException('denied', 'SecurityError'); } });
-        Object.defineProperty(inputSource.gamepad, 'vibrationActuator', { get() { throw new DOMException('denied', 'SecurityError'); } });
-      }
-    });
-    await page.reload();
     await page.waitForSelector('#enter-vr:not([hidden])', { state: 'attached', timeout: 30000 });
     const click = () => page.evaluate(() => document.querySelector('#enter-vr').click());
     await click();

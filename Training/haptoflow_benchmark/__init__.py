@@ -1,4 +1,4 @@
-"""Measurements of a model: with own recordings, of materials learnt from seconds, of ribs found, of the full scale.
+"""Measurements of a model: with own recordings, of materials learnt from seconds.
 
 Builds on haptoflow_training, which never imports it. The comparison with rivals is haptoflow_paper.
 """

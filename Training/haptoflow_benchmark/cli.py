@@ -10,11 +10,9 @@ from haptoflow_training.cli import run_program
 _COMMANDS = {
     "evaluate": "compare a model with recordings of your own: level and spectrum of each label",
     "discriminate": "check that a classifier trained on recordings recognises the label of what the engine renders",
-    "measure-wave-vectors": "count ribs found, missed and falsely found in seconds of strokes",
-    "measure-lag": "measure how late the level of the vibration follows the speed of the pen",
 }
 _DESCRIPTION = """Measures a model, the shipped one or your own: accuracy beside recordings and beside
-learning, labels told apart, ribs found, lag. Each command measures one property.
+learning, labels told apart. Each command measures one property.
 To train and export a model, `haptoflow-training` is enough; the comparison with rivals is `haptoflow-paper`.
 """
 

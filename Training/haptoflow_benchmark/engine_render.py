@@ -17,7 +17,7 @@ from scipy.interpolate import CubicSpline
 from scipy.io import wavfile
 from scipy.signal import resample_poly
 
-from haptoflow_training.closed_loop.render import UPDATE_RATE_HZ
+from haptoflow_training.training.closed_loop import UPDATE_RATE_HZ
 from haptoflow_training.errors import InputError
 from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
@@ -35,12 +35,15 @@ class EngineRender:
     report: dict[str, Any]
 
 
-def write_scene(path: Path, label: str, update_rate_hz: float, tip_radius_metres: float = 0.001) -> None:
-    """Write a scene with a plane of the label whose grain lies along the first axis of motion."""
+def write_scene(
+    path: Path, label: str, update_rate_hz: float, tip_radius_metres: float = 0.001, name: str = "plane"
+) -> None:
+    """Write a scene with a plane of the label whose grain lies along the first axis of motion. Planes of different names
+    differ as two pieces of a material do."""
     scene = {
         "surfaces": [
             {
-                "name": "plane",
+                "name": name,
                 "shape": {"plane": {}},
                 "position": [0.0, 0.0, 0.0],
                 "rotation": [0.0, 0.0, 0.0, 1.0],

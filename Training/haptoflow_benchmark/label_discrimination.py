@@ -17,8 +17,7 @@ from scipy.stats import spearmanr
 from haptoflow_benchmark.engine_render import EngineRender, render_motion
 from haptoflow_benchmark.own_accuracy import HeldOutPart
 from haptoflow_training.errors import InputError
-from haptoflow_training.markdown import table
-from haptoflow_training.model_stamp import model_line, picture_metadata
+from haptoflow_training.model_stamp import model_line, picture_metadata, table
 from haptoflow_training.preprocessing.pipeline import PreparedRecording, preprocess_recording
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.recordings.synthetic import HELD_OUT_SPECIMEN, Material, hand_conditions, record_hand_condition
@@ -240,16 +239,33 @@ def discriminate(
     """Render every stroke on its label and classify it; the recording of the same stroke is the reference."""
     outcomes: list[StrokeOutcome] = []
     for material in materials:
-        for number, (name, truth) in enumerate(_prepared(material, strokes_per_label, seed)):
-            features = window_features(truth.waveform_mps2, truth.motion)
-            if len(features) == 0:
-                continue
-            render = render_motion(engine, material.label, truth.motion, folder, model=model, seed=seed + number)
-            rendered = window_features(render.waveform_mps2, truth.motion[: len(render.waveform_mps2)])
-            part = HeldOutPart(name, material.label, truth.waveform_mps2, truth.motion)
-            outcomes.append(_outcome(classifier, part, render, rendered, features))
-        advance(strokes_per_label)
+        prepared = _prepared(material, strokes_per_label, seed)
+        parts = [HeldOutPart(name, material.label, truth.waveform_mps2, truth.motion) for name, truth in prepared]
+        outcomes += _outcomes(classifier, parts, _WINDOW // 2, engine, model, seed, folder, advance)
     return DiscriminationReport([material.label for material in materials], outcomes)
+
+
+def _outcomes(
+    classifier: LabelClassifier,
+    parts: Sequence[HeldOutPart],
+    step_samples: int,
+    engine: Path,
+    model: Path | None,
+    seed: int,
+    folder: Path,
+    advance: Callable[[int], object],
+) -> list[StrokeOutcome]:
+    """Of the parts whose label is known and that slide for a second."""
+    outcomes: list[StrokeOutcome] = []
+    for number, part in enumerate(parts):
+        recorded = window_features(part.recorded, part.motion, step_samples)
+        if len(recorded) > 0 and part.label in classifier.labels:
+            render = render_motion(engine, part.label, part.motion, folder, model=model, seed=seed + number)
+            rendered = window_features(render.waveform_mps2, part.motion[: len(render.waveform_mps2)], step_samples)
+            if len(rendered) > 0:
+                outcomes.append(_outcome(classifier, part, render, rendered, recorded))
+        advance(1)
+    return outcomes
 
 
 def _outcome(
@@ -296,15 +312,7 @@ def discriminate_parts(
                 f"{_MINIMUM_OWN_WINDOWS}: record 10 s at least, above 10 mm/s and 0.05 N"
             )
     classifier = LabelClassifier(together, _MINIMUM_OWN_WINDOWS)
-    outcomes: list[StrokeOutcome] = []
-    for number, part in enumerate(held_out):
-        features = window_features(part.recorded, part.motion, _OWN_STEP_SAMPLES)
-        if len(features) > 0 and part.label in together:
-            render = render_motion(engine, part.label, part.motion, folder, model=model, seed=seed + number)
-            rendered = window_features(render.waveform_mps2, part.motion[: len(render.waveform_mps2)], _OWN_STEP_SAMPLES)
-            if len(rendered) > 0:
-                outcomes.append(_outcome(classifier, part, render, rendered, features))
-        advance(1)
+    outcomes = _outcomes(classifier, held_out, _OWN_STEP_SAMPLES, engine, model, seed, folder, advance)
     if not outcomes:
         raise InputError("no held-out part holds a second of sliding: record 10 s of each label at least")
     return DiscriminationReport([label for label in together if any(o.label == label for o in outcomes)], outcomes)

@@ -16,14 +16,12 @@ from numpy.typing import NDArray
 
 from haptoflow_benchmark.engine_render import render_motion
 from haptoflow_benchmark.waveform_metrics import gfc_recording, level_error_db, log_spectral_distance_db, power_spectrum
-from haptoflow_training.fewshot.learning import MaterialWords, joined, learn_material
-from haptoflow_training.markdown import table
-from haptoflow_training.model_stamp import model_line, picture_metadata
+from haptoflow_training.export.learning import MaterialWords, joined, learn_material
+from haptoflow_training.model_stamp import model_line, picture_metadata, table
 from haptoflow_training.recordings.material_recording import MaterialRecording
 from haptoflow_training.training.found_wave_vectors import turned_vectors
-from haptoflow_training.training.run_log import write_json, write_text
 from haptoflow_training.waveform import SAMPLE_RATE_HZ
-from haptoflow_training.whole_file import write_whole
+from haptoflow_training.whole_file import write_json, write_text, write_whole
 
 _Floats = NDArray[np.floating]
 

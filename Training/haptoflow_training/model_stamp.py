@@ -1,9 +1,11 @@
-"""Stamps that name the model a published figure was measured with, by its SHA-256, in pages, results and pictures."""
+"""Pages and reports: tables in Markdown, and stamps that name the model a published figure was measured with, by its
+SHA-256, in pages, results and pictures."""
 
 from __future__ import annotations
 
 import hashlib
 import re
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from haptoflow_training.errors import InputError
@@ -48,3 +50,9 @@ def with_measured_words(page: str, words: str) -> str:
     if found is None:
         raise InputError("the page has no `<!-- measured: begin (command) -->` before a `<!-- measured: end -->`")
     return f"{page[: found.end(1)]}\n{words.strip()}\n\n{page[found.start(2) :]}"
+
+
+def table(headings: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    """A table of plain cells, without a line break at its end."""
+    lines = [f"| {' | '.join(cells)} |" for cells in (headings, *rows)]
+    return "\n".join([lines[0], "|" + "---|" * len(headings), *lines[1:]])

@@ -29,6 +29,7 @@ class NativeLibrary:
             raise InputError(
                 f"{path} does not exist: run `npm run build`, or set {LIBRARY_VARIABLE} to HaptoFlow's native library"
             )
+        self.path = path
         self._library = ctypes.CDLL(str(path))
         self._library.haptoflow_last_message.restype = ctypes.c_char_p
 

@@ -1,12 +1,15 @@
-"""Files that are written completely or not at all."""
+"""Files that are written completely or not at all, and TOML files."""
 
 from __future__ import annotations
 
 import contextlib
 import errno
+import json
 import os
+import tomllib
 from collections.abc import Iterator, Mapping
 from pathlib import Path
+from typing import Any
 
 from haptoflow_training.errors import InputError
 
@@ -58,6 +61,16 @@ def write_whole(path: Path, content: bytes) -> None:
         raise InputError(f"{path}: cannot be written ({error.strerror})") from error
 
 
+def write_json(path: Path, content: Mapping[str, Any]) -> None:
+    """Write indented JSON, as `write_text`."""
+    write_text(path, json.dumps(content, indent=2, ensure_ascii=False) + "\n")
+
+
+def write_text(path: Path, text: str) -> None:
+    """Write UTF-8 atomically: an interrupted run leaves the old file complete."""
+    write_whole(path, text.encode("utf-8"))
+
+
 def check_writable(path: Path) -> None:
     """InputError if `write_whole` could not write this file; called before minutes of work. Leaves nothing behind
     but the file's folder."""
@@ -70,3 +83,13 @@ def check_writable(path: Path) -> None:
         temporary.unlink()
     except OSError as error:
         raise InputError(f"{path}: cannot be written ({error.strerror})") from error
+
+
+def read_toml(path: Path, expected: str) -> dict[str, Any]:
+    """The content of a TOML file; InputError with what was expected if it cannot be read as one."""
+    try:
+        return tomllib.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read ({error.strerror}); expected {expected}") from error
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise InputError(f"{path}: not valid TOML ({error}); expected {expected}") from error

@@ -1,8 +1,8 @@
 import { HaptoFlow } from './engine/haptoflow.mjs';
 import { find, make, shown, slider } from './dom.mjs';
-import { Hand } from './hand/hand.mjs';
-import { presetStrokes } from './hand/preset-strokes.mjs';
-import { Tip } from './hand/tip.mjs';
+import { Hand } from './table/hand.mjs';
+import { presetStrokes } from './table/preset-strokes.mjs';
+import { Tip } from './table/tip.mjs';
 import { fittedTo, forgetModel, keptModel } from './model-file.mjs';
 import { deviceSentences, Messages, sentenceOf, silenceSentence } from './messages.mjs';
 import { ComparePanel } from './panels/compare.mjs';
@@ -14,9 +14,9 @@ import { OwnMaterialPanel } from './panels/own-material.mjs';
 import { Palette } from './panels/palette.mjs';
 import { QualityPanel } from './panels/quality.mjs';
 import { RecordPanel } from './panels/record.mjs';
-import { Recorder } from './signal/recorder.mjs';
-import { Ears } from './signal/ears.mjs';
-import { Scope } from './signal/scope.mjs';
+import { Recorder } from './recorder.mjs';
+import { Ears } from './ears.mjs';
+import { Scope } from './scope.mjs';
 import { Fills } from './table/fills.mjs';
 import { TableView } from './table/table-view.mjs';
 import { Table } from './table/table.mjs';
@@ -205,7 +205,7 @@ class Page {
     }));
   }
 
-  async #playPreset(/** @type {import('./hand/preset-strokes.mjs').PresetStroke} */ stroke, /** @type {any} */ button) {
+  async #playPreset(/** @type {import('./table/preset-strokes.mjs').PresetStroke} */ stroke, /** @type {any} */ button) {
     const isStop = button.getAttribute('aria-pressed') === 'true';
     this.hand.stopPreset();
     if (isStop) return;
@@ -243,6 +243,7 @@ class Page {
     this.haptics.addEventListener('device', ({ detail: { state } }) => {
       if (state === 'back') messages.clear('device');
       else messages.show(deviceSentences[state], { key: 'device' });
+      this.#showStart();
     });
     start.button.addEventListener('click', () => void this.haptics.resume().then(() => this.#showStart()));
     this.#showStart();
@@ -250,8 +251,8 @@ class Page {
 
   /** Until a gesture the browser lets nothing sound. */
   #showStart() {
-    const isRunning = this.haptics.context.state === 'running';
-    start.layer.hidden = isRunning;
+    // While the next output is looked for, the context stands still at times, and no tap would help.
+    start.layer.hidden = this.haptics.context.state === 'running' || this.haptics.statistics().hasLostOutput;
     start.layer.classList.add('is-open');
     start.bar.hidden = true;
     start.text.textContent = 'The sound waits for a tap.';
@@ -366,7 +367,7 @@ class Page {
 /** @type {{name: string, bytes: Uint8Array} | null} */
 let given = null;
 try {
-  const [plainScene, looks] = await Promise.all([readJson('scene/workbench.json'), readJson('scene/looks.json')]);
+  const [plainScene, looks] = await Promise.all([readJson('table/workbench.json'), readJson('table/looks.json')]);
   const movingScene = matchMedia('(prefers-reduced-motion: reduce)').matches ? withoutMotion(plainScene) : plainScene;
   const table = new Table(movingScene);
   const fills = new Fills(looks.labels);

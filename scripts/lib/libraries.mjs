@@ -136,6 +136,17 @@ export function complaintsOfRecord(record = readRecord()) {
   });
 }
 
+/** Why the system cannot load a library, null where it can: of a good one Node says only that it is no module of Node's. */
+export function complaintOfLoading(file) {
+  try {
+    process.dlopen({ exports: {} }, file);
+  } catch (error) {
+    const { message } = error;
+    return message.includes('did not self-register') ? null : message;
+  }
+  return null;
+}
+
 /** The platforms' libraries in git, for `findNatives`: null for a platform without one, and where the sources are newer. */
 export function committedNatives() {
   const isCurrent = existsSync(recordFile) && areOfTheseSources();

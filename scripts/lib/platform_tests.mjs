@@ -1,43 +1,11 @@
-import { copyFileSync, cpSync, existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { copyFileSync, cpSync, existsSync, mkdirSync, rmSync } from 'node:fs';
 import path from 'node:path';
 import { runtimeLibrary } from '../pack/dependency.mjs';
-import { loadAlignment } from '../pack/binaries.mjs';
-import { androidPageBytes } from '../pack/rules_of_plugins.mjs';
 import { committedPlatforms, fileInPackage, judgeExportsOfDll } from './libraries.mjs';
 import { shippedModel } from './measured_part.mjs';
 import { buildNative, presetFolder } from './native_build.mjs';
 import { CommandError, inRepository, runNpmOrFail, runOrFail } from './process.mjs';
 import { addCounts, countsOfAttempt, judgeJunit, noCounts, results } from './test_results.mjs';
-
-/** The linker options for the page size in a link command. */
-export const pageOptions = (command) => [...command.matchAll(/-Wl,-z,max-page-size=\S+/g)].map(([option]) => option);
-
-/**
- * One test: CMake links the Android library with segments that a device with pages of 16 KiB loads. Without an NDK, the
- * project is configured for a stand-in of Android, and a small library is linked with the link options of that build.
- */
-export async function judgeAndroidPages() {
-  const folder = inRepository('build', 'android-stand-in');
-  try {
-    rmSync(folder, { recursive: true, force: true });
-    mkdirSync(folder, { recursive: true });
-    const toolchain = inRepository('Tests', 'Platforms', 'android-stand-in.cmake');
-    const words = ['-S', inRepository(), '-B', folder, '-G', 'Ninja', `-DCMAKE_TOOLCHAIN_FILE=${toolchain}`, '-DHAPTOFLOW_BUILD_TESTS=OFF', '-DHAPTOFLOW_BUILD_CLI=OFF'];
-    await runOrFail('cmake', words, { quiet: true });
-    const commands = await runOrFail('ninja', ['-C', folder, '-t', 'commands', 'audioplugin_haptoflow'], { quiet: true });
-    const link = commands.split('\n').find((line) => line.includes('-shared') && line.includes('libaudioplugin_haptoflow.so')) ?? '';
-    const [source, library] = ['page.c', 'page.so'].map((name) => `${folder}/${name}`);
-    writeFileSync(source, 'int page = 1;\n');
-    await runOrFail('aarch64-linux-gnu-gcc', ['-shared', '-fPIC', source, '-o', library, ...pageOptions(link)], { quiet: true });
-    const alignment = loadAlignment(readFileSync(library));
-    if (alignment === androidPageBytes) return { passed: 1, failed: 0, skipped: 0 };
-    console.error(`test: the segments of the Android library are aligned to ${alignment} bytes; expected ${androidPageBytes}`);
-  } catch (error) {
-    if (!(error instanceof CommandError)) throw error;
-    console.error(`test: ${error.message}`);
-  }
-  return { passed: 0, failed: 1, skipped: 0 };
-}
 
 /** The C compiler for each platform, and its ONNX Runtime. */
 const ways = {
@@ -139,18 +107,18 @@ export const leftOut = {
     {
       because: 'a trained network generates seconds of sound, or a level for each of hundreds of motions',
       tests: ['Label/*', 'OnModel/*', '*Shipped*', 'BlendSoundTest.*', 'AddedLabelTest.*', 'RangeSweepTest.*', 'OnsetLevelsCostTest.TheGraphIsEvaluatedAt640Points*',
-        'MaterialApiTest.RegisteringReplacingAndTouching*', 'LoadingApiTest.ATierThatIsTooSlow*'],
+        'LoadingApiTest.ATierThatIsTooSlow*'],
     },
     {
-      because: 'a material is learnt, which asks the network hundreds of times, or registered thousands of times',
-      tests: ['LearningApiTest.*', 'DescriptorSizesTest.AnInputOfA*', 'ArgumentTest.NullPointers*', 'MaterialApiTest.ThousandsOfReplacements*'],
+      because: 'a material is learnt, which asks the network hundreds of times',
+      tests: ['LearningApiTest.*', 'ArgumentTest.NullPointers*'],
     },
     {
       because: 'qemu runs threads in the memory order of this machine, so that a storm of them finds there what it finds here',
       tests: ['ApiStorm*', 'MaterialLibraryTest.PublishersReadConsistentMaterials*', 'SegmentQueueTest.NoSegmentIsLostOrTorn*', 'VoiceTableTest.ASecondThreadThatRenders*', 'VoiceTableTest.EachBlockIsRenderedOnce*',
-        'MaterialApiTest.VoicesPublishRenderAndGenerate*', 'LiveEngineTest.ManyConcurrentVoices*'],
+        'LiveEngineTest.ManyConcurrentVoices*'],
     },
-    { because: 'it depends on the pace of threads or on measured time, which emulation changes', tests: ['EngineApiTest.TheWorkerServesAVoiceInRealTime', '*MeasuredTime*', '*TenMinutes*'] },
+    { because: 'it depends on the pace of threads or on measured time, which emulation changes', tests: ['EngineApiTest.TheWorkerServesAVoiceInRealTime', '*MeasuredTime*', '*FourMinutes*'] },
     { because: 'millions of small steps that other tests of the same code take by the thousand', tests: ['MutationTest.Changed*', 'ProcessorsTest.ProcessorChangesAtAnyTime*'] },
   ],
 };
@@ -198,8 +166,6 @@ export async function platformTests() {
       counts = addCounts(counts, judgeExportsOfDll(inRepository(presetFolder(preset), 'audioplugin_haptoflow.dll')));
     }
   }
-  console.log('test: pages of the library for Android');
-  counts = addCounts(counts, await judgeAndroidPages());
   console.log('test: the Linux library on Debian 11');
   await buildNative({ targets: ['audioplugin_haptoflow'] });
   return addCounts(counts, await runsOnOldGlibc());

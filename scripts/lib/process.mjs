@@ -2,6 +2,7 @@ import { spawn, spawnSync } from 'node:child_process';
 import { readFileSync } from 'node:fs';
 import path from 'node:path';
 import { fileURLToPath } from 'node:url';
+import { parseArgs } from 'node:util';
 
 /** Absolute path of the repository's root folder. */
 export const repositoryRoot = path.resolve(path.dirname(fileURLToPath(import.meta.url)), '..', '..');
@@ -121,6 +122,18 @@ export async function runMain(name, main, { help, takesWords = true } = {}) {
     if (!(error instanceof CommandError)) throw error;
     console.error(`${name}: ${error.message}`);
     process.exitCode = error.exitCode;
+  }
+}
+
+/**
+ * The options among a script's words, and what else they are. A CommandError names what is no option.
+ * @param {string[]} words @param {import('node:util').ParseArgsConfig['options']} options
+ */
+export function parsed(words, options, { allowPositionals = false } = {}) {
+  try {
+    return parseArgs({ args: words, options, allowPositionals });
+  } catch (error) {
+    throw new CommandError(error.message, 2);
   }
 }
 

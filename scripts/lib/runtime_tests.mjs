@@ -64,8 +64,8 @@ export function withoutReadOnlyMarks(bytes) {
   return changed;
 }
 
-/** The test projects that run under Mono. */
-export const monoProjects = ['RepositoryTests', 'Tests', 'EditorTests', 'ShimTests', 'PreviewTests', 'SampleTests', 'MissingLibraryTests'];
+/** The test projects that run under Mono, and the names of their assemblies. */
+const monoProjects = { EditorTests: 'EditorTests', Tests: 'Tests', MissingLibraryTests: 'EditorTests' };
 
 /**
  * Tests that another runtime leaves out, and why.
@@ -91,8 +91,8 @@ export const leftOut = {
 
 const exceptions = (runner) => leftOut[runner].flatMap(({ tests }) => tests).map((name) => `-${name}`);
 
-/** Tests that load the library in git, compare its structs with C#'s, and play; of HaptoFlow.RepositoryTests. */
-export const testsOfCommitted = ['EveryStructOfTheHeaderIsComparedWithTheLibrary', 'ASlidingTipIsAudibleAndALiftedOneFallsSilent'];
+/** Tests that load the library in git, compare its structs with C#'s, and play; of HaptoFlow.EditorTests. */
+const testsOfCommitted = ['EveryStructOfTheHeaderIsComparedWithTheLibrary', 'ASlidingTipIsAudibleAndALiftedOneFallsSilent'];
 
 /** The folder of the library in git for this machine. */
 const committedFolder = () => path.dirname(fileInPackage(committedPlatforms.find(({ id }) => id === 'linux-x64')));
@@ -111,7 +111,7 @@ const onnxRuntime = () => path.dirname(runtimeLibrary('linux-x64'));
 /** Builds one project as a program for Mono and runs it. A project that does not build counts as one failure. */
 async function judgeUnderMono(command, project) {
   const build = inRepository('build', 'mono');
-  const words = ['build', inRepository('Tests', 'Dotnet', `HaptoFlow.${project}`), `-m:${os.cpus().length}`, '-c', 'Release', '--nologo', '-v', 'quiet'];
+  const words = ['build', inRepository('Tests', 'Dotnet', `HaptoFlow.${project}.csproj`), `-m:${os.cpus().length}`, '-c', 'Release', '--nologo', '-v', 'quiet'];
   const { exitCode } = await run(command, [...words, '-p:TestRuntime=mono', `-p:ArtifactsPath=${build}`], { env: dotnetEnvironment(command) });
   if (exitCode !== 0) {
     console.error(`test: HaptoFlow.${project} does not build for Mono: its tests may use what only .NET has`);
@@ -125,19 +125,19 @@ async function judgeUnderMono(command, project) {
   const librariesIn = (place) => ({ LD_LIBRARY_PATH: [place, onnxRuntime()].join(':') });
   const env = project === 'MissingLibraryTests' ? {} : librariesIn(inRepository(presetFolder('release')));
   const file = `mono-${project.toLowerCase()}.xml`;
-  const program = ['--debug', path.join(folder, `HaptoFlow.${project}.dll`)];
+  const program = ['--debug', path.join(folder, `HaptoFlow.${monoProjects[project]}.dll`)];
   const counts = await judgeJunit(file, 'mono', [...program, results(file), ...exceptions('mono')], { env, limitSeconds: 1800 });
-  if (project !== 'RepositoryTests') return counts;
+  if (project !== 'EditorTests') return counts;
   return addCounts(counts, await judgeCommitted('mono-committed.xml', 'mono', program, librariesIn(committedFolder())));
 }
 
 /** The tests of the package's C# under Debian's Mono, each project as a program of its own. */
 export async function mono() {
-  if (!succeeds('mono', ['--version'])) return { ...noCounts, skipped: monoProjects.length };
+  if (!succeeds('mono', ['--version'])) return { ...noCounts, skipped: Object.keys(monoProjects).length };
   const command = dotnetOrFail();
   await buildNative({ targets: ['audioplugin_haptoflow'] });
   let counts = noCounts;
-  for (const project of monoProjects) counts = addCounts(counts, await judgeUnderMono(command, project));
+  for (const project of Object.keys(monoProjects)) counts = addCounts(counts, await judgeUnderMono(command, project));
   return counts;
 }
 
@@ -153,13 +153,13 @@ export async function aot() {
   const command = dotnetOrFail();
   await buildNative({ targets: ['audioplugin_haptoflow'] });
   const build = inRepository('build', 'aot');
-  const words = ['publish', inRepository('Tests', 'Dotnet', 'HaptoFlow.AotTests'), '-c', 'Release', '--nologo', '-v', 'quiet'];
+  const words = ['publish', inRepository('Tests', 'Dotnet', 'HaptoFlow.AotTests.csproj'), '-c', 'Release', '--nologo', '-v', 'quiet'];
   // The compiler complains only where it compiles.
   rmSync(path.join(build, 'obj', 'HaptoFlow.AotTests'), { recursive: true, force: true });
   const output = await runOrFail(command, [...words, `-p:ArtifactsPath=${build}`], { env: dotnetEnvironment(command), quiet: true });
   const complaints = complaintsAboutCore(output);
   complaints.forEach((line) => console.error(`test: ${line}`));
-  const program = path.join(build, 'publish', 'HaptoFlow.AotTests', 'release_linux-x64', 'HaptoFlow.AotTests');
+  const program = path.join(build, 'publish', 'HaptoFlow.AotTests', 'release_linux-x64', 'HaptoFlow.Tests');
   if (!existsSync(program)) throw new CommandError(`${program} was not built`);
   const built = await judgeJunit('aot.xml', program, [results('aot.xml'), ...exceptions('aot')], { limitSeconds: 1800 });
   const counts = addCounts(built, await judgeCommitted('aot-committed.xml', program, [], { HAPTOFLOW_NATIVE_DIR: committedFolder() }));

@@ -140,43 +140,51 @@ function missingOf(wanted) {
 /** Whether this system's packages are Debian's, which set-up installs. */
 export const onDebian = () => existsSync('/etc/debian_version') && succeeds('dpkg-query', ['--version']);
 
-async function installSystemPackages(purposes) {
-  if (!onDebian()) {
-    checkForeignSystem(purposes);
-    return purposes.filter((purpose) => optionalPurposes[purpose] && !succeeds(programOf(purpose), ['--version'])).map((purpose) => optionalPurposes[purpose]);
+/** @throws CommandError as `setUp`, without installing anything */
+export function requireInstallable(purposes) {
+  if (!onDebian()) return checkForeignSystem(purposes);
+  const missing = requiredAndMissing(purposes);
+  if (missing.length > 0 && rootCommand() === null) {
+    throw new CommandError(
+      `${missing.length} system packages are missing and installing them needs root. Run this once, then again what you ran:\n` +
+        `  sudo apt-get update && sudo ${installWords(missing).join(' ')}`,
+      2,
+    );
   }
-  const optional = purposes.filter((purpose) => optionalPurposes[purpose]);
-  const missing = missingOf(selectPackages(purposes.filter((purpose) => !optionalPurposes[purpose])));
-  const asRoot = rootCommand();
-  if (missing.length > 0) {
-    if (asRoot === null) {
-      throw new CommandError(
-        `${missing.length} system packages are missing and installing them needs root. Run this once, then again what you ran:\n` +
-          `  sudo apt-get update && sudo ${installWords(missing).join(' ')}`,
-        2,
-      );
-    }
-    console.log(`setup: installing ${missing.length} system packages for ${purposes.join(' and ')}: ${missing.join(' ')}`);
-    await runApt(asRoot, ['apt-get', 'update', '-qq']);
-    await runApt(asRoot, ['env', 'DEBIAN_FRONTEND=noninteractive', ...installWords(missing)]);
-  }
-  const leftOut = [];
-  for (const purpose of optional) leftOut.push(await installOptional(purpose, asRoot));
-  return leftOut.filter((sentence) => sentence !== null);
 }
 
-/** Installs the packages of an optional purpose. Null on success, else the sentence that says what is skipped. */
-async function installOptional(purpose, asRoot) {
-  const wanted = selectPackages([purpose]);
-  const missing = missingOf(wanted);
-  if (missing.length === 0) return null;
-  const policy = spawnSync('apt-cache', ['policy', ...missing], { encoding: 'utf8', env: { ...process.env, LC_ALL: 'C' } });
-  const offered = offeredPackages(missing, policy.stdout ?? '');
-  if (offered.length < missing.length) return optionalPurposes[purpose];
-  if (asRoot === null) return `${optionalPurposes[purpose].split(':')[0]}: run sudo ${installWords(missing).join(' ')}`;
-  console.log(`setup: installing ${missing.join(' ')}`);
-  await runApt(asRoot, ['env', 'DEBIAN_FRONTEND=noninteractive', ...installWords(missing)]);
-  return null;
+const requiredAndMissing = (purposes) => missingOf(selectPackages(purposes.filter((purpose) => !optionalPurposes[purpose])));
+
+async function installSystemPackages(purposes) {
+  requireInstallable(purposes);
+  if (!onDebian()) {
+    return purposes.filter((purpose) => optionalPurposes[purpose] && !succeeds(programOf(purpose), ['--version'])).map((purpose) => optionalPurposes[purpose]);
+  }
+  const missing = requiredAndMissing(purposes);
+  const asRoot = rootCommand();
+  if (missing.length > 0) await runApt(asRoot, ['apt-get', 'update', '-qq']);
+  const { wanted, leftOut } = optionalPackages(purposes, asRoot);
+  const all = [...new Set([...missing, ...wanted])];
+  if (all.length > 0) {
+    console.log(`setup: installing ${all.length} system packages for ${purposes.join(' and ')}: ${all.join(' ')}`);
+    await runApt(asRoot, ['env', 'DEBIAN_FRONTEND=noninteractive', ...installWords(all)]);
+  }
+  return leftOut;
+}
+
+/** The packages of optional purposes that are missing and that apt offers, and a sentence for each purpose that is skipped. */
+function optionalPackages(purposes, asRoot) {
+  const wanted = [];
+  const leftOut = [];
+  for (const purpose of purposes.filter((each) => optionalPurposes[each])) {
+    const missing = missingOf(selectPackages([purpose]));
+    if (missing.length === 0) continue;
+    const policy = spawnSync('apt-cache', ['policy', ...missing], { encoding: 'utf8', env: { ...process.env, LC_ALL: 'C' } });
+    if (offeredPackages(missing, policy.stdout ?? '').length < missing.length) leftOut.push(optionalPurposes[purpose]);
+    else if (asRoot === null) leftOut.push(`${optionalPurposes[purpose].split(':')[0]}: run sudo ${installWords(missing).join(' ')}`);
+    else wanted.push(...missing);
+  }
+  return { wanted, leftOut };
 }
 
 async function runApt(asRoot, words) {
@@ -247,6 +255,9 @@ export function pythonOrFail(modules = trainingModules) {
   const subject = process.env.HAPTOFLOW_PYTHON ? `HAPTOFLOW_PYTHON=${process.env.HAPTOFLOW_PYTHON}` : 'the system\'s Python';
   throw new CommandError(`${subject} cannot \`${modules}\`: install the packages of Training/pyproject.toml`, 2);
 }
+
+/** The environment of the training's programs. */
+export const trainingEnvironment = () => ({ PYTHONPATH: inRepository('Training'), OPENBLAS_NUM_THREADS: '1', PYTHONDONTWRITEBYTECODE: '1' });
 
 const aptPackage = 'dotnet-sdk-10.0';
 const script = 'https://dot.net/v1/dotnet-install.sh';

@@ -82,26 +82,29 @@ async function judge(name, execute) {
 /**
  * Runs the runners that can run, in order, and names those that cannot.
  * @param {string[]} names
- * @param {{execute: (name: string) => Promise<object>, needsSdk: (name: string) => boolean, bringSdk: () => Promise<unknown>}} ways
- *   bringSdk: installs the .NET SDK; it throws a CommandError with exit code 2 where no source can be reached. It is called
- *   at most once, before the first runner, since the runners' output would bury its message.
+ * @param {{execute: (name: string) => Promise<object>, isBeside: (name: string) => boolean, needsSdk: (name: string) => boolean,
+ *   bringSdk: () => Promise<unknown>}} ways isBeside: runs at the same time as the runner before it; bringSdk: installs the .NET
+ *   SDK, while the runners before the first one that needs it run; a CommandError where no source can be reached
  * @returns {Promise<{rows: object[], notRun: string | null}>} notRun: one sentence that says what was not run and why
  */
-export async function runRunners(names, { execute, needsSdk, bringSdk }) {
+export async function runRunners(names, { execute, isBeside, needsSdk, bringSdk }) {
   const withSdk = names.filter(needsSdk);
-  let reason = null;
-  if (withSdk.length > 0) {
-    try {
-      await bringSdk();
-    } catch (error) {
-      if (!(error instanceof CommandError)) throw error;
-      reason = error.message;
-    }
+  const reasonOf = (error) => {
+    if (!(error instanceof CommandError)) throw error;
+    return error.message;
+  };
+  const whyNone = withSdk.length > 0 ? bringSdk().then(() => null, reasonOf) : Promise.resolve(null);
+  const groups = [];
+  for (const name of names) {
+    if (isBeside(name) && groups.length > 0) groups.at(-1).push(name);
+    else groups.push([name]);
   }
   const rows = [];
-  for (const name of names) {
-    if (reason === null || !needsSdk(name)) rows.push(await judge(name, execute));
+  for (const group of groups) {
+    const possible = group.some(needsSdk) && (await whyNone) !== null ? group.filter((name) => !needsSdk(name)) : group;
+    rows.push(...(await Promise.all(possible.map((name) => judge(name, execute)))));
   }
+  const reason = await whyNone;
   return { rows, notRun: reason === null ? null : `not run: ${withSdk.join(', ')}, because ${reason}` };
 }
 

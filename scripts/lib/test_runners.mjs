@@ -1,7 +1,7 @@
 import { existsSync, readdirSync, readFileSync, rmSync } from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
-import { dotnetEnvironment, dotnetOrFail, pythonOrFail } from './setup.mjs';
+import { dotnetEnvironment, dotnetOrFail, pythonOrFail, trainingEnvironment } from './setup.mjs';
 import { addCounts, countsOfTap, countsOfTrx, judgeJunit, judgePrograms, judged, nativeJob, noCounts, results } from './test_results.mjs';
 import { longTestsOf } from './long_tests.mjs';
 import { buildNative, presetFolder } from './native_build.mjs';
@@ -72,11 +72,14 @@ function nativePrograms() {
   return programs;
 }
 
-async function native({ all }) {
+async function native({ all, installed }) {
   if (process.platform === 'linux' && process.arch === 'arm64') await bringArmRuntime();
   const programs = nativePrograms();
-  const targets = ['audioplugin_haptoflow', ...programs.map((name) => `${name}_tests`)];
+  // The command line is for the runners that follow, two of which may not build at the same time.
+  const targets = ['audioplugin_haptoflow', ...(process.platform === 'win32' ? [] : ['haptoflow_cli']), ...programs.map((name) => `${name}_tests`)];
   await buildNative({ preset: nativePreset, tests: true, targets });
+  // Tests of time want the machine for themselves.
+  await installed;
   const except = all ? [] : longTestsOf('native');
   const counts = await judgePrograms(programs.map((program) => nativeJob({ preset: nativePreset, program, except })));
   if (nativePreset !== 'release') return counts;
@@ -107,29 +110,42 @@ async function training({ all }) {
   // Whole files: what a file's fixtures make is made once.
   const args = ['-m', 'pytest', inRepository('Tests', 'Training'), '-q', '-n', String(os.cpus().length), '--dist', 'loadfile'];
   args.push('--junitxml', results('training.xml'));
-  if (!all) args.push('-k', `not (${longTestsOf('training').join(' or ')})`);
-  const env = { OPENBLAS_NUM_THREADS: '1', PYTHONPATH: inRepository('Training'), PYTHONDONTWRITEBYTECODE: '1' };
-  return judgeJunit('training.xml', pythonOrFail(), args, { env, limitSeconds: 1800 });
+  if (!all) args.push('-m', 'not long');
+  return judgeJunit('training.xml', pythonOrFail(), args, { env: trainingEnvironment(), limitSeconds: 1800 });
 }
 
-/** The package's C# against the shim: all of it as players run it, and in the long form what must not allocate as the editor runs it. */
+/**
+ * The package's C# against the shim: all of it as players run it, two projects at once, and in the long form what must not
+ * allocate as the editor runs it.
+ */
 const managed = [
-  { configuration: 'Release', target: 'HaptoFlow.slnx' },
-  { configuration: 'Debug', target: 'HaptoFlow.ShimTests', tests: 'FullyQualifiedName~Garbage', long: true },
+  { configuration: 'Release', target: 'HaptoFlow.slnx', projects: ['Tests', 'EditorTests', 'MissingLibraryTests', 'WrongLibraryTests'] },
+  { configuration: 'Debug', target: 'HaptoFlow.Tests.csproj', projects: ['Tests'], tests: 'FullyQualifiedName~Garbage', long: true },
 ];
+
+/** Where the tests of a project lie: those without the library have the assembly name to which the package opens its internals. */
+function testAssembly(project, configuration) {
+  const assembly = { MissingLibraryTests: 'EditorTests', WrongLibraryTests: 'Tests' }[project] ?? project;
+  const build = process.env.HAPTOFLOW_DOTNET_BUILD || inRepository('build', 'dotnet');
+  return path.join(build, 'bin', `HaptoFlow.${project}`, configuration.toLowerCase(), `HaptoFlow.${assembly}.dll`);
+}
 
 async function dotnet({ all }) {
   const command = dotnetOrFail();
   await buildNative({ targets: ['audioplugin_haptoflow'] });
   const shortForm = longTestsOf('dotnet').map((name) => `FullyQualifiedName!~${name}`).join('&');
   let counts = noCounts;
-  for (const { configuration, target, tests = all ? '' : shortForm } of managed.filter(({ long }) => all || !long)) {
+  const env = dotnetEnvironment(command);
+  for (const { configuration, target, projects, tests = all ? '' : shortForm } of managed.filter(({ long }) => all || !long)) {
     const folder = results(`dotnet-${configuration.toLowerCase()}`);
     rmSync(folder, { recursive: true, force: true });
-    const args = ['test', inRepository('Tests', 'Dotnet', target), `-m:${os.cpus().length}`, '-c', configuration, '--nologo', '--logger', 'trx'];
+    const build = ['build', inRepository('Tests', 'Dotnet', target), `-m:${os.cpus().length}`, '-c', configuration, '--nologo', '-v', 'quiet'];
+    const built = await run(command, build, { env });
+    if (built.exitCode !== 0) return addCounts(counts, judged(noCounts, built.exitCode));
+    const args = ['test', ...projects.map((project) => testAssembly(project, configuration)), '--nologo', '--logger', 'trx'];
     args.push('--blame-hang-timeout', '10m', '--blame-hang-dump-type', 'none');
-    args.push('--results-directory', folder, ...(tests ? ['--filter', tests] : []));
-    const { exitCode } = await run(command, args, { env: dotnetEnvironment(command) });
+    args.push('--results-directory', folder, ...(tests ? ['--filter', tests] : []), '--', `RunConfiguration.MaxCpuCount=${os.cpus().length}`);
+    const { exitCode } = await run(command, args, { env });
     const files = existsSync(folder) ? readdirSync(folder).filter((name) => name.endsWith('.trx')) : [];
     const sum = files.map((name) => countsOfTrx(readFileSync(path.join(folder, name), 'utf8'))).reduce(addCounts, noCounts);
     counts = addCounts(counts, judged(sum, exitCode));
@@ -155,29 +171,37 @@ async function web({ all }) {
   if (!succeeds('emcc', ['--version'])) return { ...noCounts, skipped: 1 };
   await buildNative({ targets: ['haptoflow_cli'] });
   // Imported here, since set-up may just have installed the packages that it needs.
-  const { buildEngine } = await import('../web/build.mjs');
+  const { buildEngine, stagePage } = await import('./web_build.mjs');
   await buildEngine();
+  stagePage();
   const folder = inRepository('Tests', 'Web');
   const names = readdirSync(folder).filter((name) => name.endsWith('.test.mjs') && (all || !name.endsWith('.long.test.mjs')));
-  const groupOf = (name) => name.match(/^(live|xr)/)?.[0] ?? 'others';
-  const inGroup = (group) => runNodeTests(names.filter((name) => groupOf(name) === group).map((name) => path.join(folder, name)), all ? { HAPTOFLOW_LONG_TESTS: '1' } : {});
-  const beside = await Promise.all(['xr', 'others'].map(inGroup));
-  // What is heard live is judged by time, so that nothing else runs beside it.
-  return [...beside, await inGroup('live')].reduce(addCounts, noCounts);
+  // What is judged by time, as what is heard live, has nothing beside it.
+  const isLive = (name) => name.startsWith('live');
+  const environment = { HAPTOFLOW_PAGE_IS_STAGED: '1', ...(all ? { HAPTOFLOW_LONG_TESTS: '1' } : {}) };
+  const counts = [];
+  const runAll = async (queue) => {
+    for (let name = queue.shift(); name !== undefined; name = queue.shift()) counts.push(await runNodeTests([path.join(folder, name)], environment));
+  };
+  const others = names.filter((name) => !isLive(name));
+  await Promise.all(os.cpus().slice(0, 2).map(() => runAll(others)));
+  await runAll(names.filter(isLive));
+  return counts.reduce(addCounts, noCounts);
 }
 
 /**
  * The runners of `npm test`: what each needs installed, and how it runs. Names are what --only takes.
- * @type {Record<string, {purposes: string[], longPurposes?: string[], long?: boolean, execute: (form: {all: boolean}) => Promise<object>}>}
- *   longPurposes: what the long form needs besides; long: true for a runner of the long form, which runs by `--all` or by its
- *   name; all: true for the long form
+ * @type {Record<string, {purposes: string[], longPurposes?: string[], long?: boolean, isBeside?: boolean, execute: (form: {all: boolean, installed: Promise<unknown>}) => Promise<object>}>}
+ *   longPurposes: what the long form needs besides; isBeside: runs at the same time as the one before it, which neither hears of
+ *   time nor leaves all cores busy to its end; long: true for a runner of the long form, which runs by `--all` or by its
+ *   name; all: true for the long form; installed: the packages of all runners are there
  */
 export const runners = {
   native: { purposes: ['build', 'test'], execute: native },
   training: { purposes: ['build', 'python', 'files'], execute: training },
-  dotnet: { purposes: ['build', 'dotnet', 'pictures'], execute: dotnet },
   // One test imports published weights, which the library measures.
-  package: { purposes: ['files', 'build', 'python'], execute: packageTests },
+  package: { purposes: ['files', 'build', 'python'], isBeside: true, execute: packageTests },
+  dotnet: { purposes: ['build', 'dotnet', 'pictures'], execute: dotnet },
   web: { purposes: ['build', 'test', 'web', 'browser'], longPurposes: ['browsers'], execute: web },
   sanitizers: { purposes: ['build', 'test'], longPurposes: ['realtime'], long: true, execute: sanitizers },
   libcxx: { purposes: ['build', 'libcxx'], long: true, execute: libcxx },

@@ -3,17 +3,13 @@ Listen makes each label on loudspeakers.
 
 Run from the repository's root, after `npm run build`:
 
-    /usr/bin/python3 scripts/pack/device_levels.py [--strokes STROKES.csv]
+    /usr/bin/python3 scripts/pack/device_levels.py
 
-It prints the fit of the law, and writes the tables of Training/results/device-loudness.md and its picture. Strokes of
-`Samples~/HeadlessScenes/tracing.stroke.csv` are ordinary; with --strokes (stroke_id,t_s,x_m,y_m,z_m) recorded ones are
-measured instead, at 1 N, and only printed.
+It prints the fit of the law, and writes the tables of Training/results/device-loudness.md and its picture.
 """
 
 from __future__ import annotations
 
-import argparse
-import tempfile
 from ctypes import byref, c_double, c_float, c_int32, c_uint64, c_void_p
 from pathlib import Path
 
@@ -23,11 +19,11 @@ from renders import ENGINE, FULL_SCALE_MPS2, MODEL, ROOT, render, save
 from scipy.signal import butter, sosfiltfilt
 
 from haptoflow_benchmark.engine_library import EngineLibrary, default_engine, wave_frames
-from haptoflow_benchmark.engine_render import model_labels, onto_table, read_recorded_strokes
+from haptoflow_benchmark.engine_render import model_labels
 from haptoflow_training.model_stamp import model_line, read_measured_page, sha256_of, with_measured_words
 
 PAGE = ROOT / "Training/results/device-loudness.md"
-ORDINARY = ROOT / "Samples~/HeadlessScenes/tracing.stroke.csv"
+STROKE = ROOT / "Samples~/HeadlessScenes/tracing.stroke.csv"
 KINDS = ("motor", "parametric", "waveform")
 FRAME_RATES_HZ = (72, 90, 120)
 # The peaks of a waveform depend on how long one waits for them: the same time at every frame rate.
@@ -172,40 +168,18 @@ def picture(before: dict[str, dict[str, np.ndarray]], after: dict[str, dict[str,
     return figure
 
 
-def recorded(path: Path, folder: Path) -> list[Path]:
-    """Stroke files on the plane y = 0 of a recorded file, with 1 N."""
-    files = []
-    for index, stroke in enumerate(read_recorded_strokes(path).values()):
-        table = onto_table(stroke)
-        files.append(folder / f"{index}.csv")
-        np.savetxt(files[-1], np.c_[table, np.ones(len(table))], fmt="%.7f", delimiter=",", header="t,x,y,z,force",
-                   comments="")  # fmt: skip
-    return files
-
-
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--strokes", type=Path, help="recorded strokes to measure instead; nothing is written")
-    options = parser.parse_args()
-    if options.strokes is None:
-        read_measured_page(PAGE)
+    page = read_measured_page(PAGE)
     engine = default_engine(ROOT)
     labels = model_labels(ENGINE, MODEL)
-    with tempfile.TemporaryDirectory() as folder:
-        strokes = [ORDINARY] if options.strokes is None else recorded(options.strokes, Path(folder))
-        waves = {
-            label: np.concatenate([wave_of(label, each, DEVICE_RATE_HZ) for each in strokes])
-            for label in labels
-        }
-        levels = {}
-        for label in labels:
-            pair = [
-                np.concatenate([
-                    wave_of(label, each, AUDIO_RATE_HZ, *words, full_scale=DEFAULT_FULL_SCALE_MPS2) for each in strokes
-                ])  # fmt: skip
-                for words in ((), ("--listen",))
-            ]
-            levels[label] = tuple(decibels_above(wave, hz) for wave in pair for hz in (1.0, LOUDSPEAKER_HZ))
+    waves = {label: wave_of(label, STROKE, DEVICE_RATE_HZ) for label in labels}
+    levels = {}
+    for label in labels:
+        pair = [
+            wave_of(label, STROKE, AUDIO_RATE_HZ, *words, full_scale=DEFAULT_FULL_SCALE_MPS2)
+            for words in ((), ("--listen",))
+        ]
+        levels[label] = tuple(decibels_above(wave, hz) for wave in pair for hz in (1.0, LOUDSPEAKER_HZ))
     goals = []
     for rate_hz in FRAME_RATES_HZ:
         before = {label: amplitudes(engine, wave, rate_hz) for label, wave in waves.items()}
@@ -221,10 +195,8 @@ def main() -> None:
     lines = [*device_table(*shown), "", "| display, Hz | device | weakest label | middle | strongest, 90 % |",
              "|---|---|---|---|---|", *goals, "", *listen_table(levels)]  # fmt: skip
     print("\n".join(lines))
-    if options.strokes is None:
-        page = with_measured_words(read_measured_page(PAGE), f"{model_line(sha256_of(MODEL))}\n\n" + "\n".join(lines))
-        PAGE.write_text(page, encoding="utf-8")
-        save(picture(*shown), ROOT / "Documentation~/images" / "device-loudness.png")
+    PAGE.write_text(with_measured_words(page, f"{model_line(sha256_of(MODEL))}\n\n" + "\n".join(lines)), encoding="utf-8")
+    save(picture(*shown), ROOT / "Documentation~/images" / "device-loudness.png")
 
 
 if __name__ == "__main__":

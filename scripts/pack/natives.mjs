@@ -1,6 +1,6 @@
 import { existsSync, readFileSync } from 'node:fs';
 import path from 'node:path';
-import { androidPreset, buildAndroid, findNdk, rebuildAndroid } from '../build/android.mjs';
+import { androidPreset, buildAndroid, findNdk, rebuildAndroid } from '../lib/android.mjs';
 import { buildNative, presetFolder } from '../lib/native_build.mjs';
 import { CommandError, inRepository } from '../lib/process.mjs';
 import { onDebian, setUp } from '../lib/setup.mjs';

@@ -5,8 +5,7 @@ Run from the repository's root, after `npm run build`; without names, every pict
     /usr/bin/python3 scripts/pack/pictures.py [NAME ...]
 
 The names are those of the files: see `PICTURES`. "labels" writes the table of the labels into
-Documentation~/effects-and-outputs.md. Scene and stroke of the README's picture and of the lag are `crossing` of
-Samples~/HeadlessScenes.
+Training/results/effects.md. Scene and stroke of the README's picture are `crossing` of Samples~/HeadlessScenes.
 """
 
 from __future__ import annotations
@@ -31,41 +30,27 @@ from renders import (
     SAMPLES,
     Render,
     colour_of,
-    contacts_of,
     draw_spectrogram,
     labels_of,
     outline,
-    read_wave,
     render,
     render_file,
     rest_of,
     run,
     save,
 )
-from scipy.ndimage import uniform_filter1d
 from scipy.signal import spectrogram
 
-from haptoflow_benchmark.engine.engine_library import default_engine
-from haptoflow_benchmark.engine.wave_frames import wave_frames
 from haptoflow_training.model_stamp import model_line, sha256_of, with_measured_words
 
 SCENE = SAMPLES / "HeadlessScenes/crossing.scene.json"
 STROKE = SAMPLES / "HeadlessScenes/crossing.stroke.csv"
 INK = "#1c1c1e"
-# Of the lag: the rate of the level, its seeds, the full scale of the output, the stretch that is shown, a pen at rest.
-LEVEL_HZ = 8000
-SEEDS = range(1, 17)
-OUTPUT_MPS2 = 200.0
-SHOWN_SECONDS = (4.9, 6.5)
-FLOOR_MPS = 0.01
 # Of the effects.
 EFFECTS_PAGE = ROOT / "Training/results/effects.md"
 # Statistics of the intensity error, and how each is printed.
 FIGURES = (("mean", "+"), ("mean_magnitude", ""), ("p95", ""))
-RATE_HZ = 48000
 DEEP_METRES = 0.0005
-# Slower than what counts as a touch-down, 30 mm/s.
-SINKING_MPS = 0.02
 
 
 def name_of(surface: dict) -> str:
@@ -139,66 +124,6 @@ def stroke_picture() -> plt.Figure:
     return figure
 
 
-def levels_db() -> np.ndarray:
-    """Level [n] in dB re 1 m/s^2 at LEVEL_HZ."""
-    power = []
-    with tempfile.TemporaryDirectory() as folder:
-        for seed in SEEDS:
-            wav = Path(folder) / "crossing.wav"
-            render_file(SCENE, STROKE, wav, "--seed", seed, "--rate", LEVEL_HZ, "--model", MODEL)
-            power.append(np.square(read_wave(wav)[1] * OUTPUT_MPS2))
-    shortest = min(len(each) for each in power)
-    mean = np.mean([each[:shortest] for each in power], axis=0)
-    return 10.0 * np.log10(uniform_filter1d(mean, LEVEL_HZ // 100) + 1e-8)
-
-
-def true_speed() -> tuple[np.ndarray, np.ndarray]:
-    """Seconds and the pen's speed over the table in m/s, at 1 kHz, from the stroke's own points."""
-    rows = np.loadtxt(STROKE, delimiter=",", skiprows=1)
-    times = np.arange(0.0, rows[-1, 0], 1e-3)
-    places = np.stack([np.interp(times, rows[:, 0], rows[:, axis]) for axis in (1, 3)], axis=1)
-    velocity = np.gradient(uniform_filter1d(places, 9, axis=0), times, axis=0)
-    return times, np.hypot(*velocity.T)
-
-
-def lag_ms(times: np.ndarray, speed: np.ndarray, level_db: np.ndarray, touching: np.ndarray) -> float:
-    wanted = 20.0 * np.log10(np.maximum(speed, FLOOR_MPS))
-
-    def likeness(lag_seconds: float) -> float:
-        shifted = np.interp(times + lag_seconds, np.arange(len(level_db)) / LEVEL_HZ, level_db)
-        return float(np.corrcoef(shifted[touching], wanted[touching])[0, 1])
-
-    lags = np.arange(0.0, 0.06, 0.0005)
-    return float(1e3 * lags[int(np.argmax([likeness(lag) for lag in lags]))])
-
-
-def crossing_picture() -> plt.Figure:
-    """The pen's speed and the vibration's level over 16 renders with other seeds. The lag is the shift at which log level
-    and log speed correlate best, over all of the stroke that touches."""
-    times, speed = true_speed()
-    contacts = contacts_of(SCENE, STROKE)
-    touches = [float(row["touching"]) for row in contacts]
-    # Landings and lift-offs have levels of their own.
-    touching = uniform_filter1d(np.interp(times, [float(row["t"]) for row in contacts], touches), 201) > 0.99
-    figure, axis = plt.subplots(figsize=(9.0, 2.9), layout="constrained")
-    level = levels_db()
-    lag = lag_ms(times, speed, level, touching)
-    print(f"{lag:.1f} ms")
-    axis.plot(times, 1000.0 * speed, color="#8fa3b8", label="speed of the pen, mm/s")
-    axis.set_ylabel("mm/s")
-    other = axis.twinx()
-    other.plot(np.arange(len(level)) / LEVEL_HZ, level, color="#b4533c", label="level of the vibration, dB")
-    other.set_ylim(-30.0, 30.0)
-    other.set_ylabel("dB re 1 m/s²")
-    axis.set_title(f"the level follows the speed {lag:.0f} ms later", loc="left", fontsize=11)
-    lines = [*axis.lines, *other.lines]
-    place = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "ncols": 2, "frameon": False, "fontsize": 9}
-    axis.legend(lines, [str(line.get_label()) for line in lines], **place)
-    axis.set_xlim(*SHOWN_SECONDS)
-    axis.set_xlabel("s")
-    return figure
-
-
 def there_and_back(seconds: float = 0.7, metres: float = 0.12) -> np.ndarray:
     """A stroke over a tile, 1 mm deep under a tip of 2 mm: minimum jerk, there and back."""
     times = np.arange(int(2 * seconds * 120) + 1) / 120.0
@@ -258,11 +183,6 @@ def draw_tile(
     axes.set_xlim(0, len(felt.acceleration_mps2))
 
 
-def wave_of(surfaces: list[dict], stroke: np.ndarray, *words: str) -> np.ndarray:
-    """[N] in m/s^2 at RATE_HZ."""
-    return render({"surfaces": surfaces}, stroke, *words).acceleration_mps2
-
-
 def intensity_errors(surfaces: list[dict], stroke: np.ndarray) -> dict[str, dict[str, float]]:
     """Intensity errors of the frames and of a motor, in dB: see `haptoflow render -o x.json`."""
     with tempfile.TemporaryDirectory() as folder:
@@ -275,32 +195,11 @@ def plane(label: str) -> dict:
     return {"name": "plane", "shape": {"plane": {}}, "material": label}
 
 
-def box(name: str, label: str, left: float, top: float) -> dict:
-    """A box half a metre long with the given left end and top."""
-    return {"name": name, "shape": {"box": {"size": [0.5, 0.1, 0.5]}}, "position": [left + 0.25, top - 0.05, 0.0],
-            "material": label}
-
-
 def stroke_of(
     times: np.ndarray, x: np.ndarray | float, y: np.ndarray | float, force: np.ndarray | float = 1.0
 ) -> np.ndarray:
     """Rows of a stroke file [n, 5]: seconds, metres (z is 0), newtons."""
     return np.column_stack(np.broadcast_arrays(times, x, y, 0.0, force))
-
-
-def drop(speed_mps: float) -> np.ndarray:
-    """Straight down onto y = 0, touching down after 0.1 s, then at rest."""
-    times = np.arange(0.0, 0.4, 0.002)
-    height = np.maximum(speed_mps * (0.1 - times), -DEEP_METRES)
-    return stroke_of(times, 0.0, height)
-
-
-def slide(speed_mps: float, step_metres: float) -> np.ndarray:
-    """Along x, over 0 at 0.5 s; from there on the tip sinks by the step, as slowly as a hand follows."""
-    times = np.arange(0.0, 1.0, 0.002)
-    x = speed_mps * (times - 0.5)
-    sunk = np.clip(SINKING_MPS * (times - 0.5), 0.0, step_metres)
-    return stroke_of(times, x, -sunk - DEEP_METRES)
 
 
 def accelerating() -> np.ndarray:
@@ -309,99 +208,6 @@ def accelerating() -> np.ndarray:
     speed = 0.05 + 0.3 * times / 4.0
     force = 1.0 + 0.5 * np.sin(2.0 * np.pi * 0.5 * times)
     return stroke_of(times, np.cumsum(speed) * 0.002, -DEEP_METRES, force)
-
-
-def first_sound(wave: np.ndarray) -> int:
-    return int(np.argmax(np.abs(wave) > 1e-6))
-
-
-def impact_picture() -> plt.Figure:
-    figure, (waves, law) = plt.subplots(1, 2, figsize=(10.0, 3.6), layout="constrained")
-    for place, label in enumerate(("rubber", "wood", "stone")):
-        colour = colour_of(label)
-        wave = wave_of([plane(label)], drop(0.6), "--effects", "impact")
-        begin = first_sound(wave)
-        seconds = np.arange(int(0.06 * RATE_HZ)) / RATE_HZ
-        waves.plot(1000.0 * seconds, wave[begin : begin + len(seconds)] - 500.0 * place, color=colour)
-        waves.annotate(label, (58.0, 40.0 - 500.0 * place), color=colour, ha="right")
-        speeds = np.geomspace(0.01, 2.0, 9)
-        peaks = [np.abs(wave_of([plane(label)], drop(speed), "--effects", "impact")).max() for speed in speeds]
-        law.loglog(speeds, peaks, "o-", color=colour, label=label, markersize=4)
-    waves.set(xlabel="ms after the landing", ylabel="m/s², one below the other", title="A landing at 0.6 m/s")
-    waves.set_yticks([0, -500, -1000], ["0", "0", "0"])
-    law.set(xlabel="approach, m/s", ylabel="peak, m/s²", title="The amplitude is proportional to the approach")
-    law.grid(alpha=0.3, which="both")
-    law.legend(frameon=False)
-    return figure
-
-
-def edge_picture() -> plt.Figure:
-    figure, (waves, law) = plt.subplots(1, 2, figsize=(10.0, 3.6), layout="constrained")
-    pairs = {
-        "a step down of 2 mm, wood": ("wood", "wood", 0.002),
-        "a step down of 0.5 mm, wood": ("wood", "wood", 0.0005),
-        "glass to sandpaper, flush": ("glass", "sandpaper", 0.0),
-        "wood to wood, flush": ("wood", "wood", 0.0),
-    }
-    for place, (name, (before, after, height)) in enumerate(pairs.items()):
-        scene = [box("before", before, -0.5, 0.0), box("after", after, 0.0, -height)]
-        energies = []
-        speeds = [0.02, 0.05, 0.1, 0.2, 0.3, 0.5]
-        for speed in speeds:
-            wave = wave_of(scene, slide(speed, height), "--effects", "edge")
-            energies.append(np.sum(wave**2) / RATE_HZ)
-            if speed == 0.2:
-                begin = int(0.49 * RATE_HZ)
-                seconds = np.arange(int(0.06 * RATE_HZ)) / RATE_HZ
-                waves.plot(1000.0 * (seconds - 0.01), wave[begin : begin + len(seconds)] - 20.0 * place, label=name)
-        law.plot(speeds, np.sqrt(energies), "o-", markersize=4, label=name)
-    waves.set(xlabel="ms after the edge", ylabel="m/s², one below the other", title="At 0.2 m/s")
-    waves.set_yticks([-20.0 * place for place in range(len(pairs))], ["0"] * len(pairs))
-    law.set(xlabel="speed, m/s", ylabel="root of the energy, m/s² √s", title="It follows speed and height or level")
-    law.grid(alpha=0.3)
-    law.legend(frameon=False)
-    return figure
-
-
-def delay_picture() -> plt.Figure:
-    figure, axes = plt.subplots(figsize=(10.0, 2.6), layout="constrained")
-    times = np.arange(0.0, 0.8, 0.002)
-    x = 0.2 * np.clip(times - 0.15, 0.0, 0.3)
-    height = np.where(times < 0.45, np.maximum(0.6 * (0.1 - times), -DEEP_METRES), 0.01)
-    stroke = stroke_of(times, x, height)
-    for place, milliseconds in enumerate((0, 100)):
-        wave = wave_of([plane("wood")], stroke, "--effects", "texture,impact", "--delay-ms", str(milliseconds))
-        axes.plot(np.arange(len(wave)) / RATE_HZ, wave - 150.0 * place, linewidth=0.6, label=f"delay {milliseconds} ms")
-    axes.set(xlabel="s", ylabel="m/s², one below the other", title="A landing and a stroke of 0.3 s")
-    axes.set_yticks([0, -150], ["0", "0"])
-    axes.legend(frameon=False, loc="upper right")
-    return figure
-
-
-def features_picture() -> plt.Figure:
-    figure, (wave_axes, controller, motor) = plt.subplots(3, 1, figsize=(10.0, 6.0), sharex=True, layout="constrained")
-    times = np.arange(0.0, 1.0, 0.002)
-    x = 0.2 * np.clip(times - 0.2, 0.0, 0.5)
-    height = np.where(times < 0.8, np.maximum(0.6 * (0.1 - times), -DEEP_METRES), 0.01)
-    stroke = stroke_of(times, x, height)
-    wave = wave_of([plane("concrete")], stroke, "--effects", "texture,impact")
-    wave_axes.plot(np.arange(len(wave)) / RATE_HZ, wave, linewidth=0.6, color="#444")
-    wave_axes.set(ylabel="m/s²", title="Wanted: a landing and a stroke on concrete")
-    engine = default_engine(ROOT)
-    frames = wave_frames(engine, wave, RATE_HZ, 0.005, 40.0, 400.0)
-    controller.step(frames["seconds"], frames["amplitude_mps2"], where="post", color="#3465a4", label="amplitude, m/s²")
-    onsets = frames[frames["transient_mps2"] > 0.0]
-    controller.plot(onsets["seconds"] + onsets["transient_offset_seconds"], onsets["transient_mps2"], "v", color="#cc4c02",
-                    label="transient")
-    controller.set(ylabel="m/s²", title="Sent to a controller of 40 to 400 Hz, every 5 ms")
-    hertz = controller.twinx()
-    hertz.step(frames["seconds"], frames["frequency_hz"], where="post", color="#999", linewidth=0.8)
-    hertz.set_ylabel("Hz (grey)")
-    controller.legend(frameon=False, loc="upper right")
-    frames = wave_frames(engine, wave, RATE_HZ, 0.008, 160.0, 160.0)
-    motor.step(frames["seconds"], frames["amplitude_mps2"], where="post", color="#3465a4")
-    motor.set(xlabel="s", ylabel="m/s²", title="Sent to a motor of 160 Hz, every 8 ms: each frame feels as strong as the wave")
-    return figure
 
 
 def label_table() -> str:
@@ -426,11 +232,6 @@ IMAGES = ROOT / "Documentation~/images"
 PICTURES: dict[str, tuple[Path, Callable[[], plt.Figure]]] = {
     "stroke": (IMAGES / "stroke.png", stroke_picture),
     "TextureGallery": (SAMPLES / "TextureGallery/TextureGallery.png", gallery_picture),
-    "crossing-lag": (IMAGES / "crossing-lag.png", crossing_picture),
-    "effect-impact": (IMAGES / "effect-impact.png", impact_picture),
-    "effect-edge": (IMAGES / "effect-edge.png", edge_picture),
-    "effect-delay": (IMAGES / "effect-delay.png", delay_picture),
-    "features-of-the-wave": (IMAGES / "features-of-the-wave.png", features_picture),
 }
 
 

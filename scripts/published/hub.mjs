@@ -1,6 +1,6 @@
-import { createHash, randomBytes } from 'node:crypto';
+import { createHash } from 'node:crypto';
 import { createReadStream } from 'node:fs';
-import { mkdir, open, readdir, rename, rm, stat } from 'node:fs/promises';
+import { mkdir, open, rename, rm, stat } from 'node:fs/promises';
 import path from 'node:path';
 import { setTimeout as pause } from 'node:timers/promises';
 import { CommandError } from '../lib/process.mjs';
@@ -95,7 +95,7 @@ export function networkError(address, error, env = process.env, node = process.v
   );
 }
 
-// One file over a connection that may be cut, onto a disk that may be full, beside another run that brings the same file.
+// One file over a connection that may be cut, onto a disk that may be full.
 
 // A try that brings this much counts as none, so that a large file may be cut often.
 const progressBytes = 1 << 20;
@@ -108,8 +108,7 @@ const progressBytes = 1 << 20;
  */
 
 /**
- * Brings one file to its place. A complete one is only read; a started one goes on where it ended. Parts lie beside the place
- * under names of their own for every run, so that two runs do not write into one file.
+ * Brings one file to its place. A complete one is only read; a started one goes on where it ended: its part lies beside the place.
  * @param {object} job
  * @param {(from: number) => Promise<Response>} job.ask requests the bytes from an offset to the end: 206, or 200 with all of them
  * @param {string} job.place
@@ -131,13 +130,9 @@ export async function bringFile({ ask, place, size, digest, say, advance = () =>
     await rm(place, { force: true });
   }
   await onDisk(place, size, () => mkdir(path.dirname(place), { recursive: true }));
-  const part = await claimPart(place, digest);
-  try {
-    await fill({ ask, place, part, size, say, advance, wait });
-  } catch (error) {
-    await rename(part, freePart(place, digest)).catch(() => {});
-    throw error;
-  }
+  // The digits keep the part of one version of a file from that of another.
+  const part = `${place}.${digest.digits.slice(0, 8)}.part`;
+  await fill({ ask, place, part, size, say, advance, wait });
   const brought = await checkedFile(part, size, digest);
   if (!brought.isRight) {
     await rm(part, { force: true });
@@ -145,36 +140,6 @@ export async function bringFile({ ask, place, size, digest, say, advance = () =>
   }
   await rename(part, place);
   return { sha256: brought.sha256, size: brought.size, isNew: true };
-}
-
-// The digits keep parts of one version of a file from those of another.
-const freePart = (place, { digits }) => `${place}.${digits.slice(0, 8)}.part`;
-
-/** Renames what an ended run left to a name of this run; whoever renames first has it. A new name where nothing was left. */
-async function claimPart(place, digest) {
-  const own = `${place}.${digest.digits.slice(0, 8)}.${process.pid}-${randomBytes(4).toString('hex')}.part`;
-  const start = path.basename(`${place}.${digest.digits.slice(0, 8)}.`);
-  for (const name of await readdir(path.dirname(place))) {
-    if (!name.startsWith(start) || !name.endsWith('.part')) continue;
-    const owner = name.slice(start.length).match(/^(\d+)-/);
-    if (owner && isRunning(Number(owner[1]))) continue;
-    try {
-      await rename(path.join(path.dirname(place), name), own);
-      return own;
-    } catch (error) {
-      if (error.code !== 'ENOENT') throw error;
-    }
-  }
-  return own;
-}
-
-function isRunning(pid) {
-  try {
-    process.kill(pid, 0);
-    return true;
-  } catch (error) {
-    return error.code === 'EPERM';
-  }
 }
 
 /** Appends to the part until it is whole. */
@@ -360,32 +325,16 @@ export async function download({ repo, file, revision = 'main', into = repositor
   return { place, ...brought };
 }
 
-/**
- * The answer with the bytes of a file from an offset on. The client knows the address and the errors; its request is for one
- * byte, to learn of the file, and for a description of chunks in place of bytes. This one is for the bytes.
- */
-async function bytesFrom(client, query, from) {
-  let answer;
-  const own = async (address, { headers }) => {
-    const { Accept: _, ...others } = headers;
-    // Compressed, the bytes from an offset on would be those of the compressed file.
-    answer = await query.fetch(address, { headers: { ...others, Range: `bytes=${from}-`, 'Accept-Encoding': 'identity' } });
-    // Of a file that is complete.
-    if (answer.status === 416) throw new CompleteAnswer();
-    return answer;
-  };
-  try {
-    const info = await client.fileDownloadInfo({ ...query, fetch: own });
-    if (info === null) throw new client.HubApiError(answer.url, 404);
-  } catch (error) {
-    // The client wants a range and an ETag; the bytes are good without.
-    const isGood = error instanceof CompleteAnswer || (error instanceof client.InvalidApiResponseFormatError && answer?.ok);
-    if (!isGood) throw error;
-  }
+/** The answer with the bytes of a file from an offset on, which the client does not ask for. */
+async function bytesFrom(client, { hubUrl, fetch: fetchPatiently, accessToken, repo, path: file, revision }, from) {
+  const place = `${repo.type === 'dataset' ? 'datasets/' : ''}${repo.name}/resolve/${encodeURIComponent(revision)}/${file.split('/').map(encodeURIComponent).join('/')}`;
+  // Compressed, the bytes from an offset on would be those of the compressed file.
+  const headers = { Range: `bytes=${from}-`, 'Accept-Encoding': 'identity', ...(accessToken ? { Authorization: `Bearer ${accessToken}` } : {}) };
+  const answer = await fetchPatiently(`${hubUrl}/${place}`, { headers });
+  // 416, range not satisfiable, answers for a file of which all bytes are here already.
+  if (!answer.ok && answer.status !== 416) throw new client.HubApiError(answer.url, answer.status);
   return answer;
 }
-
-class CompleteAnswer extends Error {}
 
 /**
  * Runs something with the client; its errors become sentences. A cut connection is tried again, unless `once`.

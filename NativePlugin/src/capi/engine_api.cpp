@@ -5,7 +5,6 @@
 #include "inference/tier_generator.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <string>

@@ -8,7 +8,6 @@
 #include "model/model_file.hpp"
 #include "skeleton/skeleton_tensors.hpp"
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>

@@ -122,18 +122,22 @@ haptoflow_recording_info infoOf(const OpenRecording& open) {
     return info;
 }
 
-/// The caller's samples. Throws std::invalid_argument.
-recordings::Recording samplesOf(const haptoflow_recording_info& given) {
+/// A copy of the caller's samples and texts. Throws std::invalid_argument.
+OpenRecording copyOf(const haptoflow_recording_info& given) {
     (void)require(given.acceleration_mps2, "info: acceleration_mps2");
     const std::size_t count = countOf(given.sample_count, "info: sample_count");
-    const auto numbers = [](const float* values, std::size_t size) {
-        return values != nullptr ? std::span(values, size) : std::span<const float>();
+    // Before that many samples are read.
+    recordings::checkSizes({.rateHz = given.sample_rate_hz, .axisCount = given.axis_count});
+    const auto copied = [](const float* values, std::size_t size) {
+        return values != nullptr ? std::vector(values, values + size) : std::vector<float>();
     };
-    recordings::Recording recording{.rateHz = given.sample_rate_hz,
-                                    .axisCount = given.axis_count,
-                                    .accelerationMps2 = numbers(given.acceleration_mps2, count * given.axis_count),
-                                    .velocityMps = numbers(given.velocity_mps, 2 * count),
-                                    .forceNewtons = numbers(given.force_newtons, count)};
+    OpenRecording open;
+    recordings::MaterialRecording& recording = open.recording;
+    recording.rateHz = given.sample_rate_hz;
+    recording.axisCount = given.axis_count;
+    recording.accelerationMps2 = copied(given.acceleration_mps2, count * given.axis_count);
+    recording.velocityMps = copied(given.velocity_mps, 2 * count);
+    recording.forceNewtons = copied(given.force_newtons, count);
     // Constants of what is not constant are no numbers.
     if (given.velocity_mps == nullptr) {
         recording.constantVelocityMps = {given.constant_velocity_mps[0], given.constant_velocity_mps[1]};
@@ -141,28 +145,10 @@ recordings::Recording samplesOf(const haptoflow_recording_info& given) {
     if (given.force_newtons == nullptr) {
         recording.constantForceNewtons = given.constant_force_newtons;
     }
-    recordings::checkSizes(recording);
-    return recording;
-}
-
-OpenRecording copyOf(const haptoflow_recording_info& given) {
-    const recordings::Recording samples = samplesOf(given);
-    const auto copied = [](std::span<const float> values) { return std::vector(values.begin(), values.end()); };
-    OpenRecording open;
-    open.recording.rateHz = samples.rateHz;
-    open.recording.axisCount = samples.axisCount;
-    open.recording.accelerationMps2 = copied(samples.accelerationMps2);
-    open.recording.velocityMps = copied(samples.velocityMps);
-    open.recording.forceNewtons = copied(samples.forceNewtons);
-    if (samples.velocityMps.empty()) {
-        open.recording.constantVelocityMps = samples.constantVelocityMps;
-    }
-    if (samples.forceNewtons.empty()) {
-        open.recording.constantForceNewtons = samples.constantForceNewtons;
-    }
-    open.recording.description.label = textOrNone(given.label);
-    open.recording.description.licence = textOrNone(given.licence);
-    open.recording.description.source = textOrNone(given.source);
+    recordings::checkSizes(recording.view());
+    recording.description.label = textOrNone(given.label);
+    recording.description.licence = textOrNone(given.licence);
+    recording.description.source = textOrNone(given.source);
     open.notes = textOrNone(given.notes);
     open.materialName = textOrNone(given.material_name);
     open.provenance = textOrNone(given.provenance);

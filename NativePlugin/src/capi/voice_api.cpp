@@ -1,9 +1,7 @@
 #include "capi/handles.hpp"
 #include "capi/voice_table.hpp"
 
-#include <algorithm>
 #include <bit>
-#include <cmath>
 #include <cstddef>
 #include <memory>
 #include <string>

@@ -83,4 +83,15 @@ void fourierTransform(std::vector<std::complex<double>>& values, Direction direc
     }
 }
 
+void minimumPhaseResponse(std::span<const double> cepstrum, std::span<double> response) noexcept {
+    response[0] = std::exp(cepstrum[0]);
+    for (std::size_t n = 1; n < response.size(); ++n) {
+        double sum = 0.0;
+        for (std::size_t k = 1; k <= n; ++k) {
+            sum += static_cast<double>(k) * cepstrum[k] * response[n - k];
+        }
+        response[n] = sum / static_cast<double>(n);
+    }
+}
+
 }  // namespace haptoflow::dsp

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <complex>
+#include <span>
 #include <vector>
 
 namespace haptoflow::dsp {
@@ -20,5 +21,11 @@ enum class Direction { forward, inverse };
 /// Discrete Fourier transform in place; the inverse divides by the length. Allocates: for filter design and analysis,
 /// not for the audio thread. Throws std::invalid_argument unless the length is a power of two.
 void fourierTransform(std::vector<std::complex<double>>& values, Direction direction);
+
+/// Writes the impulse response of the minimum-phase filter with this complex cepstrum, of the same length: h[0] =
+/// exp(c[0]), and n h[n] is the sum of k c[k] h[n - k] over k from 1 to n (Oppenheim and Schafer, "Discrete-Time Signal
+/// Processing", chapter on homomorphic filtering). Folding the cepstrum of log |H| onto positive time gives the one
+/// with the same magnitude. Allocates nothing.
+void minimumPhaseResponse(std::span<const double> cepstrum, std::span<double> response) noexcept;
 
 }  // namespace haptoflow::dsp

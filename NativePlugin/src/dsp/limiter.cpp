@@ -65,20 +65,6 @@ float SoftLimiter::bend(float aboveKnee) const noexcept {
     return std::clamp(ceiling_ - distance, std::min(kneeStart_, largestOutput_), largestOutput_);
 }
 
-float SoftLimiter::limit(float mps2) const noexcept {
-    return std::isfinite(mps2) ? limitScaled(mps2 / fullScaleMps2_) : 0.0F;
-}
-
-float SoftLimiter::limitScaled(float scaled) const noexcept {
-    const float magnitude = std::abs(scaled);
-    return magnitude <= kneeStart_ ? scaled : std::copysign(bend(magnitude), scaled);
-}
-
-void SoftLimiter::process(std::span<float> samples) noexcept {
-    scale(samples);
-    processScaled(samples);
-}
-
 void SoftLimiter::scale(std::span<float> samples) noexcept {
     for (float& sample : samples) {
         if (!std::isfinite(sample)) {
@@ -91,9 +77,11 @@ void SoftLimiter::scale(std::span<float> samples) noexcept {
 
 void SoftLimiter::processScaled(std::span<float> samples) noexcept {
     for (float& sample : samples) {
-        sample = limitScaled(sample);
-        if (std::abs(sample) > kneeStart_) {
-            ++limitedCount_;
+        const float magnitude = std::abs(sample);
+        // In this form a NaN is limited, too.
+        if (!(magnitude <= kneeStart_)) {
+            sample = std::copysign(bend(magnitude), sample);
+            limitedCount_ += std::abs(sample) > kneeStart_ ? 1U : 0U;
         }
     }
 }

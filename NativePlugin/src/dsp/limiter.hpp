@@ -45,13 +45,9 @@ public:
     /// Sets the limit of the output's magnitude, clamped to 0-1, from the next sample on. Ignores a non-finite value.
     void setCeiling(float ceiling) noexcept;
 
-    /// The limited value of one sample; 0 for NaN and infinities. Does not count.
-    [[nodiscard]] float limit(float mps2) const noexcept;
-    /// Limits in place and counts.
-    void process(std::span<float> samples) noexcept;
-    /// The two halves of `process`, for a sum that is limited as a whole: m/s^2 to shares of full scale without limit,
-    /// and the curve on such shares.
+    /// m/s^2 to shares of full scale, without limit and in place. Counts what is not finite.
     void scale(std::span<float> samples) noexcept;
+    /// Limits shares of full scale, of one voice or of a sum, in place. Counts.
     void processScaled(std::span<float> samples) noexcept;
     [[nodiscard]] float ceiling() const noexcept { return ceiling_; }
 
@@ -62,7 +58,6 @@ public:
 
 private:
     [[nodiscard]] float bend(float aboveKnee) const noexcept;
-    [[nodiscard]] float limitScaled(float scaled) const noexcept;
 
     float fullScaleMps2_;
     float ceiling_ = 1.0F;

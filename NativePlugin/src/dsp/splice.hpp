@@ -26,8 +26,6 @@ public:
     [[nodiscard]] bool active() const noexcept { return index_ < length_; }
     /// The next sample of the seam; after the splice, the successor's sample.
     [[nodiscard]] float next(float continuation, float successor) noexcept;
-    /// Ends a splice early: from the next sample on, only the successor sounds.
-    void cancel() noexcept { index_ = length_; }
 
 private:
     double correlation_ = 1.0;

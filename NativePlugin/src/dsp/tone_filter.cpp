@@ -26,24 +26,15 @@ ToneCepstrum toneCepstrum(const ToneGain& gainDb) {
     fourierTransform(values, Direction::inverse);
     ToneCepstrum cepstrum{};
     for (std::size_t i = 0; i < cepstrum.size(); ++i) {
-        // Folding the cepstrum onto positive time makes the filter minimum-phase (Oppenheim and Schafer,
-        // "Discrete-Time Signal Processing", chapter on homomorphic filtering).
+        // Folded: see minimumPhaseResponse.
         cepstrum[i] = (i == 0 ? 1.0 : 2.0) * values[i].real();
     }
     return cepstrum;
 }
 
-// From the same chapter: h[0] = exp(c[0]), and n h[n] is the sum of k c[k] h[n - k] over k from 1 to n.
 ToneKernel toneKernel(const ToneCepstrum& cepstrum) noexcept {
     std::array<double, toneTaps> response{};
-    response[0] = std::exp(cepstrum[0]);
-    for (std::size_t n = 1; n < response.size(); ++n) {
-        double sum = 0.0;
-        for (std::size_t k = 1; k <= n; ++k) {
-            sum += static_cast<double>(k) * cepstrum[k] * response[n - k];
-        }
-        response[n] = sum / static_cast<double>(n);
-    }
+    minimumPhaseResponse(cepstrum, response);
     ToneKernel kernel{};
     for (std::size_t n = 0; n < kernel.size(); ++n) {
         kernel[n] = static_cast<float>(response[n]);
@@ -82,8 +73,7 @@ const MinimumPhaseKernel& MinimumPhaseKernel::shared() {
     return kernel;
 }
 
-// Folding the cepstrum of log |H| onto positive time gives the minimum-phase filter of the same magnitude:
-// A. V. Oppenheim and R. W. Schafer, "Discrete-Time Signal Processing", chapter on homomorphic filtering.
+// By the folded cepstrum of log |H|: see minimumPhaseResponse.
 MinimumPhaseKernel::MinimumPhaseKernel() {
     std::vector<Complex> values = linearPhasePrototype();
     fourierTransform(values, Direction::forward);

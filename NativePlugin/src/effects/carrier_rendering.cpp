@@ -52,28 +52,24 @@ Carrier linearAt(std::span<const WaveFrame> frames, std::size_t index, double se
 
 }  // namespace
 
-std::vector<float> renderCarrier(std::span<const WaveFrame> frames, const CarrierRendering& rendering) {
-    if (frames.empty() || !(rendering.sampleRateHz > 0.0)) {
+std::vector<float> renderCarrier(std::span<const WaveFrame> frames, CarrierShape shape) {
+    if (frames.empty()) {
         return {};
     }
+    constexpr double rateHz = WaveFeatures::sampleRateHz;
     const double start = startSeconds(frames.front());
-    const double length = endSeconds(frames.back()) - start;
-    std::vector<float> wave(static_cast<std::size_t>(std::llround(length * rendering.sampleRateHz)));
-    const double follow =
-        rendering.riseSeconds > 0.0 ? 1.0 - std::exp(-1.0 / (rendering.riseSeconds * rendering.sampleRateHz)) : 1.0;
+    std::vector<float> wave(static_cast<std::size_t>(std::llround((endSeconds(frames.back()) - start) * rateHz)));
     double cycles = 0.0;
-    double amplitude = 0.0;
     std::size_t index = 0;
     for (std::size_t i = 0; i < wave.size(); ++i) {
-        const double seconds = start + (static_cast<double>(i) + 0.5) / rendering.sampleRateHz;
+        const double seconds = start + (static_cast<double>(i) + 0.5) / rateHz;
         while (index + 1 < frames.size() && seconds >= endSeconds(frames[index])) {
             ++index;
         }
         const Carrier carrier =
-            rendering.shape == CarrierShape::held ? heldAt(frames, index, seconds) : linearAt(frames, index, seconds);
-        amplitude += follow * (carrier.amplitudeMps2 - amplitude);
-        cycles = std::fmod(cycles + carrier.frequencyHz / rendering.sampleRateHz, 1.0);
-        wave[i] = static_cast<float>(amplitude * std::sin(2.0 * std::numbers::pi * cycles));
+            shape == CarrierShape::held ? heldAt(frames, index, seconds) : linearAt(frames, index, seconds);
+        cycles = std::fmod(cycles + carrier.frequencyHz / rateHz, 1.0);
+        wave[i] = static_cast<float>(carrier.amplitudeMps2 * std::sin(2.0 * std::numbers::pi * cycles));
     }
     return wave;
 }
@@ -90,42 +86,32 @@ std::vector<WaveFrame> framesOf(std::span<const float> waveMps2, const WaveFeatu
     return frames;
 }
 
-std::vector<IntensityError> intensityErrors(std::span<const float> wantedMps2, std::span<const float> playedMps2,
-                                            const WaveFeatureOptions& options) {
+IntensityErrors intensityErrors(std::span<const float> wantedMps2, std::span<const float> playedMps2,
+                                const WaveFeatureOptions& options) {
     const std::vector<WaveFrame> wanted = framesOf(wantedMps2, options);
     const std::vector<WaveFrame> played = framesOf(playedMps2, options);
-    std::vector<IntensityError> errors;
-    errors.reserve(wanted.size());
+    std::vector<double> magnitudes;
+    double sumDb = 0.0;
+    double sumOfMagnitudesDb = 0.0;
     for (std::size_t i = 0; i < wanted.size(); ++i) {
         const auto wantedIntensity = static_cast<double>(wanted[i].intensity);
         const double playedIntensity = i < played.size() ? static_cast<double>(played[i].intensity) : 0.0;
-        if (std::max(wantedIntensity, playedIntensity) < 1.0) {
-            continue;
+        if (std::max(wantedIntensity, playedIntensity) >= 1.0) {
+            const double errorDb = 20.0 * std::log10(std::max(playedIntensity, 1.0) / std::max(wantedIntensity, 1.0));
+            sumDb += errorDb;
+            sumOfMagnitudesDb += std::abs(errorDb);
+            magnitudes.push_back(std::abs(errorDb));
         }
-        errors.push_back({startSeconds(wanted[i]), wantedIntensity, playedIntensity,
-                          20.0 * std::log10(std::max(playedIntensity, 1.0) / std::max(wantedIntensity, 1.0))});
     }
-    return errors;
-}
-
-IntensityErrorSummary summarise(std::span<const IntensityError> errors) {
-    IntensityErrorSummary summary;
-    if (errors.empty()) {
-        return summary;
+    if (magnitudes.empty()) {
+        return {};
     }
-    std::vector<double> magnitudes;
-    magnitudes.reserve(errors.size());
-    for (const IntensityError& error : errors) {
-        summary.meanDb += error.errorDb;
-        summary.meanMagnitudeDb += std::abs(error.errorDb);
-        magnitudes.push_back(std::abs(error.errorDb));
-    }
-    const auto count = static_cast<double>(errors.size());
     std::ranges::sort(magnitudes);
+    const auto count = static_cast<double>(magnitudes.size());
     const auto rank = static_cast<std::size_t>(std::ceil(0.95 * count)) - 1;
-    return {.feltFrames = errors.size(),
-            .meanDb = summary.meanDb / count,
-            .meanMagnitudeDb = summary.meanMagnitudeDb / count,
+    return {.feltFrames = magnitudes.size(),
+            .meanDb = sumDb / count,
+            .meanMagnitudeDb = sumOfMagnitudesDb / count,
             .percentile95Db = magnitudes[rank]};
 }
 

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
-#include <stdexcept>
 
 namespace haptoflow::effects {
 namespace {
@@ -76,29 +75,14 @@ constexpr double maximumMps2 = 1e4;
 // Maximum number of steps for a pause of any length; with it, pauses up to 40 s are resolved to hundredths of a second.
 constexpr std::uint64_t maximumPauseSteps = 4096;
 
-const ExposureLaw& checkedLaw(const ExposureLaw& law) {
-    if (!law.isValid()) {
-        throw std::invalid_argument(
-            "the exposure law has a value that is not finite or not above 0, or a minimum gain above 1");
-    }
-    return law;
-}
-
 double decibels(double gain) noexcept {
     return 20.0 * std::log10(gain);
 }
 
 }  // namespace
 
-bool ExposureLaw::isValid() const noexcept {
-    const auto isPositive = [](double value) { return std::isfinite(value) && value > 0.0; };
-    return isPositive(actuatorGain) && isPositive(shortTermMps2) && isPositive(shortTermSeconds) &&
-           isPositive(dailyMps2) && isPositive(dailySeconds) && isPositive(reserveSeconds) &&
-           isPositive(slewDbPerSecond) && isPositive(minimumGain) && minimumGain <= 1.0;
-}
-
 ExposureGuard::ExposureGuard(double sampleRateHz, const ExposureLaw& law)
-    : law_(checkedLaw(law)),
+    : law_(law),
       tickSamples_(static_cast<std::size_t>(std::lround(dsp::requireOutputRate(sampleRateHz) / ticksPerSecond))),
       tickSeconds_(static_cast<double>(tickSamples_) / sampleRateHz),
       shortTermShare_(1.0 - std::exp(-tickSeconds_ / law.shortTermSeconds)),

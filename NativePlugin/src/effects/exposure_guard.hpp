@@ -46,7 +46,7 @@ private:
 /// Why the guard reduces the level at present.
 enum class ExposureReason : std::uint8_t { none, shortTerm, dose };
 
-/// Parameters of the exposure limits. Levels are RMS at the hand, m/s^2.
+/// Parameters of the exposure limits, finite and above 0. Levels are RMS at the hand, m/s^2.
 struct ExposureLaw {
     /// Acceleration at the hand per m/s^2 of the signal.
     double actuatorGain = 1.0;
@@ -62,9 +62,6 @@ struct ExposureLaw {
     double slewDbPerSecond = 1.0;
     /// Minimum gain of the guard.
     double minimumGain = 0.01;
-
-    /// False if a value is not finite and above 0, or if the minimum gain is above 1.
-    [[nodiscard]] bool isValid() const noexcept;
 };
 
 /// State of a guard in the latest hundredth of a second.
@@ -120,7 +117,7 @@ struct ExposureReport {
 /// audio thread: allocates nothing, waits for nothing.
 class ExposureGuard final : public Effect {
 public:
-    /// Throws std::invalid_argument for a rate outside 8-192 kHz or an invalid law.
+    /// Throws std::invalid_argument for a rate outside 8-192 kHz.
     explicit ExposureGuard(double sampleRateHz, const ExposureLaw& law = {});
 
     /// Sets the actuator's gain from the next sample on. The recent level is rescaled to the new gain; the dose stays.

@@ -1,5 +1,6 @@
 #include "effects/perceived_intensity.hpp"
 
+#include "dsp/fourier_transform.hpp"
 #include "dsp/sample_rates.hpp"
 
 #include <algorithm>
@@ -36,8 +37,6 @@ const ThresholdFilter& ThresholdFilter::shared() {
     return filter;
 }
 
-// Folding the cepstrum of log |H| onto positive time gives the cepstrum c' of the minimum-phase response with the same
-// magnitude. The response follows from n h(n) = sum k c'(k) h(n - k).
 ThresholdFilter::ThresholdFilter() {
     std::vector<double> logMagnitude(gridSize / 2 + 1);
     for (std::size_t i = 0; i < logMagnitude.size(); ++i) {
@@ -54,14 +53,7 @@ ThresholdFilter::ThresholdFilter() {
         }
         folded[n] = (n == 0 ? 1.0 : 2.0) * sum / static_cast<double>(gridSize);
     }
-    impulseResponse_[0] = std::exp(folded[0]);
-    for (std::size_t n = 1; n < taps; ++n) {
-        double sum = 0.0;
-        for (std::size_t k = 1; k <= n; ++k) {
-            sum += static_cast<double>(k) * folded[k] * impulseResponse_[n - k];
-        }
-        impulseResponse_[n] = sum / static_cast<double>(n);
-    }
+    dsp::minimumPhaseResponse(folded, impulseResponse_);
     delaySamples_ = groupDelay(impulseResponse_, 125.0);
 }
 

@@ -66,6 +66,11 @@ namespace {
 
 constexpr double binHz = WaveFeatures::sampleRateHz / static_cast<double>(ThresholdFilter::taps);
 constexpr std::size_t windowFall = 16;
+// An onset: the ratio of the energy in 4 ms to the preceding average (10.8 dB), its minimum amplitude in multiples of
+// the detection threshold, and the minimum time between two, 30 ms.
+constexpr double onsetEnergyRatio = 12.0;
+constexpr double onsetThresholds = 3.0;
+constexpr std::uint64_t refractorySamples = 60;
 constexpr std::size_t fastSamples = 8;
 constexpr std::size_t slowLag = 10;
 constexpr double slowSeconds = 0.03;
@@ -86,28 +91,21 @@ constexpr double suddenRise = 4.0;
 constexpr double suddenFall = 8.0;
 constexpr double suddenSeconds = 0.03;
 
-bool isWithin(double value, double low, double high) noexcept {
-    return value >= low && value <= high;
-}
-
 }  // namespace
 
 bool WaveFeatureOptions::isValid() const noexcept {
-    return isWithin(frameSeconds, 0.002, 0.032) && minFrequencyHz > 0.0 && minFrequencyHz <= maxFrequencyHz &&
-           maxFrequencyHz <= 1000.0 && isWithin(onsetEnergyRatio, 1.0, 1e6) && isWithin(onsetThresholds, 0.0, 1e6) &&
-           isWithin(refractorySeconds, 0.0, 10.0);
+    return frameSeconds >= 0.002 && frameSeconds <= 0.032 && minFrequencyHz > 0.0 && minFrequencyHz <= maxFrequencyHz &&
+           maxFrequencyHz <= 1000.0;
 }
 
 WaveFeatures::WaveFeatures(const WaveFeatureOptions& options)
     : options_(options),
       filter_(ThresholdFilter::shared()),
       frameSamples_(options.frameSeconds * sampleRateHz),
-      slowShare_(1.0 - std::exp(-1.0 / (slowSeconds * sampleRateHz))),
-      refractorySamples_(static_cast<std::uint64_t>(std::max(0.0, options.refractorySeconds) * sampleRateHz)) {
+      slowShare_(1.0 - std::exp(-1.0 / (slowSeconds * sampleRateHz))) {
     if (!options.isValid()) {
         throw std::invalid_argument(
-            "wave features: expected frames of 2 to 32 ms, a device range within 0 to 1000 Hz, an onset ratio of 1 to "
-            "1e6, onset thresholds of 0 to 1e6 and a refractory time of 0 to 10 s");
+            "wave features: expected frames of 2 to 32 ms and a device range within 0 to 1000 Hz");
     }
     for (std::size_t i = 0; i < historySamples; ++i) {
         const std::size_t fromEnd = historySamples - i;
@@ -218,11 +216,11 @@ void WaveFeatures::detectOnset() noexcept {
     if (taken_ < refractoryUntil_ || hasOnset_) {
         return;
     }
-    const bool isFelt = fastEnergy_ > 0.5 * options_.onsetThresholds * options_.onsetThresholds;
-    if (isFelt && fastEnergy_ > options_.onsetEnergyRatio * slowEnergy_) {
+    const bool isFelt = fastEnergy_ > 0.5 * onsetThresholds * onsetThresholds;
+    if (isFelt && fastEnergy_ > onsetEnergyRatio * slowEnergy_) {
         hasOnset_ = true;
         onset_ = onsetBefore(taken_);
-        refractoryUntil_ = taken_ + refractorySamples_;
+        refractoryUntil_ = taken_ + refractorySamples;
     }
 }
 

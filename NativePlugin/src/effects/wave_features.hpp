@@ -63,7 +63,7 @@ struct WaveFrame {
     WaveTransient transient;
 };
 
-/// Frame length, onset detection and the device's range.
+/// Frame length and the device's range.
 struct WaveFeatureOptions {
     /// 2 to 32 ms: 4-8 ms for devices that take points in time (a sixth to a third of the period of the fastest
     /// envelope that is felt), else the interval at which the device takes values. Need not be a whole number of
@@ -72,12 +72,6 @@ struct WaveFeatureOptions {
     /// The device's range; equal for a motor with one frequency.
     double minFrequencyHz = 60.0;
     double maxFrequencyHz = 400.0;
-    /// Ratio of the energy in 4 ms to the preceding average that marks an onset (10.8 dB).
-    double onsetEnergyRatio = 12.0;
-    /// Minimum amplitude of an onset, in multiples of the detection threshold.
-    double onsetThresholds = 3.0;
-    /// Minimum time between two onsets.
-    double refractorySeconds = 0.03;
 
     /// False for values out of range or not finite.
     [[nodiscard]] bool isValid() const noexcept;
@@ -103,11 +97,12 @@ struct WaveFeatureOptions {
 /// as long as r^2 falls; and the second of two frames in a row below an eighth of the smoothed r^2, and after it as
 /// long as r^2 falls. So an impact arrives in its own frame at full height.
 ///
-/// Onsets are detected sample by sample: the mean square of the last 4 ms is compared with an exponential mean of 30 ms
-/// that ended 5 ms earlier. The onset is the sample at which the wave first reached a quarter of its peak within the
-/// preceding 8 ms. Its amplitude is the peak of the following samples, up to 8 ms, and its frequency is that of the
-/// sinusoid with the same ratio of differences to sums of neighbouring samples. A frame contains at most one onset, the
-/// first; a frame before an onset excludes everything after it.
+/// Onsets are detected sample by sample: the mean square of the last 4 ms, if it is felt, is compared with an
+/// exponential mean of 30 ms that ended 5 ms earlier. They are at least 30 ms apart. The onset is the sample at which
+/// the wave first reached a quarter of its peak within the preceding 8 ms. Its amplitude is the peak of the following
+/// samples, up to 8 ms, and its frequency is that of the sinusoid with the same ratio of differences to sums of
+/// neighbouring samples. A frame contains at most one onset, the first; a frame before an onset excludes everything
+/// after it.
 ///
 /// `process` accepts any number of samples. Used by one thread at a time; only the constructor allocates, and the work
 /// per sample and per frame is bounded. Non-finite samples count as 0.
@@ -174,7 +169,6 @@ private:
     double thresholdEnergy_ = 0.0;
     double frameSamples_;
     double slowShare_;
-    std::uint64_t refractorySamples_;
 
     /// Ring buffers of the newest samples, unweighted and in multiples of the threshold.
     History wave_{};

@@ -3,14 +3,10 @@
 #include "dsp/tone_filter.hpp"
 #include "effects/effect.hpp"
 #include "effects/impacts.hpp"
-#include "engine/blend_balance.hpp"
 #include "engine/contact_state.hpp"
 #include "engine/range_law.hpp"
-#include "engine/rib_phase.hpp"
-#include "engine/seam_statistics.hpp"
-#include "engine/waveform_timeline.hpp"
 #include "inference/segment_generator.hpp"
-#include "skeleton/skeleton.hpp"
+#include "skeleton/stream.hpp"
 
 #include <algorithm>
 #include <array>
@@ -100,59 +96,36 @@ struct PublishedContact {
     std::uint64_t updates = 0;
     std::uint64_t slides = 0;
     RangedMotion ranged;
-    /// The materials' level for the motion, before the range law's gain; that of the newest sliding state.
+    /// The materials' tabulated level for the motion, before the range law's gain; that of the newest sliding state.
     float levelMps2 = 1.0F;
     /// VoiceChannels::clock when it was published.
     double publishedSeconds = 0.0;
 };
 
-/// What skeleton and networks are told of a contact's materials.
+/// What networks are told of a contact's materials.
 struct MaterialInputs {
     std::array<float, inference::embeddingSize> embedding{};
-    WaveStatistics waves;
     LevelRequest level;
     float impulseGain = 1.0F;
+    /// The nearest recording of a model without a skeleton, or silence: 100 ms in m/s^2 that a network continues first,
+    /// and the next 100 ms in unit scale, which sound until its first segment is there.
+    std::array<float, inference::segmentSamples> pastMps2{};
+    std::array<float, inference::segmentSamples> beginningUnit{};
 };
 
-/// What a skeleton makes of a contact: its parameters, and the level before a blend's balance. The publisher prepares
-/// it, because the weights would push the callback's own data out of the cache. Empty for a model without a skeleton.
-struct PreparedSketch {
-    skeleton::SegmentParameters parameters;
-    float levelMps2 = 0.0F;
-};
-
-/// A seed, ready to be played.
-struct OnsetSeed {
-    std::array<float, WaveformTimeline::seedSamples> samplesMps2{};
-    SeedRibs ribs{};
-};
-
-/// A contact for the callback, with the seed, the contact events and the tone, which the callback plays without the
-/// worker. The publisher prepares these, because looking up a material may wait and the callback must not.
-struct AudioMessage {
+/// A contact on its way from the publisher to the callback, and another copy to the worker: its materials may be
+/// replaced meanwhile, and looking them up may wait.
+struct ContactMessage {
     PublishedContact contact;
-    /// The seed for the newest sliding state. Every message contains it, so that an onset is not lost if its message is
-    /// replaced, and a touch resumes with the seed of the state with which it resumes. Silent for a model with a
-    /// skeleton, which needs none.
-    OnsetSeed seed;
     MaterialInputs material;
-    /// That of the newest sliding state, as the seed.
-    PreparedSketch sketch;
+    /// Those of the newest sliding state, so that a touch resumes with the state with which it resumes.
+    skeleton::StreamParameters stream;
     /// The contact events that the callback had not taken when the message was written, so that no event is lost if its
     /// message is replaced.
     ContactEventList contactEvents;
     std::optional<dsp::ToneKernel> tone;
     /// Time of the last change of ContactState::isMoving (VoiceChannels::clock).
     double movingSinceSeconds = 0.0;
-};
-
-/// A contact for the worker, with the inputs of the network that follow from the materials. It exists beside
-/// PublishedContact because a material may be replaced while the worker runs; an inference::SegmentRequest adds the
-/// past and the noise, which only the worker knows.
-struct WorkerMessage {
-    PublishedContact contact;
-    MaterialInputs material;
-    BlendParts blend;
 };
 
 }  // namespace haptoflow::engine

@@ -2,8 +2,6 @@
 
 #include "engine/material.hpp"
 #include "engine/range_law.hpp"
-#include "engine/surface_phases.hpp"
-#include "skeleton/condition.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -80,29 +78,11 @@ ObjectIdentity objectOf(const ContactState& state) noexcept {
     return {.surfaceSeed = state.surfaceSeed, .variation = state.variation};
 }
 
-/// The heaviest material's seed that is nearest to a motion, scaled by its gain to the level of that motion; silence if
-/// the material has no seed.
-OnsetSeed seedFor(const Ingredients& ingredients, const Material& material, const RangedMotion& ranged,
-                  float levelMps2) noexcept {
-    OnsetSeed onset;
-    const Seed* seed = retrieveSeed(ingredients.heaviest().material->seeds, ranged.motion);
-    if (seed == nullptr) {
-        return onset;
-    }
-    std::ranges::transform(seed->samples, onset.samplesMps2.begin(),
-                           [scale = seed->gain * levelMps2](float sample) { return sample * scale; });
-    // The seed plays as recorded, so its rib phase advances with its own velocity and not with the tip's.
-    onset.ribs.vectors = waveVectorsOf(material.embedding);
-    onset.ribs.phase = phasesFor(onset.ribs.vectors, waveVectorsOf(seed->embedding), seed->ribPhase);
-    onset.ribs.cyclesPerSample = ribCyclesPerSample(material.embedding, seed->velocityMps[0], seed->velocityMps[1]);
-    return onset;
-}
-
 }  // namespace
 
 ContactPublisher::ContactPublisher(const MaterialLibrary& library, VoiceChannels& channels,
-                                   skeleton::NativeParts native)
-    : library_(library), channels_(channels), native_(std::move(native)), events_(channels) {}
+                                   StreamParameterMaker streams)
+    : library_(library), channels_(channels), streams_(std::move(streams)), events_(channels) {}
 
 ContactAction ContactPublisher::publish(ContactState state) noexcept {
     VoiceCounters& counters = channels_.counters;
@@ -135,18 +115,9 @@ ContactAction ContactPublisher::publish(ContactState state) noexcept {
     contact_.slides += contact_.sliding ? 1 : 0;
     contact_.ranged =
         applyRangeLaw(library_.model().header(), material, state.velocityMps, state.forceNewtons, state.spatialScale);
-    const MaterialInputs inputs{.embedding = material.embedding,
-                                .waves = waveStatisticsOf(ingredients, waveVectorsOf(material.embedding)),
-                                .level = requestLevel(ingredients, contact_.ranged),
-                                .impulseGain = static_cast<float>(material.impulseGain)};
-    // Every sliding state carries a seed or a sketch, because the callback may resume with any of them.
+    // Every sliding state carries what the stream plays, because the callback may resume with any of them.
     if (contact_.sliding || action == ContactAction::tap) {
-        contact_.levelMps2 = ingredients.levelMps2(contact_.ranged.levelMotion);
-        if (native_.skeleton != nullptr) {
-            prepareSketch(inputs);
-        } else {
-            seed_ = seedFor(ingredients, material, contact_.ranged, contact_.levelMps2);
-        }
+        prepareStream(ingredients, material);
     }
     events_.follow(contact_, ingredients, reading.ingredients(events_.touched().material));
     if (action == ContactAction::rest && state.touching != 0) {
@@ -154,69 +125,52 @@ ContactAction ContactPublisher::publish(ContactState state) noexcept {
     }
 
     channels_.publishedTouch.store(contact_.touch, std::memory_order_release);
-    postToAudio(ingredients, inputs, hasSignal);
-    postToWorker(ingredients, inputs);
-    return action;
-}
-
-void ContactPublisher::prepareSketch(const MaterialInputs& inputs) noexcept {
-    const std::array<float, 3>& motion = contact_.ranged.motion;
-    skeleton::Phases phases = skeleton::phasesOf(inputs.embedding, motion, {});
-    phases.back() = static_cast<float>(slipsPerSample(inputs.waves.slip, motion, 0.0) * inference::waveformRateHz);
-    sketch_.parameters = native_.skeleton->parametersFor(skeleton::conditionOf(inputs.embedding, motion, phases),
-                                                         skeleton::Skeleton::familiesOf(phases), inputs.impulseGain);
-    if (inputs.level.levelMps2) {
-        sketch_.levelMps2 = *inputs.level.levelMps2;
-        return;
-    }
-    const float logLevel = native_.level->logLevel(inputs.embedding, inputs.level.motion);
-    constexpr auto limit = static_cast<float>(inference::maximumLogLevel);
-    // What is not a number is silent.
-    const float limited = std::isfinite(logLevel) ? std::clamp(logLevel, -limit, limit) : -limit;
-    sketch_.levelMps2 = std::exp(limited) * inputs.level.gain;
-}
-
-void ContactPublisher::postToAudio(const Ingredients& ingredients, const MaterialInputs& inputs,
-                                   bool hasSignal) noexcept {
-    const ContactState& state = contact_.state;
-    const auto& motion = contact_.ranged.motion;
     std::optional<dsp::ToneCepstrum> tone;
     if (!hasSignal) {
+        const auto& motion = contact_.ranged.motion;
         tone = resolveTone(ingredients, std::hypot(motion[0], motion[1]), static_cast<double>(motion[2]),
                            static_cast<double>(state.toneDbPerOctave), tiltPerDecibel_);
     }
+    post(tone);
+    return action;
+}
+
+void ContactPublisher::prepareStream(const Ingredients& ingredients, const Material& material) noexcept {
+    contact_.levelMps2 = ingredients.levelMps2(contact_.ranged.levelMotion);
+    material_ = {.embedding = material.embedding,
+                 .level = requestLevel(ingredients, contact_.ranged),
+                 .impulseGain = static_cast<float>(material.impulseGain)};
+    std::array<double, 2> seedPhase{};
+    if (const Seed* seed = retrieveSeed(ingredients.heaviest().material->seeds, contact_.ranged.motion)) {
+        const auto scaled = [&seed](auto samples, auto& out, float scale) {
+            std::ranges::transform(samples, out.begin(),
+                                   [gain = seed->gain * scale](float sample) { return sample * gain; });
+        };
+        scaled(seed->samples.first<inference::segmentSamples>(), material_.pastMps2, contact_.levelMps2);
+        scaled(seed->samples.last<inference::segmentSamples>(), material_.beginningUnit, 1.0F);
+        seedPhase = seed->ribPhase;
+    }
+    stream_ = streams_.make(contact_, material_, ingredients, channels_.renderedSeconds.load(std::memory_order_relaxed),
+                            seedPhase);
+}
+
+void ContactPublisher::post(const std::optional<dsp::ToneCepstrum>& tone) noexcept {
+    const ContactState& state = contact_.state;
     const effects::EffectMask requested =
         (state.effects & surfaceEffects) | (tone ? effects::maskOf(EffectKind::tone) : effects::EffectMask{0});
     channels_.counters.requestedEffects.store(state.touching != 0 ? requested : 0, std::memory_order_relaxed);
 
-    AudioMessage& message = channels_.toAudio.draft();
-    message.contact = contact_;
-    message.seed = seed_;
-    message.material = inputs;
-    message.sketch = sketch_;
-    message.contactEvents = events_.untaken();
-    message.tone = tone ? std::optional(dsp::toneKernel(*tone)) : std::nullopt;
-    message.movingSinceSeconds = movingSinceSeconds_;
-    channels_.toAudio.post();
-}
-
-void ContactPublisher::postToWorker(const Ingredients& ingredients, const MaterialInputs& inputs) noexcept {
-    WorkerMessage& message = channels_.toWorker.draft();
-    message.contact = contact_;
-    message.material = inputs;
-    message.blend.count = 0;
-    if (ingredients.isBlend()) {
-        const double total = ingredients.totalWeight();
-        for (const Ingredient& each : ingredients.all()) {
-            BlendParts::Part& part = message.blend.parts[message.blend.count];
-            part.share = static_cast<float>(each.weight / total);
-            part.embedding = embeddingOf(*each.material, objectOf(contact_.state));
-            part.impulseGain = each.material->label->impulseGain;
-            part.slip = each.material->label->stickSlip.value_or(model::StickSlip{});
-            ++message.blend.count;
-        }
+    const std::optional<dsp::ToneKernel> kernel = tone ? std::optional(dsp::toneKernel(*tone)) : std::nullopt;
+    for (Mailbox<ContactMessage>* mailbox : {&channels_.toAudio, &channels_.toWorker}) {
+        ContactMessage& message = mailbox->draft();
+        message.contact = contact_;
+        message.material = material_;
+        message.stream = stream_;
+        message.contactEvents = events_.untaken();
+        message.tone = kernel;
+        message.movingSinceSeconds = movingSinceSeconds_;
+        mailbox->post();
     }
-    channels_.toWorker.post();
 }
 
 }  // namespace haptoflow::engine

@@ -5,6 +5,7 @@
 #include "engine/contact_state.hpp"
 #include "engine/material.hpp"
 #include "engine/material_library.hpp"
+#include "engine/stream_parameters.hpp"
 #include "engine/voice_channels.hpp"
 #include "skeleton/skeleton_tensors.hpp"
 
@@ -74,27 +75,25 @@ private:
 /// worker. Wait-free, allocates nothing; used by one thread at a time. The library must outlive it.
 class ContactPublisher {
 public:
-    /// `native` is empty for a model without a skeleton.
-    ContactPublisher(const MaterialLibrary& library, VoiceChannels& channels, skeleton::NativeParts native);
+    ContactPublisher(const MaterialLibrary& library, VoiceChannels& channels, StreamParameterMaker streams);
 
     /// Publishes a state and returns the voice's action. The state is sanitised first; changed fields are counted.
     ContactAction publish(ContactState state) noexcept;
 
 private:
-    void prepareSketch(const MaterialInputs& inputs) noexcept;
-    void postToAudio(const Ingredients& ingredients, const MaterialInputs& inputs, bool hasSignal) noexcept;
-    void postToWorker(const Ingredients& ingredients, const MaterialInputs& inputs) noexcept;
+    void prepareStream(const Ingredients& ingredients, const Material& material) noexcept;
+    void post(const std::optional<dsp::ToneCepstrum>& tone) noexcept;
 
     const MaterialLibrary& library_;
     VoiceChannels& channels_;
-    skeleton::NativeParts native_;
+    StreamParameterMaker streams_;
     const dsp::ToneCepstrum tiltPerDecibel_ = designTilt();
     ContactFollower follower_;
     ContactEvents events_;
-    // The newest contact, its seed or sketch, and the time since which it moves or rests.
+    // The newest contact, what follows from the newest sliding one, and the time since which the tip moves or rests.
     PublishedContact contact_;
-    OnsetSeed seed_;
-    PreparedSketch sketch_;
+    MaterialInputs material_;
+    skeleton::StreamParameters stream_;
     double movingSinceSeconds_ = 0.0;
     // Wave vectors of the newest touching state.
     WaveVectors ribs_{};

@@ -16,8 +16,6 @@ struct RoundResult {
     std::size_t voices = 0;
     /// Number of segments that voices got.
     std::size_t segments = 0;
-    /// Number of segments generated, also those that only balance a blend.
-    std::size_t generated = 0;
     /// Whether the run of a voice failed, and the message of the newest failure.
     bool failed = false;
     std::string failure;
@@ -36,15 +34,10 @@ public:
 
 private:
     void generate(inference::SegmentGenerator& generator, RoundResult& result);
-    void balanceBlends(inference::SegmentGenerator& generator, RoundResult& result);
 
     std::vector<LiveVoice*> pending_;
-    std::vector<LiveVoice*> balancing_;
     std::vector<inference::SegmentRequest> requests_;
     std::vector<float> segments_;
-    // Of the segments that are refined from sketches.
-    std::vector<float> sketches_;
-    std::vector<bool> isSketched_;
 };
 
 }  // namespace haptoflow::engine

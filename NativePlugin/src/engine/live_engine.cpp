@@ -134,8 +134,7 @@ ContactAction LiveEngine::publish(LiveVoice& voice, const ContactState& state) n
     const ContactAction action = voice.publisher.publish(state);
     const VoiceChannels& channels = voice.channels;
     const bool wantsOutput = channels.requestedRateHz.load(std::memory_order_relaxed) != 0.0 ||
-                             channels.lacksProcessors.load(std::memory_order_relaxed) ||
-                             channels.replacedProcessors.load(std::memory_order_relaxed) != nullptr;
+                             channels.lacksProcessors.load(std::memory_order_relaxed) || channels.processors.hasUsed();
     if (action != ContactAction::rest || wantsOutput) {
         signal_.post();
     }
@@ -165,7 +164,7 @@ RoundResult LiveEngine::step() {
             ++figures_.failedRounds;
             noteFailure(result.failure.c_str());
         } else {
-            quality_.recordRound(result.milliseconds, result.voices, result.generated);
+            quality_.recordRound(result.milliseconds, result.voices, result.segments);
         }
     }
     publishQuality();

@@ -3,12 +3,10 @@
 #include "dsp/limiter.hpp"
 #include "engine/contact_publisher.hpp"
 #include "engine/segment_planner.hpp"
-#include "engine/sketcher.hpp"
+#include "engine/stream_parameters.hpp"
 #include "engine/voice_channels.hpp"
 #include "engine/voice_renderer.hpp"
 #include "skeleton/skeleton_tensors.hpp"
-
-#include <memory>
 
 namespace haptoflow::engine {
 
@@ -27,10 +25,11 @@ struct LiveVoiceSettings {
 struct LiveVoice {
     /// Throws std::invalid_argument for settings out of range.
     LiveVoice(const MaterialLibrary& library, const std::atomic<bool>& workerAlive, const LiveVoiceSettings& settings)
-        : publisher(library, channels, settings.native),
+        : publisher(library, channels,
+                    StreamParameterMaker(settings.native, settings.planner.seed, settings.planner.voice)),
           renderer(channels, workerAlive, settings.outputRateHz, settings.fullScaleMps2,
-                   {settings.planner.seed, settings.planner.voice}, sketcherFor(settings)),
-          planner(channels, settings.planner) {
+                   {.seed = settings.planner.seed, .voice = settings.planner.voice}, settings.native.skeleton),
+          planner(channels, settings.planner, settings.native.skeleton) {
         channels.isRealTime = settings.isRealTime;
     }
 
@@ -38,14 +37,6 @@ struct LiveVoice {
     ContactPublisher publisher;
     VoiceRenderer renderer;
     SegmentPlanner planner;
-
-private:
-    [[nodiscard]] static std::unique_ptr<Sketcher> sketcherFor(const LiveVoiceSettings& settings) {
-        if (settings.native.skeleton == nullptr) {
-            return nullptr;
-        }
-        return std::make_unique<Sketcher>(settings.native.skeleton, settings.planner.seed, settings.planner.voice);
-    }
 };
 
 }  // namespace haptoflow::engine

@@ -1,12 +1,12 @@
 #pragma once
 
-#include "engine/surface_phases.hpp"
 #include "inference/segment_generator.hpp"
 
 #include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 
 namespace haptoflow::engine {
 
@@ -50,41 +50,31 @@ private:
     std::atomic<std::uint8_t> exchanged_{2};
 };
 
-/// A generated segment on its way from the worker to the callback.
-struct QueuedSegment {
-    /// Number of the segment among the voice's segments, from 1.
+/// What a network adds to the stream for 200 samples, on its way from the worker to the callback.
+struct Correction {
+    /// Number of the correction among the voice's corrections, from 1.
     std::uint64_t sequence = 0;
-    /// The stream that it continues (from an onset to its end); a segment of another stream is dropped.
+    /// The stream that it corrects (from an onset to its end); a correction of another stream is dropped.
     std::uint64_t stream = 0;
     /// The sample in waveform time at which it takes over.
     std::int64_t start = 0;
-    /// The contact state that it was made for (PublishedContact::updates), and that state's level
-    /// (PublishedContact::levelMps2).
-    std::uint64_t update = 0;
-    float levelMps2 = 1.0F;
-    /// Gain that balances a blend, which is part of the samples.
-    float balance = 1.0F;
-    /// The tip's way over the surface with this segment.
-    SurfaceTrack track;
-    /// m/s^2; and the sketch that the samples were refined from, if they were.
-    std::array<float, inference::segmentSamples> samplesMps2{};
-    bool hasSketch = false;
-    std::array<float, inference::segmentSamples> sketchMps2{};
+    /// In unit scale: m/s^2 divided by the level.
+    std::array<float, inference::segmentSamples> unit{};
 };
 
-/// A queue of segments from one writing to one reading thread, wait-free on both sides. A full queue rejects new
-/// segments and never overwrites queued ones, because later segments continue them.
-class SegmentQueue {
+/// A queue of corrections from one writing to one reading thread, wait-free on both sides. A full queue rejects new
+/// ones and never overwrites queued ones, because later ones continue them.
+class CorrectionQueue {
 public:
     static constexpr std::size_t capacity = 8;
 
-    /// Writer: appends a copy of the segment. Returns false if the queue is full.
-    [[nodiscard]] bool push(const QueuedSegment& segment) noexcept {
+    /// Writer: appends a copy. Returns false if the queue is full.
+    [[nodiscard]] bool push(const Correction& correction) noexcept {
         const std::uint64_t written = written_.load(std::memory_order_relaxed);
         if (written - read_.load(std::memory_order_acquire) == capacity) {
             return false;
         }
-        slots_[written % capacity] = segment;
+        slots_[written % capacity] = correction;
         written_.store(written + 1, std::memory_order_release);
         return true;
     }
@@ -94,18 +84,55 @@ public:
                                                    read_.load(std::memory_order_acquire));
     }
 
-    /// Reader: the oldest segment, or null if the queue is empty.
-    [[nodiscard]] const QueuedSegment* front() const noexcept {
+    /// Reader: the oldest correction, or null if the queue is empty.
+    [[nodiscard]] const Correction* front() const noexcept {
         const std::uint64_t read = read_.load(std::memory_order_relaxed);
         return read == written_.load(std::memory_order_acquire) ? nullptr : &slots_[read % capacity];
     }
-    /// Reader: removes the oldest segment. Only after `front` returned one.
+    /// Reader: removes the oldest. Only after `front` returned one.
     void pop() noexcept { read_.store(read_.load(std::memory_order_relaxed) + 1, std::memory_order_release); }
 
 private:
-    std::array<QueuedSegment, capacity> slots_{};
+    std::array<Correction, capacity> slots_{};
     std::atomic<std::uint64_t> written_{0};
     std::atomic<std::uint64_t> read_{0};
+};
+
+/// Hands objects from the thread that makes and frees them to one that may do neither. The user takes the newest and
+/// gives back the one that it replaced; until that is collected, it takes no other. Wait-free on both sides.
+template <typename Object>
+class Supply {
+public:
+    Supply() = default;
+    Supply(const Supply&) = delete;
+    Supply& operator=(const Supply&) = delete;
+    ~Supply() {
+        delete fresh_.load();
+        delete used_.load();
+    }
+
+    /// Maker: offers an object in place of one that was not taken.
+    void offer(std::unique_ptr<Object> made) noexcept {
+        delete fresh_.exchange(made.release(), std::memory_order_acq_rel);
+    }
+    /// Maker: frees what the user gave back.
+    void collect() noexcept { delete used_.exchange(nullptr, std::memory_order_acq_rel); }
+    /// Any thread: whether something waits to be collected.
+    [[nodiscard]] bool hasUsed() const noexcept { return used_.load(std::memory_order_acquire) != nullptr; }
+
+    /// User: the newest object, or null.
+    [[nodiscard]] std::unique_ptr<Object> take() noexcept {
+        // The exchange is costly. Only one thread takes, so a plain load tells it when nothing waits.
+        Object* const waiting = fresh_.load(std::memory_order_relaxed);
+        return std::unique_ptr<Object>(waiting == nullptr ? nullptr
+                                                          : fresh_.exchange(nullptr, std::memory_order_acq_rel));
+    }
+    /// User: only while nothing waits to be collected.
+    void giveBack(std::unique_ptr<Object> used) noexcept { used_.store(used.release(), std::memory_order_release); }
+
+private:
+    std::atomic<Object*> fresh_{nullptr};
+    std::atomic<Object*> used_{nullptr};
 };
 
 }  // namespace haptoflow::engine

@@ -1,7 +1,7 @@
 #include "engine/material.hpp"
 
-#include "inference/gaussian_noise.hpp"
 #include "inference/segment_generator.hpp"
+#include "skeleton/gaussian_noise.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +10,46 @@
 #include <span>
 
 namespace haptoflow::engine {
+
+WaveVectors waveVectorsOf(std::span<const float, model::embeddingSize> embedding) noexcept {
+    const auto numbers = embedding.last<2 * skeleton::ribCount>();
+    WaveVectors vectors;
+    for (std::size_t slot = 0; slot < vectors.size(); ++slot) {
+        vectors[slot] = {.x = numbers[2 * slot], .y = numbers[2 * slot + 1]};
+    }
+    return vectors;
+}
+
+void setWaveVectors(std::span<float, model::embeddingSize> embedding, const WaveVectors& vectors) noexcept {
+    const auto numbers = embedding.last<2 * skeleton::ribCount>();
+    for (std::size_t slot = 0; slot < vectors.size(); ++slot) {
+        numbers[2 * slot] = vectors[slot].x;
+        numbers[2 * slot + 1] = vectors[slot].y;
+    }
+}
+
+WaveVectors keepingSlots(const WaveVectors& vectors, const WaveVectors& before) noexcept {
+    WaveVectors kept{};
+    std::array<bool, skeleton::ribCount> isTaken{};
+    std::array<bool, skeleton::ribCount> isPlaced{};
+    for (std::size_t slot = 0; slot < vectors.size(); ++slot) {
+        const auto found = std::ranges::find(before, vectors[slot]);
+        if (!vectors[slot].isNone() && found != before.end()) {
+            const auto place = static_cast<std::size_t>(found - before.begin());
+            kept[place] = vectors[slot];
+            isTaken[place] = true;
+            isPlaced[slot] = true;
+        }
+    }
+    for (std::size_t slot = 0; slot < vectors.size(); ++slot) {
+        if (!isPlaced[slot]) {
+            const auto free = static_cast<std::size_t>(std::ranges::find(isTaken, false) - isTaken.begin());
+            kept[free] = vectors[slot];
+            isTaken[free] = true;
+        }
+    }
+    return kept;
+}
 
 Material resolveMaterial(const Ingredients& ingredients, const WaveVectors& before, ObjectIdentity object) noexcept {
     Material material;
@@ -49,7 +89,7 @@ WaveVectors assignRibs(const Ingredients& ingredients, const WaveVectors& before
             *std::ranges::max_element(std::span(left.entries).first(left.count), {}, &Ingredient::weight);
         const Ingredient each = heaviest;
         heaviest.weight = -1.0;
-        for (const WaveVector& candidate : waveVectorsOf(each.material->embedding)) {
+        for (const skeleton::WaveVector& candidate : waveVectorsOf(each.material->embedding)) {
             const auto known = std::span(chosen).first(count);
             if (count < chosen.size() && !candidate.isNone() && std::ranges::find(known, candidate) == known.end()) {
                 chosen[count] = candidate;
@@ -108,7 +148,7 @@ std::array<float, model::embeddingSize> embeddingOf(const PreparedMaterial& mate
     }
     std::array<float, model::maximumPieces> numbers{};
     const auto drawn = std::span(numbers).first(pieces);
-    inference::fillStandardNormal({.seed = object.surfaceSeed, .voice = noVoice}, drawn);
+    skeleton::fillStandardNormal({.seed = object.surfaceSeed, .voice = noVoice}, drawn);
     std::array<double, model::textureSize> offset{};
     for (std::size_t piece = 0; piece < pieces; ++piece) {
         const auto number = static_cast<double>(std::clamp(drawn[piece], -largestDeviation, largestDeviation));

@@ -3,13 +3,22 @@
 #include "dsp/tone_filter.hpp"
 #include "engine/material_library.hpp"
 #include "engine/prepared_material.hpp"
-#include "engine/rib_phase.hpp"
 #include "model/model_header.hpp"
+#include "skeleton/stream.hpp"
 
 #include <array>
 #include <optional>
+#include <span>
 
 namespace haptoflow::engine {
+
+using skeleton::WaveVectors;
+
+/// Read and write the wave vectors of an embedding, which are its last numbers.
+[[nodiscard]] WaveVectors waveVectorsOf(std::span<const float, model::embeddingSize> embedding) noexcept;
+void setWaveVectors(std::span<float, model::embeddingSize> embedding, const WaveVectors& vectors) noexcept;
+/// Reorders `vectors` so that each wave vector that is also among `before` has the slot that it has there.
+[[nodiscard]] WaveVectors keepingSlots(const WaveVectors& vectors, const WaveVectors& before) noexcept;
 
 /// A blend in the form that the network and the range law use: weighted means over its materials.
 struct Material {

@@ -1,5 +1,6 @@
 #include "engine/offline_renderer.hpp"
 
+#include "dsp/splice.hpp"
 #include "engine/inference_round.hpp"
 #include "engine/live_voice.hpp"
 #include "engine/material_library.hpp"
@@ -94,8 +95,6 @@ LiveVoiceSettings voiceSettings(const model::ModelFile& model, const OfflineSett
     LiveVoiceSettings voice;
     voice.planner.seed = settings.seed;
     voice.planner.fixedLeadSamples = LeadEstimator::samplesOf(settings.leadMs);
-    // Every contact state gets a segment, however close it follows another.
-    voice.planner.minimumHopSamples = 0;
     voice.outputRateHz = settings.outputRateHz;
     voice.fullScaleMps2 = settings.fullScaleMps2;
     voice.isRealTime = false;

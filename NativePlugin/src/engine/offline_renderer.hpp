@@ -90,7 +90,7 @@ struct TimedContactState : ContactState {
 /// Returns the next contact state, in the order of time; nothing at the end.
 using ContactStateSource = std::function<std::optional<TimedContactState>()>;
 
-/// Renders contact states without threads, with the same voice, timeline and generator as live. The first state is time
+/// Renders contact states without threads, with the same voice and generator as live. The first state is time
 /// 0 of the output. Memory does not grow with the length. Throws std::invalid_argument for settings out of range,
 /// model::MaterialMismatch, and what `next` and `sink` throw.
 OfflineFigures renderOffline(const model::ModelFile& model, inference::SegmentGenerator& generator,

@@ -1,11 +1,5 @@
 #pragma once
 
-#include "engine/material_library.hpp"
-#include "engine/rib_phase.hpp"
-#include "inference/segment_generator.hpp"
-#include "model/model_header.hpp"
-
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -33,18 +27,6 @@ private:
     std::vector<std::uint64_t> bins_;
     std::uint64_t count_ = 0;
 };
-
-/// What the ribs and slips of a material do beyond its wave vectors.
-struct WaveStatistics {
-    /// By slot of the wave vectors; without turns for even ribs.
-    std::array<model::RibWander, inference::ribCount> ribs{};
-    /// Without length for a material that does not slip.
-    model::StickSlip slip{};
-};
-
-/// Of a material or blend whose wave vectors are `vectors` (assignRibs): ribs keep what their own material says of
-/// them; slips are those of the heaviest material that slips.
-[[nodiscard]] WaveStatistics waveStatisticsOf(const Ingredients& ingredients, const WaveVectors& vectors) noexcept;
 
 /// How much the seams between segments differ from the rest of the waveform.
 struct SeamStatistics {

@@ -1,7 +1,5 @@
 #include "engine/segment_planner.hpp"
 
-#include "inference/gaussian_noise.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -13,6 +11,9 @@ namespace {
 
 // Waveform covered beyond the next update, so that the voice still sounds if that update is late.
 constexpr double reserveSamples = 40.0;
+// Minimum number of samples between the starts of two segments: 5 ms. Corrections that replace each other sooner leave
+// nothing of an impulse.
+constexpr std::int64_t minimumHopSamples = 10;
 // A tenth of a second of polling. The planner does not wait longer for a device that has stopped.
 constexpr int maximumPolls = 50;
 constexpr auto segmentLength = static_cast<std::int64_t>(inference::segmentSamples);
@@ -23,19 +24,16 @@ std::int64_t scaled(std::int64_t samples, double readingRate) noexcept {
 
 }  // namespace
 
-SegmentPlanner::SegmentPlanner(VoiceChannels& channels, const PlannerSettings& settings) noexcept
-    : channels_(channels),
-      settings_(settings),
-      track_(settings.seed, settings.voice),
-      balance_(settings.seed, settings.voice) {}
+SegmentPlanner::SegmentPlanner(VoiceChannels& channels, const PlannerSettings& settings,
+                               std::shared_ptr<const skeleton::Skeleton> skeleton) noexcept
+    : channels_(channels), settings_(settings), skeleton_(std::move(skeleton)) {}
 
 bool SegmentPlanner::wake() noexcept {
     channels_.toWorker.fetch();
     if (channels_.playhead.fetch()) {
         learn();
     }
-    const WorkerMessage& message = channels_.toWorker.current();
-    const PublishedContact& contact = message.contact;
+    const PublishedContact& contact = channels_.toWorker.current().contact;
     const Playhead& playhead = channels_.playhead.current();
     if (!contact.sliding) {
         skipUntil(contact.slides);
@@ -46,16 +44,18 @@ bool SegmentPlanner::wake() noexcept {
     }
     const bool isPlaying = playhead.running && playhead.onset == contact.onset;
     const bool isNewStream = playhead.stream != stream_;
-    const std::int64_t head = playhead.timeline.head;
+    const std::int64_t head = playhead.waveform.head();
     const bool replaces = !isNewStream && head == lastHead_;
     // A full queue means that the callback takes no segments.
-    if (!isPlaying || (replaces && !mayReplace()) || channels_.segments.room() < 2) {
+    if (!isPlaying || (replaces && !mayReplace()) || channels_.corrections.room() < 2) {
         return false;
     }
-    restorePast();
+    copyWaveform();
     const std::int64_t lead = leadSamples(playhead.blockAdvance, contact.ranged.readingRate);
-    const std::int64_t start = std::min(head + lead, std::max(mirror_.coveredUntil(), head));
-    if (!isNewStream && !replaces && start < lastStart_ + settings_.minimumHopSamples) {
+    // Without a skeleton, a segment that takes over behind the last one would leave a gap.
+    const std::int64_t start =
+        skeleton_ != nullptr ? head + lead : std::min(head + lead, std::max(ahead_.correctedUntil(), head));
+    if (!isNewStream && !replaces && start < lastStart_ + minimumHopSamples) {
         return false;
     }
     replacements_ = replaces ? replacements_ + 1 : 0;
@@ -65,17 +65,13 @@ bool SegmentPlanner::wake() noexcept {
     if (!replaces) {
         hop_ = isNewStream ? 0 : head - lastHead_;
     }
+    if (isNewStream) {
+        beginPast();
+    }
     stream_ = playhead.stream;
     lastHead_ = head;
     lastStart_ = start;
     channels_.counters.leadSamples.store(static_cast<std::uint32_t>(lead), std::memory_order_relaxed);
-    request_.embedding = message.material.embedding;
-    request_.impulseGain = message.material.impulseGain;
-    request_.motion = contact.ranged.motion;
-    request_.levelMps2 = message.material.level.levelMps2;
-    request_.levelMotion = message.material.level.motion;
-    request_.levelGain = message.material.level.gain;
-    restoreTrack(start);
     prepare(start);
     return true;
 }
@@ -91,7 +87,7 @@ bool SegmentPlanner::mayReplace() const noexcept {
     // During a long block the clock stands still while new contact states arrive. Each may get a segment for the same
     // start, as often as the minimum hop fits into the block. The limit also ends the inference for a stopped clock.
     const Playhead& playhead = channels_.playhead.current();
-    return settings_.minimumHopSamples > 0 && replacements_ + 1 < playhead.blockAdvance / settings_.minimumHopSamples;
+    return replacements_ + 1 < playhead.blockAdvance / minimumHopSamples;
 }
 
 bool SegmentPlanner::mustPoll() noexcept {
@@ -112,13 +108,13 @@ bool SegmentPlanner::awaitsCallback() const noexcept {
 void SegmentPlanner::learn() noexcept {
     const Playhead& playhead = channels_.playhead.current();
     for (Sent& sent : sent_) {
-        const std::uint64_t sequence = sent.segment.sequence;
+        const std::uint64_t sequence = sent.correction.sequence;
         if (sent.observed || sequence > playhead.takenSequence) {
             continue;
         }
         sent.observed = true;
         const bool isKnown = playhead.takenSequence - sequence < playhead.headAtTake.size();
-        if (isKnown && sent.segment.stream == playhead.stream) {
+        if (isKnown && sent.correction.stream == playhead.stream) {
             const std::int64_t headAtTake = playhead.headAtTake[sequence % playhead.headAtTake.size()];
             const auto advanced = static_cast<double>(headAtTake - sent.plannedHead);
             lead_.observe(static_cast<std::int64_t>(std::ceil(advanced / sent.readingRate)));
@@ -126,27 +122,36 @@ void SegmentPlanner::learn() noexcept {
     }
 }
 
-void SegmentPlanner::restorePast() noexcept {
+void SegmentPlanner::copyWaveform() noexcept {
+    const ContactMessage& message = channels_.toWorker.current();
     const Playhead& playhead = channels_.playhead.current();
-    mirror_.restore(playhead.timeline);
+    ahead_ = playhead.waveform;
+    if (message.contact.updates > playhead.update) {
+        ahead_.follow(message.stream, channels_.samplesAhead(message.contact, ahead_.head(), playhead.blockPosition,
+                                                             playhead.blockSeconds));
+    }
     for (std::uint64_t sequence = playhead.takenSequence + 1; sequence <= sequence_; ++sequence) {
-        const QueuedSegment& segment = sent_[sequence % sent_.size()].segment;
-        if (segment.sequence == sequence && segment.stream == playhead.stream) {
-            mirror_.commit(segment.start, segment.samplesMps2);
+        const Correction& correction = sent_[sequence % sent_.size()].correction;
+        if (correction.sequence == sequence && correction.stream == playhead.stream) {
+            (void)ahead_.take(correction);
         }
     }
 }
 
-void SegmentPlanner::restoreTrack(std::int64_t start) noexcept {
-    const Playhead& playhead = channels_.playhead.current();
-    track_ = playhead.track;
-    for (std::uint64_t sequence = playhead.takenSequence + 1; sequence <= sequence_; ++sequence) {
-        const QueuedSegment& segment = sent_[sequence % sent_.size()].segment;
-        // The segment at `start` replaces those that begin later.
-        if (segment.sequence == sequence && segment.stream == playhead.stream && segment.start <= start) {
-            track_ = segment.track;
-        }
+void SegmentPlanner::beginPast() noexcept {
+    const ContactMessage& message = channels_.toWorker.current();
+    if (skeleton_ == nullptr) {
+        firstPast_ = message.material.pastMps2;
+        return;
     }
+    // A stream begins in the midst of a stroke: what would have led there has never sounded.
+    constexpr auto samples = static_cast<double>(inference::segmentSamples);
+    const skeleton::NoiseKey key{
+        .seed = settings_.seed, .voice = settings_.voice, .segment = (std::uint64_t{1} << 62U) + stream_};
+    skeleton::Stream before;
+    before.begin(message.stream, -samples, key);
+    before.next(skeleton_.get(), firstPast_);
+    std::ranges::for_each(firstPast_, [&before](float& sample) { sample *= before.levelMps2(); });
 }
 
 std::int64_t SegmentPlanner::leadSamples(std::int64_t blockAdvance, double readingRate) const noexcept {
@@ -154,57 +159,62 @@ std::int64_t SegmentPlanner::leadSamples(std::int64_t blockAdvance, double readi
 }
 
 void SegmentPlanner::prepare(std::int64_t start) noexcept {
-    plannedStart_ = start;
-    balance_.follow(channels_.toWorker.current().blend, request_.motion, start);
-    mirror_.history(start, history_);
-    const WorkerMessage& message = channels_.toWorker.current();
-    const PublishedContact& contact = message.contact;
-    const Playhead& playhead = channels_.playhead.current();
-    const double sincePublished = channels_.isRealTime ? playhead.blockSeconds - contact.publishedSeconds : 0.0;
-    request_.phases = track_.at(
-        contact, message.material, start,
-        secondsAhead(static_cast<double>(start) - playhead.blockPosition, contact.ranged.readingRate, sincePublished));
-    fillNoise(track_.stretch().surface, track_.stretch().path,
-              {.seed = settings_.seed, .voice = settings_.voice, .segment = segments_}, noise_);
-    ++segments_;
+    ahead_.expect(start);
+    std::array<float, inference::segmentSamples> read{};
+    while (ahead_.head() < start) {
+        const auto samples = std::min(start - ahead_.head(), segmentLength);
+        ahead_.read(skeleton_.get(), std::span(read).first(static_cast<std::size_t>(samples)));
+    }
+    const ContactMessage& message = channels_.toWorker.current();
+    ahead_.past(history_);
+    ahead_.ownPast(ownHistory_);
+    const auto played = std::clamp<std::int64_t>(ahead_.head() - ahead_.beginning(), 0, segmentLength);
+    std::copy(firstPast_.begin() + played, firstPast_.end(), history_.begin());
+    if (skeleton_ != nullptr) {
+        std::copy(firstPast_.begin() + played, firstPast_.end(), ownHistory_.begin());
+    }
+    request_.embedding = message.material.embedding;
+    request_.impulseGain = message.material.impulseGain;
+    request_.motion = message.contact.ranged.motion;
+    request_.phases = ahead_.stream().phases();
+    request_.levelMotion = message.material.level.motion;
+    request_.levelGain = message.material.level.gain;
+    request_.levelMps2 =
+        skeleton_ != nullptr ? std::optional(message.stream.levelMps2) : message.material.level.levelMps2;
+
+    skeleton::Stream stream = ahead_.stream();
+    std::array<float, inference::segmentSamples> unit{};
+    stream.next(skeleton_.get(), unit, &input_);
 }
 
-bool SegmentPlanner::deliver(std::span<float, inference::segmentSamples> segmentMps2,
-                             std::span<const float> sketchMps2) noexcept {
-    const float balance = balance_.level(segmentMps2, request_.levelMps2.value_or(0.0F));
+bool SegmentPlanner::deliver(std::span<const float, inference::segmentSamples> segmentMps2) noexcept {
     channels_.counters.inferences.fetch_add(1, std::memory_order_relaxed);
-    const PublishedContact& contact = channels_.toWorker.current().contact;
+    const ContactMessage& message = channels_.toWorker.current();
     const Playhead& playhead = channels_.playhead.current();
+    const double readingRate = message.contact.ranged.readingRate;
     ++sequence_;
     Sent& sent = sent_[sequence_ % sent_.size()];
-    sent.segment.sequence = sequence_;
-    sent.segment.stream = stream_;
-    sent.segment.start = plannedStart_;
-    sent.segment.update = contact.updates;
-    sent.segment.levelMps2 = contact.levelMps2;
-    sent.segment.balance = balance;
-    track_.add(plannedStart_);
-    sent.segment.track = track_;
-    std::ranges::copy(segmentMps2, sent.segment.samplesMps2.begin());
-    sent.segment.hasSketch = sketchMps2.size() == segmentMps2.size();
-    if (sent.segment.hasSketch) {
-        std::ranges::transform(sketchMps2, sent.segment.sketchMps2.begin(),
-                               [balance](float sample) { return balance * sample; });
-    }
-    sent.plannedHead = playhead.timeline.head;
-    sent.readingRate = contact.ranged.readingRate;
+    sent.correction.sequence = sequence_;
+    sent.correction.stream = stream_;
+    sent.correction.start = ahead_.head();
+    const float levelMps2 = message.stream.levelMps2;
+    std::ranges::transform(
+        segmentMps2, input_.segment(), sent.correction.unit.begin(),
+        [levelMps2](float sample, float streamed) { return skeleton::finiteOrZero(sample / levelMps2 - streamed); });
+    const std::int64_t head = playhead.waveform.head();
+    sent.plannedHead = head;
+    sent.readingRate = readingRate;
     sent.observed = false;
-    if (!channels_.segments.push(sent.segment)) {
+    if (!channels_.corrections.push(sent.correction)) {
         --sequence_;
         return false;
     }
-    mirror_.commit(plannedStart_, sent.segment.samplesMps2);
-    const std::int64_t head = playhead.timeline.head;
-    const auto lead = static_cast<double>(leadSamples(playhead.blockAdvance, contact.ranged.readingRate));
-    const double needed = static_cast<double>(hop_) + lead + reserveSamples * contact.ranged.readingRate;
-    const std::int64_t next = plannedStart_ + segmentLength;
-    const std::int64_t furthest = static_cast<std::int64_t>(TimelineView::aheadSamples) - segmentLength;
-    if (static_cast<double>(next - head) >= needed || next - head > furthest || channels_.segments.room() < 2) {
+    (void)ahead_.take(sent.correction);
+    const auto lead = static_cast<double>(leadSamples(playhead.blockAdvance, readingRate));
+    const double needed = static_cast<double>(hop_) + lead + reserveSamples * readingRate;
+    const std::int64_t next = ahead_.head() + segmentLength;
+    const bool isEnough = static_cast<double>(next - head) >= needed;
+    if (isEnough || next + segmentLength - head > Waveform::aheadSamples || channels_.corrections.room() < 2) {
         return false;
     }
     prepare(next);
@@ -228,7 +238,7 @@ std::unique_ptr<Processors> SegmentPlanner::processorsFor(double rateHz) {
 }
 
 void SegmentPlanner::serveProcessors() noexcept {
-    delete channels_.replacedProcessors.exchange(nullptr, std::memory_order_acq_rel);
+    channels_.processors.collect();
     const double rateHz = channels_.stageRateHz.load(std::memory_order_acquire);
     const std::uint64_t wantedVersion = channels_.requestedProcessors.load(std::memory_order_acquire);
     const bool isServed = madeVersion_ == wantedVersion && madeRateHz_ == rateHz;
@@ -240,7 +250,7 @@ void SegmentPlanner::serveProcessors() noexcept {
         if (made != nullptr) {
             madeVersion_ = made->version;
             madeRateHz_ = rateHz;
-            delete channels_.freshProcessors.exchange(made.release(), std::memory_order_acq_rel);
+            channels_.processors.offer(std::move(made));
         }
     } catch (const std::exception&) {
         // Out of memory: the voice keeps its present processors and requests the new ones again with its next state.
@@ -250,7 +260,7 @@ void SegmentPlanner::serveProcessors() noexcept {
 
 void SegmentPlanner::serveOutputRate() noexcept {
     serveProcessors();
-    delete channels_.replacedOutput.exchange(nullptr, std::memory_order_acq_rel);
+    channels_.outputs.collect();
     const double rateHz = channels_.requestedRateHz.exchange(0.0, std::memory_order_acq_rel);
     if (rateHz == 0.0) {
         return;
@@ -261,7 +271,7 @@ void SegmentPlanner::serveOutputRate() noexcept {
             stage->effects.exchange(std::move(made));
             stage->effects.finishHandOver();
         }
-        delete channels_.freshOutput.exchange(stage.release(), std::memory_order_acq_rel);
+        channels_.outputs.offer(std::move(stage));
     } catch (const std::exception&) {
         // The rate is not supported, or out of memory; the callback requests a stage again.
         return;

@@ -1,14 +1,13 @@
 #pragma once
 
-#include "engine/blend_balance.hpp"
 #include "engine/quality_control.hpp"
-#include "engine/surface_phases.hpp"
 #include "engine/voice_channels.hpp"
-#include "engine/waveform_timeline.hpp"
+#include "engine/waveform.hpp"
 #include "inference/segment_generator.hpp"
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 
@@ -20,16 +19,17 @@ struct PlannerSettings {
     std::uint32_t voice = 0;
     /// Lead in waveform samples at a reading rate of 1; empty for an estimated lead.
     std::optional<std::int64_t> fixedLeadSamples;
-    /// Minimum number of samples between the starts of two segments: 5 ms.
-    std::int64_t minimumHopSamples = 10;
 };
 
 /// The part of a voice that runs on the worker: decides which segment is needed next, from which past it continues and
-/// where it takes over. The past includes the unplayed part of the running segment and segments that the callback has
-/// not taken yet. Worker thread; allocates nothing except in `serveOutputRate`.
+/// where it takes over. It reads a copy of the callback's waveform ahead, with the newest contact and with the
+/// corrections that the callback has not taken yet; what a network makes beyond the stream is the next correction.
+/// Worker thread; allocates nothing except in `serveOutputRate`.
 class SegmentPlanner {
 public:
-    SegmentPlanner(VoiceChannels& channels, const PlannerSettings& settings) noexcept;
+    /// `skeleton` is null for a model without one.
+    SegmentPlanner(VoiceChannels& channels, const PlannerSettings& settings,
+                   std::shared_ptr<const skeleton::Skeleton> skeleton) noexcept;
 
     /// Reads the newest contact and playhead. Returns whether a segment is needed; `request` then describes it.
     [[nodiscard]] bool wake() noexcept;
@@ -39,14 +39,9 @@ public:
     [[nodiscard]] bool mustPoll() noexcept;
     /// Valid until `deliver` or the next `wake`.
     [[nodiscard]] const inference::SegmentRequest& request() const noexcept { return request_; }
-    /// Sends the requested segment to the callback, with the sketch that it was refined from, if it was; adjusts the
-    /// level of a blend. Returns true if the same contact
-    /// needs a further segment, because at a high reading rate or a low update rate one does not last until the next
-    /// update.
-    [[nodiscard]] bool deliver(std::span<float, inference::segmentSamples> segmentMps2,
-                               std::span<const float> sketchMps2 = {}) noexcept;
-    /// Level balance of the voice's blend, which needs segments of its own.
-    [[nodiscard]] BlendBalance& balance() noexcept { return balance_; }
+    /// Sends what the requested segment has beyond the stream to the callback. Returns true if the same contact needs a
+    /// further segment, because at a high reading rate or a low update rate one does not last until the next update.
+    [[nodiscard]] bool deliver(std::span<const float, inference::segmentSamples> segmentMps2) noexcept;
     /// Counts a failed run; no segment is sent.
     void fail() noexcept;
 
@@ -62,29 +57,28 @@ private:
     [[nodiscard]] bool awaitsCallback() const noexcept;
     void skipUntil(std::uint64_t slides) noexcept;
     void learn() noexcept;
-    void restorePast() noexcept;
-    void restoreTrack(std::int64_t start) noexcept;
+    void copyWaveform() noexcept;
+    void beginPast() noexcept;
     void prepare(std::int64_t start) noexcept;
     [[nodiscard]] std::int64_t leadSamples(std::int64_t blockAdvance, double readingRate) const noexcept;
 
     VoiceChannels& channels_;
     PlannerSettings settings_;
     LeadEstimator lead_;
-    // The callback's timeline as it will be after it has taken all segments sent.
-    WaveformTimeline mirror_;
-    // With the segments sent and the requested one.
-    SurfaceTrack track_;
-    BlendBalance balance_;
+    std::shared_ptr<const skeleton::Skeleton> skeleton_;
+    // The callback's waveform as it will be when the requested segment takes over.
+    Waveform ahead_;
+    // The 200 samples before the present stream.
+    std::array<float, inference::segmentSamples> firstPast_{};
 
     struct Sent {
-        QueuedSegment segment;
+        Correction correction;
         std::int64_t plannedHead = 0;
         double readingRate = 1.0;
         bool observed = true;
     };
-    std::array<Sent, SegmentQueue::capacity> sent_{};
+    std::array<Sent, CorrectionQueue::capacity> sent_{};
     std::uint64_t sequence_ = 0;
-    std::uint64_t segments_ = 0;
 
     // Version and rate of the newest processors made.
     std::uint64_t madeVersion_ = 0;
@@ -101,11 +95,16 @@ private:
     std::int64_t hop_ = 0;
     // Number of segments after the first for the present position of the head.
     std::int64_t replacements_ = 0;
-    std::int64_t plannedStart_ = 0;
 
     std::array<float, inference::segmentSamples> history_{};
-    std::array<float, inference::segmentSamples> noise_{};
-    inference::SegmentRequest request_{.embedding = {}, .motion = {}, .previous = history_, .noise = noise_};
+    std::array<float, inference::segmentSamples> ownHistory_{};
+    skeleton::NetworkInput input_;
+    inference::SegmentRequest request_{.embedding = {},
+                                       .motion = {},
+                                       .previous = history_,
+                                       .noise = input_.noise,
+                                       .own = ownHistory_,
+                                       .networkInput = skeleton_ != nullptr ? &input_ : nullptr};
 };
 
 }  // namespace haptoflow::engine

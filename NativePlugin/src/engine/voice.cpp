@@ -5,11 +5,12 @@
 
 namespace haptoflow::engine {
 
-Voice::Voice(double outputRateHz, float fullScaleMps2, EffectFigures& figures, std::unique_ptr<Sketcher> sketcher)
+Voice::Voice(double outputRateHz, float fullScaleMps2, EffectFigures& figures,
+             std::shared_ptr<const skeleton::Skeleton> skeleton)
     : output_(std::make_unique<OutputStage>(outputRateHz)),
+      skeleton_(std::move(skeleton)),
       level_(inference::waveformRateHz),
       limiter_(fullScaleMps2),
-      sketcher_(std::move(sketcher)),
       figures_(figures) {}
 
 std::unique_ptr<OutputStage> Voice::exchangeOutput(std::unique_ptr<OutputStage> output) noexcept {
@@ -19,47 +20,31 @@ std::unique_ptr<OutputStage> Voice::exchangeOutput(std::unique_ptr<OutputStage> 
     return output;
 }
 
-void Voice::onset(std::span<const float, WaveformTimeline::seedSamples> seedMps2, float levelMps2) noexcept {
+void Voice::begin(const skeleton::StreamParameters& parameters, double samplesAhead, const skeleton::NoiseKey& key,
+                  skeleton::Segment beginningUnit) noexcept {
     const bool fromSilence = isTextureSilent();
     if (fromSilence) {
-        timeline_.clear();
+        waveform_.begin(parameters, samplesAhead, key);
+    } else {
+        waveform_.follow(parameters, samplesAhead);
     }
-    timeline_.open(seedMps2);
-    follower_.begin(timeline_.head(), levelMps2);
+    if (skeleton_ == nullptr) {
+        Correction beginning{.start = waveform_.head()};
+        std::ranges::copy(beginningUnit, beginning.unit.begin());
+        (void)waveform_.take(beginning);
+    }
     if (fromSilence) {
         prime();
     }
     output_->gate.open();
 }
 
-void Voice::beginSketch(float levelMps2) noexcept {
-    std::array<float, WaveformTimeline::seedSamples> seedMps2{};
-    sketcher_->begin(timeline_.head(), seedMps2);
-    onset(seedMps2, levelMps2);
-}
-
-void Voice::renewSketch(float levelMps2) noexcept {
-    sketcher_->renew(timeline_);
-    // The sketch has this level already.
-    follower_.begin(timeline_.head(), levelMps2);
-}
-
-std::int64_t Voice::take(const QueuedSegment& segment) noexcept {
-    if (sketcher_ == nullptr) {
-        return commit(segment.start, segment.samplesMps2, segment.levelMps2);
+std::int64_t Voice::take(const Correction& correction) noexcept {
+    const std::int64_t start = waveform_.take(correction);
+    if (start >= 0 && sink_ != nullptr) {
+        sink_->tookOver(start);
     }
-    const Sketcher::Taken taken = sketcher_->take(timeline_, segment);
-    if (taken.use == Sketcher::Use::whole) {
-        noteTakeOver(taken.start, segment.levelMps2);
-    }
-    return taken.use == Sketcher::Use::dropped ? -1 : taken.start;
-}
-
-void Voice::noteTakeOver(std::int64_t sample, float levelMps2) noexcept {
-    follower_.takeOver(sample, levelMps2);
-    if (sink_ != nullptr) {
-        sink_->tookOver(sample);
-    }
+    return start;
 }
 
 void Voice::stop() noexcept {
@@ -105,30 +90,16 @@ void Voice::setStrength(float strength) noexcept {
 
 void Voice::prime() noexcept {
     level_.reset(level_.target());
+    // Before a stream there is silence. Read ahead by the resampler's delay, so that the first sample is the next to
+    // sound.
     std::array<float, inference::segmentSamples> waveform{};
-    timeline_.history(timeline_.head(), waveform);
-    applyTone(waveform);
     highPass_.reset();
-    highPass_.process(waveform);
-    level_.process(waveform);
-    // Read ahead by the resampler's delay, so that the seed's first sample is the next to sound.
-    const std::size_t ahead = output_->resampler.latencyInputSamples();
-    std::ranges::copy(std::span(waveform).subspan(ahead), waveform.begin());
-    readWaveform(std::span(waveform).last(ahead));
+    readWaveform(std::span(waveform).last(output_->resampler.latencyInputSamples()));
 
     warp_.prime(std::span(waveform).last(dsp::RateWarp::historyLength));
     output_->resampler.prime(waveform);
-    // Only now, because at a higher reading rate the filters would consume most of a seed before it sounds.
+    // Only now, because at a higher reading rate the filters would consume most of a tap before it sounds.
     warp_.setTargetRatio(readingRate_);
-}
-
-std::int64_t Voice::commit(std::int64_t start, std::span<const float, inference::segmentSamples> segment,
-                           float levelMps2) noexcept {
-    const std::int64_t takeOver = timeline_.commit(start, segment);
-    if (takeOver >= 0) {
-        noteTakeOver(takeOver, levelMps2);
-    }
-    return takeOver;
 }
 
 void Voice::setRangeLaw(double levelGain, double readingRate) noexcept {
@@ -147,7 +118,7 @@ void Voice::setTone(const dsp::ToneKernel* kernel) noexcept {
         tone_.reset(kernel);
     } else if (!tone_.isTarget(kernel)) {
         std::array<float, inference::segmentSamples> past{};
-        timeline_.history(timeline_.head(), past);
+        waveform_.past(past);
         tone_.setTone(kernel, std::span(past).last<dsp::ToneFilter::memorySamples>());
     }
     if (tone_.isActive() && !isRunning) {
@@ -163,12 +134,8 @@ void Voice::applyTone(std::span<float> samplesMps2) noexcept {
 }
 
 void Voice::readWaveform(std::span<float> out) noexcept {
-    if (sketcher_ != nullptr) {
-        sketcher_->extend(timeline_, out.size());
-    }
-    const std::int64_t start = timeline_.head();
-    timeline_.read(out);
-    follower_.process(start, out);
+    const std::int64_t start = waveform_.head();
+    waveform_.read(skeleton_.get(), out);
     applyTone(out);
     if (sink_ != nullptr && !out.empty()) {
         sink_->played(start, out);
@@ -227,7 +194,6 @@ void Voice::renderStop(std::span<float> out) noexcept {
     }
     output_->gate.reset();
     output_->effects.reset();
-    timeline_.clear();
 }
 
 }  // namespace haptoflow::engine

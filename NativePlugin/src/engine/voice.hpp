@@ -5,8 +5,7 @@
 #include "dsp/rate_warp.hpp"
 #include "dsp/tone_filter.hpp"
 #include "engine/effect_stage.hpp"
-#include "engine/sketcher.hpp"
-#include "engine/waveform_timeline.hpp"
+#include "engine/waveform.hpp"
 
 #include <array>
 #include <cstdint>
@@ -24,14 +23,14 @@ public:
     WaveformSink& operator=(const WaveformSink&) = delete;
     virtual ~WaveformSink() = default;
     virtual void played(std::int64_t start, std::span<const float> samplesMps2) noexcept = 0;
-    /// A segment takes over at `sample`.
+    /// A correction takes over at `sample`.
     virtual void tookOver(std::int64_t sample) noexcept = 0;
 };
 
 /// Where the limiter acts: on the voice, or on a sum that the voice is rendered for.
 enum class Limit { voice, sum };
 
-/// The signal of one stylus tip. Its stages in order: timeline, level of the newest state, tone, high-pass, range law,
+/// The signal of one stylus tip. Its stages in order: waveform, tone, high-pass, range law,
 /// reading rate, output rate, gate, contact events and signal, delay, compensation, strength, exposure guard, the gate
 /// of all effects, limiter.
 ///
@@ -40,45 +39,33 @@ enum class Limit { voice, sum };
 /// and wait for nothing.
 class Voice {
 public:
-    /// Counts its effects in `figures`, which must outlive it. `sketcher` is null for a model without a skeleton.
+    /// Counts its effects in `figures`, which must outlive it. `skeleton` is null for a model without one.
     /// Throws std::invalid_argument for a rate outside 8-192 kHz or a full scale that is not above 0.
     Voice(double outputRateHz, float fullScaleMps2, EffectFigures& figures,
-          std::unique_ptr<Sketcher> sketcher = nullptr);
+          std::shared_ptr<const skeleton::Skeleton> skeleton = nullptr);
 
-    /// Touch-down, or sliding resumed: the second half of the seed sounds from the next sample on, the first half
-    /// becomes its past. `levelMps2` is the seed's.
-    void onset(std::span<const float, WaveformTimeline::seedSamples> seedMps2, float levelMps2) noexcept;
+    /// Touch-down, or sliding resumed: the stream sounds from the next sample on (see Waveform::begin). A model without
+    /// a skeleton has no stream and plays `beginningUnit` instead. If the texture still sounds, nothing begins: the
+    /// stream goes on with the new contact.
+    void begin(const skeleton::StreamParameters& parameters, double samplesAhead, const skeleton::NoiseKey& key,
+               skeleton::Segment beginningUnit) noexcept;
+    /// Goes on with another contact from the next sample on.
+    void follow(const skeleton::StreamParameters& parameters, double samplesAhead) noexcept {
+        waveform_.follow(parameters, samplesAhead);
+    }
     /// Samples that an onset would read at once, because they need not wait for the resampler.
     [[nodiscard]] std::size_t samplesReadAhead() const noexcept {
         return isTextureSilent() ? output_->resampler.latencyInputSamples() : 0;
     }
     /// The waveform sample, with its fraction, that the resampler plays with the next output sample.
     [[nodiscard]] double playPosition() const noexcept {
-        return static_cast<double>(timeline_.head()) - warp_.samplesAhead() -
+        return static_cast<double>(waveform_.head()) - warp_.samplesAhead() -
                warp_.ratio() * output_->resampler.samplesUntilNext();
     }
-    /// True if the voice begins and goes on by itself, with sketches.
-    [[nodiscard]] bool hasSketcher() const noexcept { return sketcher_ != nullptr; }
-    /// With a sketcher only: see Sketcher::follow. A touch begins, or sliding resumes, with a sketch of this contact.
-    void follow(const AudioMessage& message, double blockPosition, double sincePublishedSeconds) noexcept {
-        sketcher_->follow(message, blockPosition, sincePublishedSeconds);
-    }
-    void beginSketch(float levelMps2) noexcept;
-    /// With a sketcher only: sketches the newest contact from the next sample on.
-    void renewSketch(float levelMps2) noexcept;
-    /// Way over the surface of what is played; null without a sketcher.
-    [[nodiscard]] const SurfaceTrack* track() const noexcept { return sketcher_ ? &sketcher_->track() : nullptr; }
-    /// True if the next sample is a sketch's alone, which no segment of the network corrects.
-    [[nodiscard]] bool isOnlySketched() const noexcept {
-        return sketcher_ != nullptr && !sketcher_->isRefined(timeline_.head());
-    }
-    /// Takes a segment of the present stream. Returns the sample at which it takes over, or -1.
-    std::int64_t take(const QueuedSegment& segment) noexcept;
-    /// See WaveformTimeline::commit; `levelMps2` is the level that the segment was generated for.
-    std::int64_t commit(std::int64_t start, std::span<const float, inference::segmentSamples> segment,
-                        float levelMps2) noexcept;
-    /// Sets the level of the newest contact state, which the waveform takes on within 4 ms.
-    void setLevel(float levelMps2) noexcept { follower_.setLevel(levelMps2); }
+    /// True if the stream sounds by itself.
+    [[nodiscard]] bool hasSkeleton() const noexcept { return skeleton_ != nullptr; }
+    /// Takes a correction of the present stream. Returns the sample at which it takes over, or -1.
+    std::int64_t take(const Correction& correction) noexcept;
     /// Lift-off: fades the texture to silence within 5 ms; effects sound to their end.
     void release() noexcept { output_->gate.close(); }
     /// Fades everything to silence within 5 ms; effects stay silent until `allowEffects`.
@@ -92,7 +79,7 @@ public:
     [[nodiscard]] EffectStage& effects() noexcept { return output_->effects; }
     /// See EffectStage::exchange.
     void exchangeProcessors(std::unique_ptr<Processors> fresh) noexcept;
-    /// Renders a block of any length that fades linearly to silence at its end, and drops the committed waveform.
+    /// Renders a block of any length that fades linearly to silence at its end, and ends the texture.
     void renderStop(std::span<float> out) noexcept;
     /// Sets the range law's gain and reading rate; both change smoothly.
     void setRangeLaw(double levelGain, double readingRate) noexcept;
@@ -119,7 +106,7 @@ public:
 
     /// True while nothing sounds and the waveform is not read.
     [[nodiscard]] bool isSilent() const noexcept { return isTextureSilent() && output_->effects.isIdle(); }
-    [[nodiscard]] const WaveformTimeline& timeline() const noexcept { return timeline_; }
+    [[nodiscard]] const Waveform& waveform() const noexcept { return waveform_; }
     [[nodiscard]] const dsp::SoftLimiter& limiter() const noexcept { return limiter_; }
     /// Null for none. The sink must outlive the voice or be removed before.
     void setSink(WaveformSink* sink) noexcept { sink_ = sink; }
@@ -136,11 +123,10 @@ private:
     void readWaveform(std::span<float> out) noexcept;
     void applyTone(std::span<float> samplesMps2) noexcept;
     void prime() noexcept;
-    void noteTakeOver(std::int64_t sample, float levelMps2) noexcept;
 
     std::unique_ptr<OutputStage> output_;
-    WaveformTimeline timeline_;
-    LevelFollower follower_;
+    std::shared_ptr<const skeleton::Skeleton> skeleton_;
+    Waveform waveform_;
     dsp::ToneFilter tone_;
     dsp::HighPass highPass_;
     dsp::LevelSmoother level_;
@@ -148,7 +134,6 @@ private:
     dsp::SoftLimiter limiter_;
     Limit limit_ = Limit::voice;
     double readingRate_ = 1.0;
-    std::unique_ptr<Sketcher> sketcher_;
     EffectFigures& figures_;
     WaveformSink* sink_ = nullptr;
 };

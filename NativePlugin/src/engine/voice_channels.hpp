@@ -5,8 +5,8 @@
 #include "engine/effect_stage.hpp"
 #include "engine/mailbox.hpp"
 #include "engine/silence.hpp"
-#include "engine/surface_phases.hpp"
-#include "engine/waveform_timeline.hpp"
+#include "engine/stream_parameters.hpp"
+#include "engine/waveform.hpp"
 
 #include <array>
 #include <atomic>
@@ -24,20 +24,20 @@ struct Playhead {
     std::uint64_t stream = 0;
     /// PublishedContact::onset of the present stream.
     std::uint32_t onset = 0;
-    /// The tip's way over the surface with what is played.
-    SurfaceTrack track;
+    /// PublishedContact::updates of the contact that the waveform follows.
+    std::uint64_t update = 0;
     /// False while the waveform is not read and its clock stands still.
     bool running = false;
-    /// Sequence number of the newest segment that the callback took or dropped, and the head at the time for each of
-    /// the last segments, indexed by the sequence number modulo the capacity.
+    /// Sequence number of the newest correction that the callback took or dropped, and the head at the time for each of
+    /// the last ones, indexed by the sequence number modulo the capacity.
     std::uint64_t takenSequence = 0;
-    std::array<std::int64_t, SegmentQueue::capacity> headAtTake{};
+    std::array<std::int64_t, CorrectionQueue::capacity> headAtTake{};
     /// Maximum number of waveform samples that one of the last blocks consumes at a reading rate of 1.
     std::int64_t blockAdvance = 0;
     /// Voice::playPosition at the beginning of the block, and VoiceChannels::clock then.
     double blockPosition = 0.0;
     double blockSeconds = 0.0;
-    TimelineView timeline;
+    Waveform waveform;
 };
 
 /// Settings of the callback besides contacts and segments. Any thread may change them.
@@ -125,16 +125,24 @@ struct VoiceCounters {
 
 /// The data that publisher, worker and callback of one voice share.
 struct VoiceChannels {
-    Mailbox<AudioMessage> toAudio;
-    Mailbox<WorkerMessage> toWorker;
+    Mailbox<ContactMessage> toAudio;
+    Mailbox<ContactMessage> toWorker;
     Mailbox<Playhead> playhead;
-    SegmentQueue segments;
+    CorrectionQueue corrections;
     VoiceControls controls;
     VoiceCounters counters;
     /// Clock of publisher and callback.
     double (*clock)() noexcept = steadySeconds;
     /// False where states and blocks follow each other faster or slower than in real time: offline, without a worker.
     bool isRealTime = true;
+
+    /// Samples from the publishing of `contact` to the sample `head`, in a block that began at `blockSeconds` of the
+    /// clock with the sample `blockPosition`: see samplesSincePublished.
+    [[nodiscard]] double samplesAhead(const PublishedContact& contact, std::int64_t head, double blockPosition,
+                                      double blockSeconds) const noexcept {
+        return samplesSincePublished(static_cast<double>(head) - blockPosition, contact.ranged.readingRate,
+                                     isRealTime ? blockSeconds - contact.publishedSeconds : 0.0);
+    }
 
     /// Whether the newest block did not end in silence. Set by the callback.
     std::atomic<bool> audible{false};
@@ -158,9 +166,9 @@ struct VoiceChannels {
 
     /// Rate of the output stage that the callback requests; 0 if it needs none.
     std::atomic<double> requestedRateHz{0.0};
-    /// The stage made by the worker for the callback, and the stage that it replaced, for the worker to delete.
-    std::atomic<OutputStage*> freshOutput{nullptr};
-    std::atomic<OutputStage*> replacedOutput{nullptr};
+    /// From the worker to the callback.
+    Supply<OutputStage> outputs;
+    Supply<Processors> processors;
 
     /// Processor settings of the voice. Any thread except the callback's changes them under the mutex.
     std::mutex processorMutex;
@@ -176,19 +184,6 @@ struct VoiceChannels {
     std::atomic<double> exposureShortTermMps2{0.0};
     std::atomic<double> exposureDailyMps2{0.0};
     std::atomic<double> exposureLoweredSeconds{0.0};
-    /// Processors made by the worker for the callback, and those that they replaced, for the worker to delete.
-    std::atomic<Processors*> freshProcessors{nullptr};
-    std::atomic<Processors*> replacedProcessors{nullptr};
-
-    VoiceChannels() = default;
-    VoiceChannels(const VoiceChannels&) = delete;
-    VoiceChannels& operator=(const VoiceChannels&) = delete;
-    ~VoiceChannels() {
-        delete freshOutput.load();
-        delete replacedOutput.load();
-        delete freshProcessors.load();
-        delete replacedProcessors.load();
-    }
 };
 
 inline void SignalTransitions::note(double seconds) noexcept {

@@ -16,11 +16,12 @@ void count(std::atomic<std::uint64_t>& counter, std::uint64_t by = 1) noexcept {
 }  // namespace
 
 VoiceRenderer::VoiceRenderer(VoiceChannels& channels, const std::atomic<bool>& workerAlive, double outputRateHz,
-                             float fullScaleMps2, const SurfaceTrack& track, std::unique_ptr<Sketcher> sketcher)
+                             float fullScaleMps2, const skeleton::NoiseKey& key,
+                             std::shared_ptr<const skeleton::Skeleton> skeleton)
     : channels_(channels),
       workerAlive_(workerAlive),
-      voice_(outputRateHz, fullScaleMps2, channels.counters.effects, std::move(sketcher)),
-      track_(track) {}
+      voice_(outputRateHz, fullScaleMps2, channels.counters.effects, std::move(skeleton)),
+      key_(key) {}
 
 void VoiceRenderer::render(std::span<float> out, double rateHz, Limit limit) noexcept {
     const dsp::ScopedFlushDenormals flush;
@@ -33,10 +34,9 @@ void VoiceRenderer::render(std::span<float> out, double rateHz, Limit limit) noe
     noteBlock(out.size());
     takeProcessors();
 
-    const std::uint64_t uncoveredBefore = voice_.timeline().uncoveredSamples();
     bool sounded = isSounding();
     if (stopsWithBlock_ && !out.empty()) {
-        takeSegments();
+        takeCorrections();
         voice_.renderStop(out);
         stopsWithBlock_ = false;
         fallSilent(Silence::panic);
@@ -45,8 +45,8 @@ void VoiceRenderer::render(std::span<float> out, double rateHz, Limit limit) noe
         takeEvents(out.size());
         readSignal();
         sounded = isSounding();
-        sketch();
-        takeSegments();
+        followContact();
+        takeCorrections();
         soundUntilStale(out);
     }
     contactAgeFrames_ += out.size();
@@ -58,7 +58,7 @@ void VoiceRenderer::render(std::span<float> out, double rateHz, Limit limit) noe
     count(channels_.counters.renderedFrames, out.size());
     channels_.audible.store(!voice_.isSilent(), std::memory_order_release);
     channels_.silence.store(reportedSilence(rateHz), std::memory_order_relaxed);
-    report(uncoveredBefore, sounded && !out.empty());
+    report(sounded && !out.empty());
 }
 
 Silence VoiceRenderer::reportedSilence(double rateHz) const noexcept {
@@ -95,16 +95,14 @@ void VoiceRenderer::readContact() noexcept {
                              (static_cast<double>(states) * voice_.outputRateHz()));
         contactAgeFrames_ = 0;
         updates_ = contact().updates;
-        isUnsketched_ = true;
         applyContact();
     }
 }
 
 void VoiceRenderer::applyContact() noexcept {
-    const AudioMessage& message = channels_.toAudio.current();
+    const ContactMessage& message = channels_.toAudio.current();
     const RangedMotion& ranged = message.contact.ranged;
     voice_.setRangeLaw(static_cast<float>(ranged.levelGain), ranged.readingRate);
-    voice_.setLevel(message.contact.levelMps2);
     voice_.setTone(message.tone ? &*message.tone : nullptr);
 }
 
@@ -202,7 +200,6 @@ void VoiceRenderer::fallSilent(Silence reason) noexcept {
 }
 
 void VoiceRenderer::begin() noexcept {
-    const OnsetSeed& seed = channels_.toAudio.current().seed;
     count(contact().onset != playedOnset_ ? channels_.counters.onsets : channels_.counters.resumptions);
     ++stream_;
     playedOnset_ = contact().onset;
@@ -213,26 +210,21 @@ void VoiceRenderer::begin() noexcept {
     }
     applyContact();
     // The stream's clock begins with the block.
-    blockPosition_ = static_cast<double>(voice_.timeline().head()) + static_cast<double>(voice_.samplesReadAhead());
-    if (voice_.hasSketcher()) {
-        followContact();
-        voice_.beginSketch(contact().levelMps2);
-    } else {
-        track_.begin(voice_.timeline().head(), seed.ribs);
-        voice_.onset(seed.samplesMps2, contact().levelMps2);
-    }
+    blockPosition_ = static_cast<double>(voice_.waveform().head()) + static_cast<double>(voice_.samplesReadAhead());
+    ++key_.segment;
+    const ContactMessage& message = channels_.toAudio.current();
+    voice_.begin(message.stream, samplesAhead(), key_, message.material.beginningUnit);
+    followed_ = contact().updates;
+}
+
+double VoiceRenderer::samplesAhead() const noexcept {
+    return channels_.samplesAhead(contact(), voice_.waveform().head(), blockPosition_, blockSeconds_);
 }
 
 void VoiceRenderer::followContact() noexcept {
-    const double sincePublished = channels_.isRealTime ? blockSeconds_ - contact().publishedSeconds : 0.0;
-    voice_.follow(channels_.toAudio.current(), blockPosition_, sincePublished);
-    isUnsketched_ = false;
-}
-
-void VoiceRenderer::sketch() noexcept {
-    if (isUnsketched_ && voice_.hasSketcher() && isSounding() && contact().sliding) {
-        followContact();
-        voice_.renewSketch(contact().levelMps2);
+    if (followed_ != contact().updates && isSounding() && contact().sliding) {
+        followed_ = contact().updates;
+        voice_.follow(channels_.toAudio.current().stream, samplesAhead());
     }
 }
 
@@ -362,7 +354,7 @@ void VoiceRenderer::takeProcessors() noexcept {
         channels_.lacksProcessors.store(lacks, std::memory_order_release);
     }
     // Only one used set at a time waits for the worker to delete it.
-    if (channels_.replacedProcessors.load(std::memory_order_acquire) != nullptr) {
+    if (channels_.processors.hasUsed()) {
         return;
     }
     EffectStage& stage = voice_.effects();
@@ -372,11 +364,10 @@ void VoiceRenderer::takeProcessors() noexcept {
     }
     std::unique_ptr<Processors> used = stage.takeReplaced();
     if (used == nullptr && !stage.isHandingOver()) {
-        // Only this thread takes them, so this cheap check suffices to avoid the costly exchange.
-        if (channels_.freshProcessors.load(std::memory_order_relaxed) == nullptr) {
+        std::unique_ptr<Processors> fresh = channels_.processors.take();
+        if (fresh == nullptr) {
             return;
         }
-        std::unique_ptr<Processors> fresh(channels_.freshProcessors.exchange(nullptr, std::memory_order_acq_rel));
         if (fresh->rateHz == voice_.outputRateHz()) {
             voice_.exchangeProcessors(std::move(fresh));
             if (isSilent) {
@@ -387,50 +378,41 @@ void VoiceRenderer::takeProcessors() noexcept {
             used = std::move(fresh);
         }
     }
-    channels_.replacedProcessors.store(used.release(), std::memory_order_release);
+    channels_.processors.giveBack(std::move(used));
 }
 
-void VoiceRenderer::takeSegments() noexcept {
+void VoiceRenderer::takeCorrections() noexcept {
     // The number is limited, so that a worker that keeps sending cannot hold up the callback.
-    for (std::size_t taken = 0; taken < SegmentQueue::capacity; ++taken) {
-        const QueuedSegment* segment = channels_.segments.front();
-        if (segment == nullptr) {
+    for (std::size_t taken = 0; taken < CorrectionQueue::capacity; ++taken) {
+        const Correction* correction = channels_.corrections.front();
+        if (correction == nullptr) {
             return;
         }
-        takenSequence_ = segment->sequence;
-        headAtTake_[takenSequence_ % headAtTake_.size()] = voice_.timeline().head();
-        const bool isCurrent = isSounding() && segment->stream == stream_;
-        const std::int64_t takeOver = isCurrent ? voice_.take(*segment) : -1;
-        if (takeOver >= 0) {
-            track_ = segment->track;
-        }
+        takenSequence_ = correction->sequence;
+        headAtTake_[takenSequence_ % headAtTake_.size()] = voice_.waveform().head();
+        const bool isCurrent = isSounding() && correction->stream == stream_;
+        const std::int64_t takeOver = isCurrent ? voice_.take(*correction) : -1;
         if (takeOver < 0) {
             count(channels_.counters.dropped);
-        } else if (takeOver > segment->start) {
+        } else if (takeOver > correction->start) {
             count(channels_.counters.late);
         }
-        channels_.segments.pop();
+        channels_.corrections.pop();
     }
 }
 
 void VoiceRenderer::requestOutput(double rateHz) noexcept {
-    // Only one used stage at a time waits for the worker to delete it; until then, the voice keeps its present stage.
-    // The request makes the next published state wake the worker.
-    if (channels_.replacedOutput.load(std::memory_order_acquire) != nullptr) {
-        channels_.requestedRateHz.store(rateHz, std::memory_order_release);
-        return;
-    }
-    std::unique_ptr<OutputStage> fresh(channels_.freshOutput.exchange(nullptr, std::memory_order_acq_rel));
-    if (fresh == nullptr) {
-        channels_.requestedRateHz.store(rateHz, std::memory_order_release);
-        return;
-    }
-    const bool fits = fresh->rateHz == rateHz;
-    std::unique_ptr<OutputStage> used = fits ? voice_.exchangeOutput(std::move(fresh)) : std::move(fresh);
+    // While the stage of the last change waits to be collected, the voice keeps its present one. The request makes the
+    // next published state wake the worker.
+    std::unique_ptr<OutputStage> stage = channels_.outputs.hasUsed() ? nullptr : channels_.outputs.take();
+    const bool fits = stage != nullptr && stage->rateHz == rateHz;
     channels_.requestedRateHz.store(fits ? 0.0 : rateHz, std::memory_order_release);
-    channels_.replacedOutput.store(used.release(), std::memory_order_release);
     if (fits) {
+        stage = voice_.exchangeOutput(std::move(stage));
         count(channels_.counters.rateChanges);
+    }
+    if (stage != nullptr) {
+        channels_.outputs.giveBack(std::move(stage));
     }
 }
 
@@ -472,14 +454,11 @@ void VoiceRenderer::reportExposure() noexcept {
     channels_.exposureLoweredSeconds.store(report.loweredSeconds, std::memory_order_relaxed);
 }
 
-void VoiceRenderer::report(std::uint64_t uncoveredBefore, bool sounded) noexcept {
+void VoiceRenderer::report(bool sounded) noexcept {
     VoiceCounters& counters = channels_.counters;
-    const WaveformTimeline& timeline = voice_.timeline();
-    if (sounded && timeline.uncoveredSamples() > uncoveredBefore) {
-        count(counters.underruns);
-    }
-    if (sounded && voice_.isOnlySketched()) {
-        count(counters.sketched);
+    const Waveform& waveform = voice_.waveform();
+    if (sounded && !waveform.isCorrected()) {
+        count(voice_.hasSkeleton() ? counters.sketched : counters.underruns);
     }
     counters.nonFiniteSamples.store(voice_.limiter().nonFiniteCount(), std::memory_order_relaxed);
     counters.limitedSamples.store(voice_.limiter().limitedCount(), std::memory_order_relaxed);
@@ -493,14 +472,14 @@ void VoiceRenderer::report(std::uint64_t uncoveredBefore, bool sounded) noexcept
     Playhead& playhead = channels_.playhead.draft();
     playhead.stream = stream_;
     playhead.onset = playedOnset_;
-    playhead.track = voice_.hasSketcher() ? *voice_.track() : track_;
+    playhead.update = followed_;
     playhead.running = running;
     playhead.takenSequence = takenSequence_;
     playhead.headAtTake = headAtTake_;
     playhead.blockPosition = blockPosition_;
     playhead.blockSeconds = blockSeconds_;
     playhead.blockAdvance = std::max(longestBlock_[0], longestBlock_[1]);
-    timeline.view(playhead.timeline);
+    playhead.waveform = waveform;
     channels_.playhead.post();
 }
 

@@ -14,7 +14,7 @@
 
 namespace haptoflow::engine {
 
-/// The part of a voice that runs in the audio callback: takes the newest contact, commits segments, decides whether the
+/// The part of a voice that runs in the audio callback: takes the newest contact and corrections, decides whether the
 /// voice sounds, and renders. No allocation, no lock, no system call; bounded time. Used by one thread at a time.
 ///
 /// `silence_` is the state: none while the texture sounds, otherwise the reason for its silence. It is decided at the
@@ -24,11 +24,12 @@ public:
     /// Duration of a tap that began and ended between two states.
     static constexpr double tapSeconds = 0.01;
 
-    /// `workerAlive` becomes false when the worker thread has ended; the voice then falls silent. `track` is the
-    /// voice's before its first stream, `sketcher` as for Voice. Allocates. Throws std::invalid_argument for a rate
-    /// outside 8-192 kHz or a full scale that is not above 0.
+    /// `workerAlive` becomes false when the worker thread has ended; the voice then falls silent. `key` is that of the
+    /// voice's numbers, `skeleton` as for Voice. Allocates. Throws std::invalid_argument for a rate outside 8-192 kHz
+    /// or a full scale that is not above 0.
     VoiceRenderer(VoiceChannels& channels, const std::atomic<bool>& workerAlive, double outputRateHz,
-                  float fullScaleMps2, const SurfaceTrack& track, std::unique_ptr<Sketcher> sketcher = nullptr);
+                  float fullScaleMps2, const skeleton::NoiseKey& key,
+                  std::shared_ptr<const skeleton::Skeleton> skeleton = nullptr);
 
     /// Writes the next samples, +-1 unless they are part of a sum. At a new rate, the voice fades and stays silent
     /// until the worker has made an output stage; a touch that still lasts then resumes. At a rate outside 8-192 kHz it
@@ -54,6 +55,7 @@ private:
     void decide(double rateHz) noexcept;
     [[nodiscard]] Silence reportedSilence(double rateHz) const noexcept;
     void begin() noexcept;
+    [[nodiscard]] double samplesAhead() const noexcept;
     void followContact() noexcept;
     void takeEvents(std::size_t frames) noexcept;
     void startWaiting() noexcept;
@@ -65,23 +67,23 @@ private:
     void takeProcessors() noexcept;
     void reportExposure() noexcept;
     void fallSilent(Silence reason) noexcept;
-    void sketch() noexcept;
-    void takeSegments() noexcept;
+    void takeCorrections() noexcept;
     void requestOutput(double rateHz) noexcept;
     void sound(std::span<float> out) noexcept;
     void soundUntilStale(std::span<float> out) noexcept;
     void noteBlock(std::size_t frames) noexcept;
-    void report(std::uint64_t uncoveredBefore, bool sounded) noexcept;
+    void report(bool sounded) noexcept;
 
     VoiceChannels& channels_;
     const std::atomic<bool>& workerAlive_;
     Voice voice_;
 
     Silence silence_ = Silence::rest;
-    // Increases by 1 at each onset and each resumption, so that segments of earlier streams are dropped.
+    // Increases by 1 at each onset and each resumption, so that corrections of earlier streams are dropped.
     std::uint64_t stream_ = 0;
-    // Without a sketcher: the way over the surface of what is played.
-    SurfaceTrack track_;
+    skeleton::NoiseKey key_;
+    // PublishedContact::updates of the contact that the waveform follows.
+    std::uint64_t followed_ = 0;
     std::uint32_t playedOnset_ = 0;
     std::uint64_t tapFramesLeft_ = 0;
 
@@ -113,8 +115,6 @@ private:
     bool wasMoving_ = false;
 
     bool hasContact_ = false;
-    // A state came with this block and has not been sketched.
-    bool isUnsketched_ = false;
     std::uint64_t contactAgeFrames_ = 0;
     Staleness staleness_;
 
@@ -124,7 +124,7 @@ private:
     bool stopsWithBlock_ = false;
 
     std::uint64_t takenSequence_ = 0;
-    std::array<std::int64_t, SegmentQueue::capacity> headAtTake_{};
+    std::array<std::int64_t, CorrectionQueue::capacity> headAtTake_{};
     // Longest block of the present window and of the one before, in waveform samples at a reading rate of 1.
     std::array<std::int64_t, 2> longestBlock_{};
     double blockPosition_ = 0.0;

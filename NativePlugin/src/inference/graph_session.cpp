@@ -1,7 +1,5 @@
 #include "inference/graph_session.hpp"
 
-#include "model/onnx_check.hpp"
-
 #include <stdexcept>
 #include <utility>
 
@@ -35,19 +33,6 @@ std::span<float> GraphSession::input(std::size_t input) {
 
 std::span<const float> GraphSession::output() const noexcept {
     return std::span(output_).first(signature_.output.size() * batch_);
-}
-
-OnnxGraph::OnnxGraph(std::shared_ptr<const Runtime> runtime, std::span<const std::byte> graph, std::string name,
-                     GraphSignature signature, std::size_t maximumBatch, const LoadLimits& limits)
-    : session_(loadChecked(std::move(runtime), graph, std::move(name), std::move(signature), maximumBatch, limits)) {}
-
-std::shared_ptr<GraphSession> OnnxGraph::loadChecked(std::shared_ptr<const Runtime> runtime,
-                                                     std::span<const std::byte> graph, std::string name,
-                                                     GraphSignature signature, std::size_t maximumBatch,
-                                                     const LoadLimits& limits) {
-    limits.check();
-    model::checkOnnxModel(graph, name);
-    return loadGraphSession(std::move(runtime), graph, std::move(name), std::move(signature), maximumBatch, limits);
 }
 
 }  // namespace haptoflow::inference

@@ -7,7 +7,6 @@
 #include <memory>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace haptoflow::inference {
@@ -39,7 +38,9 @@ struct GraphSignature {
 
 class Runtime;
 
-/// A graph loaded by what runs networks on this platform, and the buffers of its tensors. Used by one thread at a time.
+/// An ONNX graph with one output, loaded by what runs networks on this platform, and the buffers of its tensors. Fill
+/// the inputs, call `run`, read the output; the buffers stay at the same addresses. Used by one thread at a time; ONNX
+/// Runtime allocates in `run`.
 class GraphSession {
 public:
     GraphSession(const GraphSession&) = delete;
@@ -48,17 +49,27 @@ public:
 
     /// Sets the batch size, 1 to maximumBatch. Throws std::invalid_argument.
     void setBatch(std::size_t batch);
+    /// Whether the graph has the input at this position of the signature.
     [[nodiscard]] bool hasInput(std::size_t input) const { return present_.at(input); }
+    /// Buffer of the input at this position of the signature, batch * its size numbers. May be written even if the
+    /// graph lacks the input, and then has no effect.
     [[nodiscard]] std::span<float> input(std::size_t input);
+    /// batch * the output's size numbers, valid after `run`.
     [[nodiscard]] std::span<const float> output() const noexcept;
     /// Throws InferenceError.
-    virtual void run() = 0;
+    void run() {
+        execute();
+        ++runs_;
+    }
+    /// Number of runs since loading; the probe runs are not counted.
+    [[nodiscard]] std::uint64_t runs() const noexcept { return runs_; }
 
 protected:
     GraphSession(std::string name, GraphSignature signature, std::size_t maximumBatch);
 
     /// Prepares runs of `batch` requests on the buffers.
     virtual void bind(std::size_t batch) = 0;
+    virtual void execute() = 0;
 
     // NOLINTBEGIN(cppcoreguidelines-non-private-member-variables-in-classes,readability-identifier-naming)
     const std::string name_;
@@ -71,6 +82,9 @@ protected:
     std::vector<std::vector<float>> inputs_;
     std::vector<float> output_;
     // NOLINTEND(cppcoreguidelines-non-private-member-variables-in-classes,readability-identifier-naming)
+
+private:
+    std::uint64_t runs_ = 0;
 };
 
 /// Loads a graph whose operators were checked, compares it with `signature` and runs it once with maximumBatch
@@ -81,49 +95,6 @@ protected:
                                                              std::span<const std::byte> graph, std::string name,
                                                              GraphSignature signature, std::size_t maximumBatch,
                                                              const LoadLimits& limits);
-
-/// An ONNX graph with one output, ready to run on one thread. Fill the inputs, call `run`, read the output; the buffers
-/// stay at the same addresses. Used by one thread at a time; ONNX Runtime allocates in `run`.
-class OnnxGraph {
-public:
-    /// Checks the graph's operators, loads it, compares it with `signature` and runs it once with maximumBatch
-    /// requests. Throws model::ModelError (inconsistent), whose message begins with `name`, if the graph does not match
-    /// the format; TierTooSlow; LoadCancelled.
-    OnnxGraph(std::shared_ptr<const Runtime> runtime, std::span<const std::byte> graph, std::string name,
-              GraphSignature signature, std::size_t maximumBatch, const LoadLimits& limits);
-    /// Runs a session that others use too, on the same thread.
-    explicit OnnxGraph(std::shared_ptr<GraphSession> session) : session_(std::move(session)) {}
-
-    /// What the first constructor loads. Throws the same.
-    [[nodiscard]] static std::shared_ptr<GraphSession> loadChecked(std::shared_ptr<const Runtime> runtime,
-                                                                   std::span<const std::byte> graph, std::string name,
-                                                                   GraphSignature signature, std::size_t maximumBatch,
-                                                                   const LoadLimits& limits);
-
-    /// Sets the batch size, 1 to maximumBatch. Throws std::invalid_argument.
-    void setBatch(std::size_t batch) { session_->setBatch(batch); }
-
-    /// Whether the graph has the input at this position of the signature.
-    [[nodiscard]] bool hasInput(std::size_t input) const { return session_->hasInput(input); }
-    /// Buffer of the input at this position of the signature, batch * its size numbers. May be written even if the
-    /// graph lacks the input, and then has no effect.
-    [[nodiscard]] std::span<float> input(std::size_t input) { return session_->input(input); }
-    /// batch * the output's size numbers, valid after `run`.
-    [[nodiscard]] std::span<const float> output() const noexcept { return session_->output(); }
-
-    /// Throws InferenceError.
-    void run() {
-        session_->run();
-        ++runs_;
-    }
-
-    /// Number of runs since loading; the probe runs are not counted.
-    [[nodiscard]] std::uint64_t runs() const noexcept { return runs_; }
-
-private:
-    std::shared_ptr<GraphSession> session_;
-    std::uint64_t runs_ = 0;
-};
 
 /// The graphs that the tiers of one engine have loaded, so that tiers of the same graph load it once. One thread at a
 /// time runs the generators that share a graph, and each fills its inputs before every run, since another one may have

@@ -61,7 +61,7 @@ public:
         }
         for (const auto& each : sinks) {
             if (const auto sink = each.lock()) {
-                sink->write(static_cast<LogSeverity>(severity), category, message);
+                sink->write(static_cast<int>(severity), category, message);
             }
         }
     }

@@ -1,10 +1,11 @@
 #pragma once
 
-#include "inference/log_sink.hpp"
-
 #include <cstdint>
+#include <exception>
 #include <filesystem>
 #include <memory>
+#include <mutex>
+#include <shared_mutex>
 #include <string>
 #include <string_view>
 
@@ -14,6 +15,38 @@ struct OrtEnv;
 struct OrtStatus;
 
 namespace haptoflow::inference {
+
+/// Passes warnings and errors to a callback until it is closed. Any thread except an audio callback's; several threads
+/// may write at the same time.
+class LogSink {
+public:
+    using Callback = void (*)(void* context, int severity, const char* message);
+
+    LogSink(Callback callback, void* context) noexcept : callback_(callback), context_(context) {}
+
+    /// `severity` is a value of OrtLoggingLevel. Does not throw: a message that cannot be passed on is lost.
+    void write(int severity, const char* category, const char* message) noexcept {
+        constexpr int warning = 2;
+        try {
+            const std::shared_lock lock(mutex_);
+            if (callback_ != nullptr && severity >= warning) {
+                callback_(context_, severity, (std::string(category) + ": " + message).c_str());
+            }
+        } catch (const std::exception&) {
+            // Out of memory: the message is lost.
+        }
+    }
+    /// Waits for running calls. Afterwards the callback is never called again.
+    void close() noexcept {
+        const std::unique_lock lock(mutex_);
+        callback_ = nullptr;
+    }
+
+private:
+    std::shared_mutex mutex_;
+    Callback callback_;
+    void* context_;
+};
 
 /// An ONNX Runtime library opened at run time, version 1.16 or newer. It is never linked, and several versions can be
 /// used in one process, each through its own function table. Construction may wait for the disk; afterwards any thread

@@ -1,73 +1,58 @@
 #pragma once
 
 #include "inference/graph_session.hpp"
-#include "inference/load_limits.hpp"
-#include "inference/onnx_runtime.hpp"
 #include "inference/segment_generator.hpp"
-#include "inference/solver.hpp"
 #include "inference/tier_generator.hpp"
-#include "model/model_file.hpp"
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
-#include <optional>
 #include <span>
-#include <string_view>
 #include <vector>
 
 namespace haptoflow::inference {
 
+/// A velocity field u(x, t) for a point x in unit scale and a time t from 0 to 1. A batch is treated as one long point.
+/// Writes u(point, time) into `velocity`, which has the size of `point` and does not overlap it. `interval` is the
+/// length of the solver's step; only average-velocity fields read it.
+using VelocityField =
+    std::function<void(std::span<const float> point, float time, float interval, std::span<float> velocity)>;
+
+/// Explicit one-step solvers with equal steps. Used by one thread at a time; allocates if the point is larger than any
+/// before.
+class Solver {
+public:
+    /// Integrates `field` from time 0 to time 1, starting at `point`, and writes the result to `point`. Throws what the
+    /// field throws, and std::invalid_argument for settings out of range.
+    void integrate(const VelocityField& field, const SolverSettings& settings, std::span<float> point);
+
+private:
+    std::vector<float> velocity_;
+    std::vector<float> trialPoint_;
+    std::vector<float> trialVelocity_;
+};
+
 /// A tier's level graph, run by ONNX Runtime. Used by one thread at a time; allocates.
 class OnnxLevelEstimator final : public LevelEstimator {
 public:
-    /// Loads, checks and runs the graph. The model need not outlive it. Throws what OnnxGraph's constructor throws.
-    OnnxLevelEstimator(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model, const model::Tier& tier,
-                       const LoadLimits& limits = {});
+    /// Loads, checks and runs the graph. The model need not outlive it. Throws what GraphSource::load throws.
+    explicit OnnxLevelEstimator(const GraphSource& source);
 
     /// Does not run the graph if every request has its own level. Throws InferenceError if the graph fails or returns
     /// an impossible level, std::invalid_argument if the spans differ in size.
     void levels(std::span<const SegmentRequest> requests, std::span<float> levelsMps2) override;
 
-    [[nodiscard]] std::uint64_t runs() const noexcept { return graph_.runs(); }
+    [[nodiscard]] std::uint64_t runs() const noexcept { return graph_->runs(); }
 
 private:
     void estimate(std::span<const SegmentRequest> requests, std::span<float> levelsMps2);
 
-    OnnxGraph graph_;
+    std::shared_ptr<GraphSession> graph_;
 };
 
-/// The field graph of a tier with the inputs of one batch: previous waveforms, embeddings, motions, rib phases. For a
-/// tier of kind `direct`, `evaluate` returns the generated point instead of a velocity.
-class OnnxVelocityField final : public VelocityField {
-public:
-    /// Throws what OnnxGraph's constructor throws.
-    OnnxVelocityField(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model, const model::Tier& tier,
-                      std::size_t maximumBatch, const LoadLimits& limits, SharedSessions* sessions = nullptr);
-
-    void setBatch(std::size_t batch);
-    /// Inputs of the batch, to be filled before `evaluate`: batch * 64 and batch * 3 numbers.
-    [[nodiscard]] std::span<float> embeddings();
-    [[nodiscard]] std::span<float> motions();
-    /// Phases of a request of the batch.
-    void setPhases(std::size_t request, const skeleton::Phases& phases);
-    /// Sets the previous waveforms, batch * 200 numbers in unit scale. A latent tier encodes them here, once for all
-    /// steps. Throws InferenceError.
-    void setPrevious(std::span<const float> waveforms);
-
-    /// Throws InferenceError.
-    void evaluate(std::span<const float> point, float time, float interval, std::span<float> velocity) override;
-
-    [[nodiscard]] std::uint64_t fieldRuns() const noexcept { return field_.runs(); }
-    [[nodiscard]] std::uint64_t encoderRuns() const noexcept { return encoder_ ? encoder_->runs() : 0; }
-
-private:
-    OnnxGraph field_;
-    bool takesInterval_;
-    std::optional<OnnxGraph> encoder_;
-};
-
-/// Number of runs of each graph. Tests use it to show that nothing is computed needlessly.
+/// Number of runs of each graph, of all generators that share it. Tests use it to show that nothing is computed
+/// needlessly.
 struct RunCounts {
     std::uint64_t level = 0;
     std::uint64_t field = 0;
@@ -80,13 +65,9 @@ struct RunCounts {
 /// a time; allocates.
 class OnnxSegmentGenerator final : public TierGenerator {
 public:
-    /// Loads, checks and runs the tier's graphs, or takes them from `sessions`, which may be null. The model need not
-    /// outlive the generator. Throws std::invalid_argument
-    /// for a tier that the model does not have, solver settings out of range or a batch outside 1 to maximumBatchSize;
-    /// model::ModelError (inconsistent) if a graph does not match the format; TierTooSlow; LoadCancelled.
-    OnnxSegmentGenerator(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model, std::string_view tier,
-                         SolverSettings solver, std::size_t maximumBatch, const LoadLimits& limits = {},
-                         SharedSessions* sessions = nullptr);
+    /// Loads, checks and runs the tier's graphs. The model need not outlive the generator. Throws std::invalid_argument
+    /// for solver settings out of range, and what GraphSource::load throws.
+    OnnxSegmentGenerator(const GraphSource& source, SolverSettings solver);
 
     /// Takes effect with the next batch. Tiers of kind `average-velocity` always use Euler steps; tiers of kind
     /// `direct` are evaluated once and ignore the settings. Throws std::invalid_argument for settings out of range.
@@ -100,15 +81,20 @@ public:
 
 private:
     void generateBatch(std::span<const SegmentRequest> requests, std::span<float> segments);
+    /// Fills the inputs that stay the same for all steps, and the points from which the solver starts.
     void prepare(std::span<const SegmentRequest> requests);
+    /// The field at a time, or for a tier of kind `direct` the generated point itself.
+    void evaluate(std::span<const float> point, float time, float interval, std::span<float> velocity);
 
     model::TierKind kind_;
     SolverSettings settings_;
     std::size_t maximumBatch_;
     std::size_t pointSize_;
     OnnxLevelEstimator level_;
-    OnnxVelocityField field_;
-    std::optional<OnnxGraph> decoder_;
+    std::shared_ptr<GraphSession> field_;
+    /// Null unless the tier is latent, the encoder also if the field does not see the previous waveform.
+    std::shared_ptr<GraphSession> encoder_;
+    std::shared_ptr<GraphSession> decoder_;
     Solver solver_;
     std::vector<float> levelsMps2_;
     std::vector<float> previous_;

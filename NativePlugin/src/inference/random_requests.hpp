@@ -1,9 +1,9 @@
 #pragma once
 
-#include "inference/gaussian_noise.hpp"
 #include "inference/segment_generator.hpp"
 #include "model/model_file.hpp"
 #include "skeleton/condition.hpp"
+#include "skeleton/gaussian_noise.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -35,7 +35,7 @@ private:
 
 inline RandomRequests::RandomRequests(const model::ModelFile& model, std::size_t count, std::uint64_t seed)
     : waves_(2 * count * segmentSamples) {
-    fillStandardNormal({.seed = seed, .voice = 0, .segment = 0}, waves_);
+    skeleton::fillStandardNormal({.seed = seed, .voice = 0, .segment = 0}, waves_);
     std::mt19937_64 generator(seed);
     std::uniform_real_distribution<double> share(0.05, 0.95);
     std::uniform_int_distribution<std::size_t> label(0, model.header().labels.size() - 1);

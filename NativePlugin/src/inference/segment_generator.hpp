@@ -2,11 +2,11 @@
 
 #include "dsp/sample_rates.hpp"
 #include "model/model_header.hpp"
+#include "skeleton/excitation.hpp"
 #include "skeleton/skeleton_layout.hpp"
 
 #include <array>
 #include <cstddef>
-#include <functional>
 #include <optional>
 #include <span>
 
@@ -49,6 +49,11 @@ struct SegmentRequest {
     float levelGain = 1.0F;
     /// The starting point of a latent tier's solver, of the latent's size; if empty, it is derived from `noise`.
     std::span<const float> latentNoise{};
+    /// The 200 samples before the segment of the skeleton alone, m/s^2; if empty, those that were played.
+    std::span<const float> own{};
+    /// The skeleton's segment, where a stream has made it already; if null, tiers with a skeleton make it of
+    /// `previous`, `noise` and `phases`. In unit scale of the request's level.
+    const skeleton::NetworkInput* networkInput = nullptr;
 };
 
 /// Estimates a material's level. Used by one thread at a time; may allocate.
@@ -69,15 +74,6 @@ public:
     /// Writes requests.size() segments of 200 samples in m/s^2, one after the other, into `segments`
     /// (requests.size() * 200 floats). Throws InferenceError if a graph fails; `segments` is then unspecified.
     virtual void generate(std::span<const SegmentRequest> requests, std::span<float> segments) = 0;
-
-    /// Receives finished sketches in m/s^2, one after the other, of the requests from `first` on. On the generating
-    /// thread, before the network refines them; the span is valid during the call.
-    using Sketched = std::function<void(std::size_t first, std::span<const float> sketches)>;
-    /// Generates the same segments as `generate`, and tells `sketched` of each batch if they are made from sketches.
-    virtual void generateFromSketches(std::span<const SegmentRequest> requests, std::span<float> segments,
-                                      [[maybe_unused]] const Sketched& sketched) {
-        generate(requests, segments);
-    }
 };
 
 }  // namespace haptoflow::inference

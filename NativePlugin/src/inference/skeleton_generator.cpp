@@ -1,10 +1,10 @@
 #include "inference/skeleton_generator.hpp"
 
-#include "inference/generator_checks.hpp"
 #include "inference/tier_generator.hpp"
 #include "skeleton/condition.hpp"
 #include "skeleton/skeleton_layout.hpp"
 #include "skeleton/skeleton_tensors.hpp"
+#include "skeleton/synthesis.hpp"
 
 #include <algorithm>
 #include <array>
@@ -16,7 +16,7 @@ SkeletonLevelEstimator::SkeletonLevelEstimator(std::shared_ptr<const skeleton::L
     : level_(std::move(level)) {}
 
 void SkeletonLevelEstimator::levels(std::span<const SegmentRequest> requests, std::span<float> levelsMps2) {
-    requireRoomForLevels(requests, levelsMps2);
+    requireSize(levelsMps2.size(), requests.size(), "levels need room");
     std::ranges::transform(requests, levelsMps2.begin(), [this](const SegmentRequest& request) {
         return request.levelMps2
                    ? *request.levelMps2
@@ -24,19 +24,43 @@ void SkeletonLevelEstimator::levels(std::span<const SegmentRequest> requests, st
     });
 }
 
-skeleton::Moment momentOf(const SegmentRequest& request, float levelMps2,
-                          std::span<float, segmentSamples> previous) noexcept {
-    skeleton::toUnitScale(request.previous, levelMps2, previous);
-    return {.embedding = request.embedding,
-            .motion = request.motion,
-            .phases = request.phases,
-            .previous = previous,
-            .noise = request.noise,
-            .impulseGain = request.impulseGain};
+namespace {
+
+/// Of the skeleton alone, in unit scale.
+std::array<float, segmentSamples> ownUnitOf(const SegmentRequest& request, float levelMps2) {
+    std::array<float, segmentSamples> unit{};
+    if (request.own.empty()) {
+        skeleton::toUnitScale(request.previous, levelMps2, unit);
+    } else {
+        requireSize(request.own.size(), segmentSamples, "the skeleton's own past needs room");
+        skeleton::toUnitScale(request.own.first<segmentSamples>(), levelMps2, unit);
+    }
+    return unit;
 }
 
+skeleton::Condition conditionOf(const SegmentRequest& request) noexcept {
+    return skeleton::conditionOf(request.embedding, request.motion, request.phases);
+}
+
+/// What a stream has made of the request, or else what the request alone makes.
+/// `made` holds what is made.
+const skeleton::NetworkInput& networkInputOf(const SegmentRequest& request, float levelMps2,
+                                             const skeleton::Skeleton& skeleton, skeleton::NetworkInput& made) {
+    if (request.networkInput != nullptr) {
+        return *request.networkInput;
+    }
+    std::array<double, skeleton::familyCount> ratesHz{};
+    std::ranges::copy(std::span(request.phases).last<skeleton::familyCount>(), ratesHz.begin());
+    const auto ownUnit = ownUnitOf(request, levelMps2);
+    made = synthesiseSegment(skeleton, skeleton.parametersFor(conditionOf(request), ratesHz, request.impulseGain),
+                             {.phases = request.phases, .previous = ownUnit, .noise = request.noise});
+    return made;
+}
+
+}  // namespace
+
 SkeletonGenerator::SkeletonGenerator(skeleton::NativeParts native, std::size_t maximumBatch, const LoadLimits& limits)
-    : level_(std::move(native.level)), skeleton_(std::move(native.skeleton)), levelsMps2_(requireBatch(maximumBatch)) {
+    : level_(std::move(native.level)), skeleton_(std::move(native.skeleton)), levelsMps2_(maximumBatch) {
     limits.check();
 }
 
@@ -49,81 +73,77 @@ void SkeletonGenerator::generate(std::span<const SegmentRequest> requests, std::
     levelsMps2_.resize(std::max(levelsMps2_.size(), requests.size()));
     const auto levelsMps2 = std::span(levelsMps2_).first(requests.size());
     levels(requests, levelsMps2);
+    skeleton::NetworkInput made;
     for (std::size_t row = 0; row < requests.size(); ++row) {
-        const std::span<float, segmentSamples> segment(segments.data() + row * segmentSamples, segmentSamples);
-        std::array<float, segmentSamples> previous{};
-        const skeleton::Moment moment = momentOf(requests[row], levelsMps2[row], previous);
-        skeleton_->sketch(moment, skeleton::conditionOf(moment.embedding, moment.motion, moment.phases), segment);
-        std::ranges::for_each(segment, [level = levelsMps2[row]](float& sample) { sample *= level; });
+        const skeleton::NetworkInput& input = networkInputOf(requests[row], levelsMps2[row], *skeleton_, made);
+        std::ranges::transform(input.segment(), segments.subspan(row * segmentSamples).begin(),
+                               [level = levelsMps2[row]](float sample) { return sample * level; });
     }
     requireFinite(segments, "skeleton");
 }
 
-void SkeletonGenerator::generateFromSketches(std::span<const SegmentRequest> requests, std::span<float> segments,
-                                             const Sketched& sketched) {
-    generate(requests, segments);
-    sketched(0, segments);
-}
-
 namespace {
 
-constexpr std::size_t networkInputSize = skeleton::Skeleton::networkInputChannels * segmentSamples;
+/// Positions of the inputs in the graph's signature.
+namespace refinement_input {
+constexpr std::size_t skeleton = 0, past = 1, own = 2, film = 3;
+}  // namespace refinement_input
+
+/// `filmSize` numbers condition the graph.
+GraphSignature refinementSignature(std::size_t filmSize) {
+    constexpr auto samples = static_cast<std::int64_t>(segmentSamples);
+    constexpr auto channels = static_cast<std::int64_t>(skeleton::NetworkInput::channels);
+    return {{{"entering", {channels, 1, samples}},
+             {"past", {1, 1, samples}},
+             {"own", {1, 1, samples}},
+             {"film", {static_cast<std::int64_t>(filmSize)}}},
+            {"correction", {1, samples}}};
+}
 
 }  // namespace
 
-RefinedGenerator::RefinedGenerator(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model,
-                                   skeleton::NativeParts native, const model::Tier& tier, std::size_t maximumBatch,
-                                   const LoadLimits& limits)
-    : maximumBatch_(requireBatch(maximumBatch)),
+RefinedGenerator::RefinedGenerator(const GraphSource& source, skeleton::NativeParts native)
+    : maximumBatch_(source.maximumBatch),
       level_(std::move(native.level)),
       skeleton_(std::move(native.skeleton)),
-      conditioning_(skeleton::readConditioning(model, tier.name)),
-      graph_(loadRefinement(std::move(runtime), model, tier, conditioning_.outputs(), maximumBatch, limits)),
-      levelsMps2_(maximumBatch) {}
+      conditioning_(skeleton::readConditioning(source.model, source.tier.name)),
+      graph_(source.load(source.tier.field, refinementSignature(conditioning_.outputs()), maximumBatch_)),
+      levelsMps2_(maximumBatch_) {}
 
 void RefinedGenerator::levels(std::span<const SegmentRequest> requests, std::span<float> levelsMps2) {
     level_.levels(requests, levelsMps2);
 }
 
 void RefinedGenerator::generate(std::span<const SegmentRequest> requests, std::span<float> segments) {
-    generateFromSketches(requests, segments, [](std::size_t, std::span<const float>) {});
-}
-
-void RefinedGenerator::generateFromSketches(std::span<const SegmentRequest> requests, std::span<float> segments,
-                                            const Sketched& sketched) {
     requireSize(segments.size(), requests.size() * segmentSamples, "segments need room");
     inBatches(requests.size(), maximumBatch_, [&](std::size_t first, std::size_t count) {
-        const auto batch = segments.subspan(first * segmentSamples, count * segmentSamples);
-        sketchBatch(requests.subspan(first, count), batch);
-        sketched(first, batch);
-        refineBatch(batch);
+        generateBatch(requests.subspan(first, count), segments.subspan(first * segmentSamples, count * segmentSamples));
     });
 }
 
-void RefinedGenerator::sketchBatch(std::span<const SegmentRequest> requests, std::span<float> segments) {
+void RefinedGenerator::generateBatch(std::span<const SegmentRequest> requests, std::span<float> segments) {
     levels(requests, std::span(levelsMps2_).first(requests.size()));
-    graph_.setBatch(requests.size());
-    const auto networkInput = graph_.input(refinement_input::skeleton);
-    const auto past = graph_.input(refinement_input::past);
-    const auto film = graph_.input(refinement_input::film);
+    graph_->setBatch(requests.size());
+    const auto seen = graph_->input(refinement_input::skeleton);
+    const auto past = graph_->input(refinement_input::past);
+    const auto own = graph_->input(refinement_input::own);
+    const auto film = graph_->input(refinement_input::film);
+    skeleton::NetworkInput made;
     for (std::size_t row = 0; row < requests.size(); ++row) {
         std::array<float, segmentSamples> previous{};
-        const skeleton::Moment moment = momentOf(requests[row], levelsMps2_[row], previous);
-        const skeleton::Condition condition = skeleton::conditionOf(moment.embedding, moment.motion, moment.phases);
-        const std::span<float, networkInputSize> seen(networkInput.data() + row * networkInputSize, networkInputSize);
-        skeleton_->enter(moment, condition, seen);
-        std::ranges::transform(seen.first<segmentSamples>(), segments.subspan(row * segmentSamples).begin(),
-                               [level = levelsMps2_[row]](float sample) { return sample * level; });
+        skeleton::toUnitScale(requests[row].previous, levelsMps2_[row], previous);
+        const auto ownUnit = ownUnitOf(requests[row], levelsMps2_[row]);
+        const skeleton::NetworkInput& input = networkInputOf(requests[row], levelsMps2_[row], *skeleton_, made);
+        std::ranges::copy(input.values, seen.subspan(row * input.values.size()).begin());
         std::ranges::reverse_copy(previous, past.subspan(row * segmentSamples).begin());
-        conditioning_.run(condition, film.subspan(row * conditioning_.outputs(), conditioning_.outputs()));
+        std::ranges::reverse_copy(ownUnit, own.subspan(row * segmentSamples).begin());
+        conditioning_.run(conditionOf(requests[row]),
+                          film.subspan(row * conditioning_.outputs(), conditioning_.outputs()));
+        std::ranges::copy(input.segment(), segments.subspan(row * segmentSamples).begin());
     }
-    requireFinite(segments, "skeleton");
-}
-
-void RefinedGenerator::refineBatch(std::span<float> segments) {
-    graph_.run();
+    graph_->run();
     for (std::size_t index = 0; index < segments.size(); ++index) {
-        segments[index] += graph_.output()[index] * levelsMps2_[index / segmentSamples];
+        segments[index] = (segments[index] + graph_->output()[index]) * levelsMps2_[index / segmentSamples];
     }
     requireFinite(segments, "refining graph");
 }

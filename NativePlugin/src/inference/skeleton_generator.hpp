@@ -1,7 +1,6 @@
 #pragma once
 
 #include "inference/graph_session.hpp"
-#include "inference/load_limits.hpp"
 #include "inference/tier_generator.hpp"
 #include "skeleton/perceptron.hpp"
 #include "skeleton/skeleton.hpp"
@@ -27,10 +26,6 @@ private:
     std::shared_ptr<const skeleton::LevelModel> level_;
 };
 
-/// A request with its previous waveform in unit scale. `previous` must live as long as the moment.
-[[nodiscard]] skeleton::Moment momentOf(const SegmentRequest& request, float levelMps2,
-                                        std::span<float, segmentSamples> previous) noexcept;
-
 /// A tier of kind `skeleton`: needs no ONNX Runtime. Used by one thread at a time.
 class SkeletonGenerator final : public TierGenerator {
 public:
@@ -39,8 +34,6 @@ public:
 
     /// Allocates for the largest number of requests so far.
     void generate(std::span<const SegmentRequest> requests, std::span<float> segments) override;
-    void generateFromSketches(std::span<const SegmentRequest> requests, std::span<float> segments,
-                              const Sketched& sketched) override;
     void levels(std::span<const SegmentRequest> requests, std::span<float> levelsMps2) override;
 
 private:
@@ -54,27 +47,22 @@ private:
 class RefinedGenerator final : public TierGenerator {
 public:
     /// Throws what makeGenerator throws.
-    RefinedGenerator(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model,
-                     skeleton::NativeParts native, const model::Tier& tier, std::size_t maximumBatch,
-                     const LoadLimits& limits = {});
+    RefinedGenerator(const GraphSource& source, skeleton::NativeParts native);
 
     void generate(std::span<const SegmentRequest> requests, std::span<float> segments) override;
-    void generateFromSketches(std::span<const SegmentRequest> requests, std::span<float> segments,
-                              const Sketched& sketched) override;
     void levels(std::span<const SegmentRequest> requests, std::span<float> levelsMps2) override;
 
     /// Number of runs of the graph; tests use it to show that nothing is computed needlessly.
-    [[nodiscard]] std::uint64_t graphRuns() const noexcept { return graph_.runs(); }
+    [[nodiscard]] std::uint64_t graphRuns() const noexcept { return graph_->runs(); }
 
 private:
-    void sketchBatch(std::span<const SegmentRequest> requests, std::span<float> segments);
-    void refineBatch(std::span<float> segments);
+    void generateBatch(std::span<const SegmentRequest> requests, std::span<float> segments);
 
     std::size_t maximumBatch_;
     SkeletonLevelEstimator level_;
     std::shared_ptr<const skeleton::Skeleton> skeleton_;
     skeleton::Perceptron conditioning_;
-    OnnxGraph graph_;
+    std::shared_ptr<GraphSession> graph_;
     std::vector<float> levelsMps2_;
 };
 

@@ -2,16 +2,18 @@
 
 #include "inference/onnx_segment_generator.hpp"
 #include "inference/skeleton_generator.hpp"
-#include "inference/solver.hpp"
-#include "skeleton/skeleton.hpp"
+#include "model/onnx_check.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <utility>
-#include <vector>
 
 namespace haptoflow::inference {
 namespace {
+
+constexpr int maximumSolverSteps = 16;
 
 std::shared_ptr<const Runtime> requireRuntime(std::shared_ptr<const Runtime> runtime, const model::Tier& tier) {
     if (runtime == nullptr) {
@@ -32,17 +34,15 @@ std::unique_ptr<TierGenerator> makeGenerator(std::shared_ptr<const Runtime> runt
                                              const LoadLimits& limits, const skeleton::NativeParts& native,
                                              SharedSessions* sessions) {
     checkSolverSettings(solver);
-    switch (tier.kind) {
-        case model::TierKind::skeleton:
-            return std::make_unique<SkeletonGenerator>(skeleton::sharedOrRead(native, model), maximumBatch, limits);
-        case model::TierKind::refine:
-            return std::make_unique<RefinedGenerator>(requireRuntime(std::move(runtime), tier), model,
-                                                      skeleton::sharedOrRead(native, model), tier, maximumBatch,
-                                                      limits);
-        default:
-            return std::make_unique<OnnxSegmentGenerator>(requireRuntime(std::move(runtime), tier), model, tier.name,
-                                                          solver, maximumBatch, limits, sessions);
+    const std::size_t batch = requireBatch(maximumBatch);
+    if (tier.kind == model::TierKind::skeleton) {
+        return std::make_unique<SkeletonGenerator>(skeleton::sharedOrRead(native, model), batch, limits);
     }
+    const GraphSource source{requireRuntime(std::move(runtime), tier), model, tier, batch, limits, sessions};
+    if (tier.kind == model::TierKind::refine) {
+        return std::make_unique<RefinedGenerator>(source, skeleton::sharedOrRead(native, model));
+    }
+    return std::make_unique<OnnxSegmentGenerator>(source, solver);
 }
 
 std::unique_ptr<LevelEstimator> makeLevelEstimator(std::shared_ptr<const Runtime> runtime,
@@ -51,81 +51,58 @@ std::unique_ptr<LevelEstimator> makeLevelEstimator(std::shared_ptr<const Runtime
     if (tier.usesSkeleton()) {
         return std::make_unique<SkeletonLevelEstimator>(skeleton::sharedOrRead(native, model).level);
     }
-    return std::make_unique<OnnxLevelEstimator>(requireRuntime(std::move(runtime), tier), model, tier, limits);
-}
-
-namespace {
-
-const std::vector<std::int64_t> waveformShape{1, static_cast<std::int64_t>(segmentSamples)};
-const TensorSignature embedding{"embedding", {static_cast<std::int64_t>(embeddingSize)}};
-const TensorSignature motion{"motion", {3}};
-const TensorSignature phases{"phases", {static_cast<std::int64_t>(skeleton::Phases{}.size())}};
-
-const std::vector<std::int64_t>& pointShape(const model::Tier& tier) {
-    return tier.representation == model::TierRepresentation::latent ? tier.latentShape : waveformShape;
-}
-
-OnnxGraph load(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model, const model::Tier& tier,
-               const std::string& blob, const GraphSignature& signature, std::size_t maximumBatch,
-               const LoadLimits& limits, SharedSessions* sessions = nullptr) {
-    const auto loadOwn = [&] {
-        return OnnxGraph::loadChecked(std::move(runtime), model.blob(blob),
-                                      "tier \"" + tier.name + "\", graph \"" + blob + '"', signature, maximumBatch,
-                                      limits);
-    };
-    return OnnxGraph(sessions != nullptr ? sessions->getOrLoad(blob, signature, maximumBatch, loadOwn) : loadOwn());
-}
-
-}  // namespace
-
-std::size_t pointSize(const model::Tier& tier) {
-    return TensorSignature{"", pointShape(tier)}.size();
-}
-
-OnnxGraph loadField(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model, const model::Tier& tier,
-                    std::size_t maximumBatch, const LoadLimits& limits, SharedSessions* sessions) {
-    const bool direct = tier.kind == model::TierKind::direct;
-    GraphSignature signature{
-        {{"noisy", pointShape(tier)}, {"time", {1}}, {"previous", pointShape(tier)}, embedding, motion, phases},
-        {direct ? "segment" : "velocity", pointShape(tier)}};
-    if (tier.kind == model::TierKind::averageVelocity) {
-        signature.inputs.push_back({"interval", {1}});
-    }
-    return load(std::move(runtime), model, tier, tier.field, signature, maximumBatch, limits, sessions);
-}
-
-OnnxGraph loadRefinement(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model, const model::Tier& tier,
-                         std::size_t filmSize, std::size_t maximumBatch, const LoadLimits& limits) {
-    constexpr auto samples = static_cast<std::int64_t>(segmentSamples);
-    constexpr auto channels = static_cast<std::int64_t>(skeleton::Skeleton::networkInputChannels);
-    return load(std::move(runtime), model, tier, tier.field,
-                {{{"entering", {channels, 1, samples}},
-                  {"past", {1, 1, samples}},
-                  {"film", {static_cast<std::int64_t>(filmSize)}}},
-                 {"correction", waveformShape}},
-                maximumBatch, limits);
-}
-
-OnnxGraph loadLevel(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model, const model::Tier& tier,
-                    std::size_t maximumBatch, const LoadLimits& limits) {
-    return load(std::move(runtime), model, tier, tier.level, {{embedding, motion}, {"log_level", {1}}}, maximumBatch,
-                limits);
-}
-
-OnnxGraph loadEncoder(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model, const model::Tier& tier,
-                      std::size_t maximumBatch, const LoadLimits& limits, SharedSessions* sessions) {
-    return load(std::move(runtime), model, tier, tier.encoder,
-                {{{"waveform", waveformShape}}, {"latent", pointShape(tier)}}, maximumBatch, limits, sessions);
-}
-
-OnnxGraph loadDecoder(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model, const model::Tier& tier,
-                      std::size_t maximumBatch, const LoadLimits& limits, SharedSessions* sessions) {
-    return load(std::move(runtime), model, tier, tier.decoder,
-                {{{"latent", pointShape(tier)}}, {"waveform", waveformShape}}, maximumBatch, limits, sessions);
+    return std::make_unique<OnnxLevelEstimator>(
+        GraphSource{requireRuntime(std::move(runtime), tier), model, tier, levelBatch, limits});
 }
 
 SolverSettings defaultSolver(const model::Tier& tier) noexcept {
     return {tier.solver, tier.steps};
+}
+
+std::shared_ptr<GraphSession> GraphSource::load(const std::string& blob, const GraphSignature& signature,
+                                                std::size_t batch) const {
+    const auto loadOwn = [&]() -> std::shared_ptr<GraphSession> {
+        const std::string name = "tier \"" + tier.name + "\", graph \"" + blob + '"';
+        limits.check();
+        model::checkOnnxModel(model.blob(blob), name);
+        return loadGraphSession(runtime, model.blob(blob), name, signature, batch, limits);
+    };
+    return sessions != nullptr ? sessions->getOrLoad(blob, signature, batch, loadOwn) : loadOwn();
+}
+
+void checkSolverSettings(const SolverSettings& settings) {
+    if (settings.steps < 1 || settings.steps > maximumSolverSteps) {
+        throw std::invalid_argument("the solver has " + std::to_string(settings.steps) + " steps; expected 1 to 16");
+    }
+}
+
+std::size_t requireBatch(std::size_t batch) {
+    if (batch < 1 || batch > maximumBatchSize) {
+        throw std::invalid_argument("the maximum batch is " + std::to_string(batch) + "; expected 1 to 256");
+    }
+    return batch;
+}
+
+void requireSize(std::size_t found, std::size_t expected, const char* what) {
+    if (found != expected) {
+        throw std::invalid_argument(std::string(what) + " for " + std::to_string(expected) + " numbers; found " +
+                                    std::to_string(found));
+    }
+}
+
+void requireFinite(std::span<const float> segments, const char* source) {
+    if (!std::ranges::all_of(segments, [](float sample) { return std::isfinite(sample); })) {
+        throw InferenceError(std::string("the ") + source + " returned a waveform that is not finite");
+    }
+}
+
+float levelOf(const SegmentRequest& request, float logLevel, const char* source) {
+    if (!std::isfinite(logLevel) || logLevel > static_cast<float>(maximumLogLevel)) {
+        throw InferenceError(std::string("the ") + source + " returned a logarithm of " + std::to_string(logLevel) +
+                             "; expected a number up to 20");
+    }
+    // Lower levels cannot be felt, and dividing the previous waveform by them would overflow.
+    return std::exp(std::max(logLevel, static_cast<float>(-maximumLogLevel))) * request.levelGain;
 }
 
 }  // namespace haptoflow::inference

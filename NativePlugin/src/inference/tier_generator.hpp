@@ -7,8 +7,11 @@
 #include "model/model_file.hpp"
 #include "skeleton/skeleton_tensors.hpp"
 
+#include <array>
 #include <cstddef>
 #include <memory>
+#include <span>
+#include <string>
 
 namespace haptoflow::inference {
 
@@ -40,50 +43,57 @@ public:
                                                                  const LoadLimits& limits = {},
                                                                  const skeleton::NativeParts& native = {});
 
-/// Positions of the inputs in the signatures of the graphs.
-namespace field_input {
-inline constexpr std::size_t noisy = 0;
-inline constexpr std::size_t time = 1;
-inline constexpr std::size_t previous = 2;
-inline constexpr std::size_t embedding = 3;
-inline constexpr std::size_t motion = 4;
-inline constexpr std::size_t phases = 5;
-/// Only in tiers of kind `average-velocity`.
-inline constexpr std::size_t interval = 6;
-}  // namespace field_input
-namespace refinement_input {
-inline constexpr std::size_t skeleton = 0;
-inline constexpr std::size_t past = 1;
-inline constexpr std::size_t film = 2;
-}  // namespace refinement_input
-namespace level_input {
-inline constexpr std::size_t embedding = 0;
-inline constexpr std::size_t motion = 1;
-}  // namespace level_input
+/// Solver and number of steps that the model states for the tier.
+[[nodiscard]] SolverSettings defaultSolver(const model::Tier& tier) noexcept;
 
 /// Size of a point of the tier's field: 200, or the size of a latent.
 [[nodiscard]] std::size_t pointSize(const model::Tier& tier);
 
-/// Load a graph of a tier and check it against the format. Each throws what OnnxGraph's constructor throws. `sessions`
-/// may be null.
-[[nodiscard]] OnnxGraph loadField(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model,
-                                  const model::Tier& tier, std::size_t maximumBatch, const LoadLimits& limits,
-                                  SharedSessions* sessions = nullptr);
-[[nodiscard]] OnnxGraph loadLevel(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model,
-                                  const model::Tier& tier, std::size_t maximumBatch, const LoadLimits& limits);
-/// Tiers of kind `refine` only; `filmSize` numbers condition the graph.
-[[nodiscard]] OnnxGraph loadRefinement(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model,
-                                       const model::Tier& tier, std::size_t filmSize, std::size_t maximumBatch,
-                                       const LoadLimits& limits);
-/// Latent tiers only.
-[[nodiscard]] OnnxGraph loadEncoder(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model,
-                                    const model::Tier& tier, std::size_t maximumBatch, const LoadLimits& limits,
-                                    SharedSessions* sessions = nullptr);
-[[nodiscard]] OnnxGraph loadDecoder(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model,
-                                    const model::Tier& tier, std::size_t maximumBatch, const LoadLimits& limits,
-                                    SharedSessions* sessions = nullptr);
+// What the generators of all kinds have in common.
 
-/// Solver and number of steps that the model states for the tier.
-[[nodiscard]] SolverSettings defaultSolver(const model::Tier& tier) noexcept;
+/// What the graphs of a tier are loaded from and with. `sessions` may be null.
+struct GraphSource {
+    std::shared_ptr<const Runtime> runtime;
+    const model::ModelFile& model;
+    const model::Tier& tier;
+    std::size_t maximumBatch = 1;
+    LoadLimits limits{};
+    SharedSessions* sessions = nullptr;
+
+    /// Checks the operators of the graph in this blob, loads it, compares it with the format's signature and runs it
+    /// once with `batch` requests. Throws model::ModelError (inconsistent), whose message begins with tier and graph;
+    /// TierTooSlow; LoadCancelled.
+    [[nodiscard]] std::shared_ptr<GraphSession> load(const std::string& blob, const GraphSignature& signature,
+                                                     std::size_t batch) const;
+};
+
+/// Throws std::invalid_argument unless `steps` is 1 to 16.
+void checkSolverSettings(const SolverSettings& settings);
+
+/// Returns `batch`. Throws std::invalid_argument outside 1 to maximumBatchSize.
+[[nodiscard]] std::size_t requireBatch(std::size_t batch);
+
+/// Throws std::invalid_argument that begins with `what` unless `found` is `expected`.
+void requireSize(std::size_t found, std::size_t expected, const char* what);
+
+/// Throws InferenceError that names `source` if a sample is not finite.
+void requireFinite(std::span<const float> segments, const char* source);
+
+/// Calls `action(first, count)` for consecutive parts of at most `maximum` elements.
+template <typename Action>
+void inBatches(std::size_t total, std::size_t maximum, Action action) {
+    for (std::size_t first = 0; first < total; first += maximum) {
+        action(first, total - first < maximum ? total - first : maximum);
+    }
+}
+
+/// The motion for which the request's level is estimated.
+[[nodiscard]] inline const std::array<float, 3>& levelMotionOf(const SegmentRequest& request) noexcept {
+    return request.levelMotion ? *request.levelMotion : request.motion;
+}
+
+/// The RMS in m/s^2 of a request without a level of its own. `logLevel` is what `source` ("level graph") returned for
+/// it. Throws InferenceError for an impossible level.
+[[nodiscard]] float levelOf(const SegmentRequest& request, float logLevel, const char* source);
 
 }  // namespace haptoflow::inference

@@ -1,7 +1,7 @@
 #include "learning/closed_loop.hpp"
 
-#include "inference/gaussian_noise.hpp"
 #include "skeleton/condition.hpp"
+#include "skeleton/gaussian_noise.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -93,7 +93,7 @@ std::vector<float> ClosedLoop::run(std::span<const Embedding> embeddings, std::s
                 return phase < 1.0F ? phase : 0.0F;
             });
             requests[c].phases = skeleton::phasesOf(requests[c].embedding, requests[c].motion, cycles);
-            inference::fillStandardNormal(
+            skeleton::fillStandardNormal(
                 {.seed = settings.seed, .voice = chains[c].noise, .segment = settings.round * 4096 + hop},
                 at(noise, c));
         }

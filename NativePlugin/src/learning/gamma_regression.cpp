@@ -1,6 +1,7 @@
 #include "learning/gamma_regression.hpp"
 
-#include "learning/linear_algebra.hpp"
+#include "learning/numerics.hpp"
+#include "recordings/recording.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -43,12 +44,8 @@ ConditionBasis::Scale::Scale(std::vector<double> values) {
         variance += (value - mean) * (value - mean) / static_cast<double>(values.size());
     }
     deviation = std::sqrt(variance);
-    std::ranges::sort(values);
-    const auto quantile = [&](double share) {
-        return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
-    };
-    lowest = quantile(0.03);
-    highest = quantile(0.97);
+    lowest = recordings::quantile(values, 0.03);
+    highest = recordings::quantile(values, 0.97);
 }
 
 bool ConditionBasis::Scale::varies() const noexcept {

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "learning/closed_loop.hpp"
-#include "learning/frame_figures.hpp"
 #include "learning/learning_settings.hpp"
 #include "learning/level_law.hpp"
+#include "learning/texture_figures.hpp"
 #include "learning/tone_fit.hpp"
 #include "learning/wave_vectors.hpp"
 #include "model/model_file.hpp"

@@ -1,9 +1,7 @@
 #include "learning/line_evidence.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
 #include <numbers>
 #include <numeric>
@@ -43,12 +41,6 @@ std::vector<std::size_t> similarWindows(std::span<const PathWindow> windows, std
     return order;
 }
 
-double middleOf(std::vector<double>& values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::ranges::nth_element(values, middle);
-    return *middle;
-}
-
 /// Divides the power of each window by the mean power of noise at its frequency and speed, estimated from the windows
 /// of the most similar speeds: resonances of surface and tool stay at their frequency while the direction changes, and
 /// ribs do not. The median over windows and neighbouring frequencies ignores lines.
@@ -75,7 +67,8 @@ void divideByBackground(std::span<const PathWindow> windows, double cyclesPerMm,
                     pool.push_back(power[column]);
                 }
             }
-            logs[place] = pool.empty() ? 0.0 : std::log(std::max(middleOf(pool) / medianOfNoise, smallestPower));
+            logs[place] =
+                pool.empty() ? 0.0 : std::log(std::max(recordings::upperMedian(pool) / medianOfNoise, smallestPower));
         }
         const double hertzPerColumn = cyclesPerMm * windows[w].speedMmps;
         const double placesPerNat = static_cast<double>(places - 1) / std::log(highestLineHz / lowestLineHz);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "learning/path_windows.hpp"
+#include "learning/sliding.hpp"
 
 #include <array>
 #include <cstddef>

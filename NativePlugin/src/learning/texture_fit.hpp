@@ -4,7 +4,6 @@
 #include "learning/sliding.hpp"
 #include "learning/texture_figures.hpp"
 
-#include <functional>
 #include <span>
 #include <vector>
 

@@ -1,9 +1,8 @@
 #include "learning/tone_fit.hpp"
 
 #include "dsp/tone_filter.hpp"
-#include "learning/frame_figures.hpp"
 #include "learning/gamma_regression.hpp"
-#include "learning/linear_algebra.hpp"
+#include "learning/numerics.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +10,6 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
-#include <optional>
 
 namespace haptoflow::learning {
 namespace {

@@ -1,8 +1,6 @@
 #include "learning/wave_vectors.hpp"
 
-#include "inference/segment_generator.hpp"
 #include "learning/line_evidence.hpp"
-#include "learning/path_windows.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +8,6 @@
 #include <numbers>
 #include <numeric>
 #include <optional>
-#include <span>
 #include <utility>
 
 namespace haptoflow::learning {

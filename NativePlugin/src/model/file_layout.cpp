@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <fstream>
 #include <string>
+#include <system_error>
 
 namespace haptoflow::model {
 namespace {
@@ -97,6 +99,27 @@ void checkLengths(std::span<const std::byte> file, std::uint64_t headerLength, s
 }
 
 }  // namespace
+
+std::vector<std::byte> readFile(const std::filesystem::path& path, std::uint64_t maximumBytes) {
+    std::error_code failure;
+    if (!std::filesystem::is_regular_file(path, failure)) {
+        throw ModelError(ModelStatus::unreadable, "there is no such file");
+    }
+    const std::uintmax_t size = std::filesystem::file_size(path, failure);
+    if (failure) {
+        throw ModelError(ModelStatus::unreadable, "cannot be read: " + failure.message());
+    }
+    if (size > maximumBytes) {
+        throw ModelError(ModelStatus::oversized, "the file has " + std::to_string(size) + " bytes; the limit is " +
+                                                     std::to_string(maximumBytes));
+    }
+    std::ifstream stream(path, std::ios::binary);
+    std::vector<std::byte> bytes(static_cast<std::size_t>(size));
+    if (!stream || !stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size))) {
+        throw ModelError(ModelStatus::unreadable, "cannot be opened or read to its end");
+    }
+    return bytes;
+}
 
 FileLayout readLayout(std::span<const std::byte> file) {
     if (file.size() > maximumFileBytes) {

@@ -2,8 +2,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <span>
 #include <string_view>
+#include <vector>
 
 namespace haptoflow::model {
 
@@ -17,6 +19,9 @@ inline constexpr std::size_t prefixBytes = 32;
 inline constexpr std::size_t blobAlignment = 64;
 inline constexpr std::uint64_t maximumHeaderBytes = 4'194'304;
 inline constexpr std::uint64_t maximumFileBytes = 268'435'456;
+
+/// Reads a file of at most `maximumBytes`. Throws ModelError: unreadable, or oversized.
+[[nodiscard]] std::vector<std::byte> readFile(const std::filesystem::path& path, std::uint64_t maximumBytes);
 
 /// Position of the JSON header, after the first 32 bytes and the header's checksum have been verified.
 struct FileLayout {

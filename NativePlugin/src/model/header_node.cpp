@@ -12,68 +12,35 @@
 #include <vector>
 
 namespace haptoflow::model {
-namespace {
-
-/// Checks the limits without building values, so that deeply nested text cannot exhaust memory.
-class LimitChecker : public nlohmann::json_sax<nlohmann::json> {
-public:
-    explicit LimitChecker(std::string_view document) : document_(document) {}
-
-    bool null() override { return true; }
-    bool boolean(bool /*value*/) override { return true; }
-    bool number_integer(number_integer_t /*value*/) override { return true; }
-    bool number_unsigned(number_unsigned_t /*value*/) override { return true; }
-    bool number_float(number_float_t /*value*/, const string_t& /*text*/) override { return true; }
-    bool string(string_t& /*value*/) override { return true; }
-    bool binary(binary_t& /*value*/) override { return true; }
-    bool start_object(std::size_t /*elements*/) override {
-        enter();
-        return true;
-    }
-    bool start_array(std::size_t /*elements*/) override {
-        enter();
-        return true;
-    }
-    bool end_object() override {
-        keys_.pop_back();
-        return true;
-    }
-    bool end_array() override {
-        keys_.pop_back();
-        return true;
-    }
-    bool key(string_t& name) override {
-        if (!keys_.back().insert(name).second) {
-            throw ModelError(ModelStatus::inconsistent,
-                             document_ + " names the key \"" + name.substr(0, 64) + "\" twice in one object");
-        }
-        return true;
-    }
-    bool parse_error(std::size_t position, const std::string& /*token*/,
-                     const nlohmann::detail::exception& /*error*/) override {
-        throw ModelError(ModelStatus::damaged,
-                         document_ + " is not valid JSON at its byte " + std::to_string(position));
-    }
-
-private:
-    void enter() {
-        if (keys_.size() >= static_cast<std::size_t>(maximumJsonDepth)) {
-            throw ModelError(ModelStatus::oversized,
-                             document_ + " nests deeper than " + std::to_string(maximumJsonDepth) + " levels");
-        }
-        keys_.emplace_back();
-    }
-
-    std::string document_;
-    std::vector<std::unordered_set<std::string>> keys_;
-};
-
-}  // namespace
 
 nlohmann::json parseBoundedJson(std::string_view text, std::string_view document) {
-    LimitChecker checker(document);
-    nlohmann::json::sax_parse(text, &checker);
-    return nlohmann::json::parse(text);
+    const std::string name(document);
+    // The keys of every object that is open; an array has none. Depth and keys are checked before a value is built.
+    std::vector<std::unordered_set<std::string>> open;
+    const auto check = [&](int /*depth*/, nlohmann::json::parse_event_t event, nlohmann::json& parsed) {
+        using Event = nlohmann::json::parse_event_t;
+        if (event == Event::object_start || event == Event::array_start) {
+            if (open.size() >= static_cast<std::size_t>(maximumJsonDepth)) {
+                throw ModelError(ModelStatus::oversized,
+                                 name + " nests deeper than " + std::to_string(maximumJsonDepth) + " levels");
+            }
+            open.emplace_back();
+        } else if (event == Event::object_end || event == Event::array_end) {
+            open.pop_back();
+        } else if (event == Event::key && !open.back().insert(parsed.get<std::string>()).second) {
+            throw ModelError(
+                ModelStatus::inconsistent,
+                name + " names the key \"" + parsed.get<std::string>().substr(0, 64) + "\" twice in one object");
+        }
+        return true;
+    };
+    try {
+        return nlohmann::json::parse(text, check);
+    } catch (const nlohmann::json::parse_error& error) {
+        throw ModelError(ModelStatus::damaged, name + " is not valid JSON at its byte " + std::to_string(error.byte));
+    } catch (const nlohmann::json::exception&) {
+        throw ModelError(ModelStatus::damaged, name + " is not valid JSON: it has a number that is too large");
+    }
 }
 
 HeaderNode::HeaderNode(const nlohmann::json& value, std::string path, const char* document)
@@ -84,6 +51,15 @@ void HeaderNode::refuse(const std::string& expectation) const {
     throw ModelError(ModelStatus::inconsistent, place + ": expected " + expectation);
 }
 
+void HeaderNode::refuseValue(const std::string& expectation) const {
+    if (value_->is_structured()) {
+        refuse(expectation + ", found an " + value_->type_name() + " of " + std::to_string(value_->size()));
+    }
+    // Escaped: the terminal obeys no control character of a file.
+    const std::string text = value_->dump(-1, ' ', true);
+    refuse(expectation + ", found " + (text.size() > 40 ? text.substr(0, 40) + "..." : text));
+}
+
 void HeaderNode::refuseSize(const std::string& found, std::size_t limit) const {
     throw ModelError(ModelStatus::oversized, std::string(document_) + " key \"" + path_ + "\": " + found +
                                                  "; the limit is " + std::to_string(limit));
@@ -91,7 +67,7 @@ void HeaderNode::refuseSize(const std::string& found, std::size_t limit) const {
 
 std::optional<HeaderNode> HeaderNode::find(std::string_view key) const {
     if (!value_->is_object()) {
-        refuse("an object");
+        refuseValue("an object");
     }
     const auto member = value_->find(key);
     if (member == value_->end()) {
@@ -99,6 +75,21 @@ std::optional<HeaderNode> HeaderNode::find(std::string_view key) const {
     }
     std::string path = path_.empty() ? std::string(key) : path_ + '.' + std::string(key);
     return HeaderNode(*member, std::move(path), document_);
+}
+
+void HeaderNode::requireKnown(std::initializer_list<std::string_view> keys) const {
+    if (!value_->is_object()) {
+        refuseValue("an object");
+    }
+    for (const auto& [key, unused] : value_->items()) {
+        if (std::ranges::find(keys, key) == keys.end()) {
+            std::string known;
+            for (const std::string_view each : keys) {
+                known += (known.empty() ? "" : ", ") + std::string(each);
+            }
+            refuse("no key \"" + printable(shortened(key, 40)) + "\"; known are " + known);
+        }
+    }
 }
 
 HeaderNode HeaderNode::at(std::string_view key) const {
@@ -111,7 +102,7 @@ HeaderNode HeaderNode::at(std::string_view key) const {
 
 std::vector<HeaderNode> HeaderNode::elements(std::size_t minimum, std::size_t maximum) const {
     if (!value_->is_array()) {
-        refuse("an array");
+        refuseValue("an array");
     }
     if (value_->size() > maximum) {
         refuseSize(std::to_string(value_->size()) + " elements", maximum);
@@ -129,7 +120,7 @@ std::vector<HeaderNode> HeaderNode::elements(std::size_t minimum, std::size_t ma
 
 std::vector<double> HeaderNode::numbers(std::size_t count, double minimum, double maximum) const {
     if (!value_->is_array() || value_->size() != count) {
-        refuse("an array of " + std::to_string(count) + " numbers");
+        refuseValue("an array of " + std::to_string(count) + " numbers");
     }
     std::vector<double> result;
     result.reserve(count);
@@ -155,7 +146,7 @@ std::vector<double> HeaderNode::risingNumbers(std::size_t minimumCount, std::siz
 double HeaderNode::number(double minimum, double maximum) const {
     const double value = value_->is_number() ? value_->get<double>() : std::nan("");
     if (!(value >= minimum && value <= maximum)) {
-        refuse("a number from " + shortNumber(minimum) + " to " + shortNumber(maximum));
+        refuseValue("a number from " + shortNumber(minimum) + " to " + shortNumber(maximum));
     }
     return value;
 }
@@ -167,14 +158,14 @@ std::int64_t HeaderNode::integer(std::int64_t minimum, std::int64_t maximum) con
         (!value_->is_number_unsigned() || value_->get<std::uint64_t>() <= static_cast<std::uint64_t>(INT64_MAX));
     const std::int64_t value = representable ? value_->get<std::int64_t>() : 0;
     if (!representable || value < minimum || value > maximum) {
-        refuse("an integer from " + std::to_string(minimum) + " to " + std::to_string(maximum));
+        refuseValue("an integer from " + std::to_string(minimum) + " to " + std::to_string(maximum));
     }
     return value;
 }
 
 bool HeaderNode::boolean() const {
     if (!value_->is_boolean()) {
-        refuse("true or false");
+        refuseValue("true or false");
     }
     return value_->get<bool>();
 }
@@ -185,7 +176,7 @@ bool HeaderNode::isNull() const {
 
 std::string HeaderNode::text(std::size_t maximumBytes) const {
     if (!value_->is_string()) {
-        refuse("a string");
+        refuseValue("a string");
     }
     const auto& content = value_->get_ref<const std::string&>();
     if (content.size() > maximumBytes) {
@@ -205,14 +196,27 @@ std::string HeaderNode::name(std::size_t maximumBytes) const {
     return content;
 }
 
-std::string HeaderNode::objectText() const {
-    if (!value_->is_object()) {
-        refuse("an object");
+std::string HeaderNode::date() const {
+    constexpr std::string_view pattern = "0000-00-00";
+    std::string content = text(nameBytes);
+    const auto fits = [](char letter, char wanted) {
+        return wanted == '0' ? letter >= '0' && letter <= '9' : letter == wanted;
+    };
+    const auto between = [&content](std::size_t place, int highest) {
+        const int number = std::stoi(content.substr(place, 2));
+        return number >= 1 && number <= highest;
+    };
+    if (!content.empty() && !(std::equal(content.begin(), content.end(), pattern.begin(), pattern.end(), fits) &&
+                              between(5, 12) && between(8, 31))) {
+        refuse("a date as YYYY-MM-DD, or an empty string");
     }
-    return value_->dump();
+    return content;
 }
 
-std::string HeaderNode::anyText() const {
+std::string HeaderNode::objectText() const {
+    if (!value_->is_object()) {
+        refuseValue("an object");
+    }
     return value_->dump();
 }
 

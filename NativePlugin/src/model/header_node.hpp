@@ -7,10 +7,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <vector>
 
 namespace haptoflow::model {
@@ -18,14 +18,14 @@ namespace haptoflow::model {
 /// Maximum nesting of objects and arrays in a document.
 inline constexpr int maximumJsonDepth = 32;
 
-/// Parses strict JSON of at most maximumJsonDepth levels in which no object has a key twice; nlohmann's parser builds
-/// the values after depth and keys have been checked. Throws ModelError: damaged for broken syntax or text that is not
-/// UTF-8, oversized for the depth, inconsistent for a repeated key. `document` is the text's name in messages.
+/// Parses strict JSON of at most maximumJsonDepth levels in which no object has a key twice. Throws ModelError: damaged
+/// for broken syntax or text that is not UTF-8, oversized for the depth, inconsistent for a repeated key. `document` is
+/// the text's name in messages.
 [[nodiscard]] nlohmann::json parseBoundedJson(std::string_view text, std::string_view document = "the JSON header");
 
-/// A value of a JSON document (a model's header, a material file) with its path, so that every error names the key.
-/// Refers to the JSON value. Each reader throws ModelError: oversized if a count or length is above its limit,
-/// inconsistent otherwise.
+/// A value of a JSON document (a model's header, a material file, an actuator profile) with its path, so that every
+/// error names the key. Refers to the JSON value. Each reader throws ModelError: oversized if a count or length is
+/// above its limit, inconsistent otherwise.
 class HeaderNode {
 public:
     /// `document` is the document's name in errors; it must outlive the node.
@@ -35,6 +35,8 @@ public:
     [[nodiscard]] HeaderNode at(std::string_view key) const;
     /// The member `key` if it exists; this node must be an object.
     [[nodiscard]] std::optional<HeaderNode> find(std::string_view key) const;
+    /// This node must be an object without other keys.
+    void requireKnown(std::initializer_list<std::string_view> keys) const;
 
     /// The elements of an array of `minimum` to `maximum` elements.
     [[nodiscard]] std::vector<HeaderNode> elements(std::size_t minimum, std::size_t maximum) const;
@@ -52,14 +54,16 @@ public:
     [[nodiscard]] std::string text(std::size_t maximumBytes) const;
     /// A string like that of `text`, with at least one character.
     [[nodiscard]] std::string name(std::size_t maximumBytes) const;
+    /// A date as YYYY-MM-DD, or an empty string.
+    [[nodiscard]] std::string date() const;
     /// The value as compact JSON; it must be an object.
     [[nodiscard]] std::string objectText() const;
-    /// Any value as compact JSON.
-    [[nodiscard]] std::string anyText() const;
 
     [[noreturn]] void refuse(const std::string& expectation) const;
 
 private:
+    /// Also says what was found.
+    [[noreturn]] void refuseValue(const std::string& expectation) const;
     [[noreturn]] void refuseSize(const std::string& found, std::size_t limit) const;
 
     const nlohmann::json* value_;
@@ -70,38 +74,11 @@ private:
 /// Maximum length in bytes of the name of a model, label, tier or blob.
 inline constexpr std::size_t nameBytes = 128;
 
-/// Maps names to indices; refuses duplicate names.
-class NameIndex {
-public:
-    void add(const HeaderNode& node, const std::string& name, std::size_t position) {
-        if (!positions_.emplace(name, position).second) {
-            node.refuse("a name that no other element has; \"" + name + "\" appears twice");
-        }
-    }
-    [[nodiscard]] std::size_t at(const HeaderNode& node, const std::string& what) const {
-        const std::string name = node.name(nameBytes);
-        const auto found = positions_.find(name);
-        if (found == positions_.end()) {
-            node.refuse("the name of a " + what + "; there is no \"" + name + '"');
-        }
-        return found->second;
-    }
-
-private:
-    std::unordered_map<std::string, std::size_t> positions_;
-};
-
 /// Reads the keys that labels and material files have in common: all of a label but its name and its embedding row.
 /// Throws ModelError.
 void readLabelTraits(const HeaderNode& node, Label& label);
 
 /// Reads one element of the header's "labels"; its embedding row must be below `embeddingRows`. Throws ModelError.
 [[nodiscard]] Label readLabel(const HeaderNode& node, std::size_t embeddingRows);
-
-/// Reads the header's "skeleton". Throws ModelError.
-[[nodiscard]] SkeletonHeader readSkeleton(const HeaderNode& node);
-
-/// Reads one element of the header's "tiers"; the graphs that it names must be ONNX blobs. Throws ModelError.
-[[nodiscard]] Tier readTier(const HeaderNode& node, const NameIndex& blobNames, const std::vector<Blob>& blobs);
 
 }  // namespace haptoflow::model

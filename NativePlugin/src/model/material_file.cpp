@@ -1,14 +1,11 @@
 #include "model/material_file.hpp"
 
+#include "model/file_layout.hpp"
 #include "model/header_node.hpp"
-#include "model/model_blobs.hpp"
 #include "model/model_error.hpp"
-#include "model/plain_text.hpp"
 
 #include <algorithm>
 #include <cstdint>
-#include <fstream>
-#include <system_error>
 
 namespace haptoflow::model {
 namespace {
@@ -42,11 +39,7 @@ MaterialProvenance readProvenance(const HeaderNode& node) {
     provenance.recordings = node.at("recordings").text(maximumTextBytes);
     provenance.licence = node.at("licence").name(maximumTextBytes);
     provenance.seconds = node.at("seconds").number(0.0, 1e9);
-    const HeaderNode created = node.at("created");
-    provenance.created = created.text(nameBytes);
-    if (!provenance.created.empty() && !isCalendarDate(provenance.created)) {
-        created.refuse("a date as YYYY-MM-DD, or an empty string");
-    }
+    provenance.created = node.at("created").date();
     return provenance;
 }
 
@@ -101,27 +94,6 @@ MaterialFile readRoot(const HeaderNode& root) {
     return material;
 }
 
-std::string readText(const std::filesystem::path& path) {
-    std::error_code failure;
-    if (!std::filesystem::is_regular_file(path, failure)) {
-        throw MaterialError("there is no such file");
-    }
-    const std::uintmax_t size = std::filesystem::file_size(path, failure);
-    if (failure) {
-        throw MaterialError("cannot be read: " + failure.message());
-    }
-    if (size > maximumMaterialBytes) {
-        throw MaterialError("the file has " + std::to_string(size) + " bytes; the limit is " +
-                            std::to_string(maximumMaterialBytes));
-    }
-    std::ifstream stream(path, std::ios::binary);
-    std::string text(static_cast<std::size_t>(size), '\0');
-    if (!stream || !stream.read(text.data(), static_cast<std::streamsize>(size))) {
-        throw MaterialError("cannot be opened or read to its end");
-    }
-    return text;
-}
-
 }  // namespace
 
 MaterialFile parseMaterial(std::string_view json) {
@@ -139,8 +111,9 @@ MaterialFile parseMaterial(std::string_view json) {
 
 MaterialFile readMaterial(const std::filesystem::path& path) {
     try {
-        return parseMaterial(readText(path));
-    } catch (const MaterialError& error) {
+        const std::vector<std::byte> bytes = readFile(path, maximumMaterialBytes);
+        return parseMaterial({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    } catch (const std::runtime_error& error) {
         const std::u8string name = path.u8string();
         throw MaterialError(std::string(name.begin(), name.end()) + ": " + error.what());
     }

@@ -1,13 +1,12 @@
 #include "model/model_file.hpp"
 
 #include "model/file_layout.hpp"
-#include "model/model_blobs.hpp"
 
 #include <algorithm>
-#include <fstream>
+#include <bit>
+#include <cmath>
 #include <stdexcept>
 #include <string>
-#include <system_error>
 
 namespace haptoflow::model {
 namespace {
@@ -19,25 +18,85 @@ const Element* findByName(const std::vector<Element>& elements, std::string_view
     return found != elements.end() ? &*found : nullptr;
 }
 
-std::vector<std::byte> readBytes(const std::filesystem::path& path) {
-    std::error_code failure;
-    if (!std::filesystem::is_regular_file(path, failure)) {
-        throw ModelError(ModelStatus::unreadable, "there is no such file");
+/// Throws ModelError (damaged) unless the bytes from `begin` to `end` are zero.
+void requireZero(std::span<const std::byte> file, std::size_t begin, std::size_t end) {
+    const auto gap = file.subspan(begin, end - begin);
+    const auto stray = std::find_if(gap.begin(), gap.end(), [](std::byte value) { return value != std::byte{0}; });
+    if (stray != gap.end()) {
+        throw ModelError(ModelStatus::damaged,
+                         "byte " + std::to_string(begin + static_cast<std::size_t>(stray - gap.begin())) +
+                             " lies between blobs and is not zero");
     }
-    const std::uintmax_t size = std::filesystem::file_size(path, failure);
-    if (failure) {
-        throw ModelError(ModelStatus::unreadable, "cannot be read: " + failure.message());
+}
+
+/// Checks that the blobs lie inside `file` after `headerEnd`, do not overlap and match their checksums, and that every
+/// byte outside them is zero. Throws ModelError.
+void checkBlobBytes(std::span<const std::byte> file, std::size_t headerEnd, const std::vector<Blob>& blobs) {
+    std::vector<const Blob*> inOrder;
+    inOrder.reserve(blobs.size());
+    for (const Blob& blob : blobs) {
+        inOrder.push_back(&blob);
     }
-    if (size > maximumFileBytes) {
-        throw ModelError(ModelStatus::oversized,
-                         "the file has " + std::to_string(size) + " bytes; the limit is 268435456");
+    std::sort(inOrder.begin(), inOrder.end(),
+              [](const Blob* left, const Blob* right) { return left->offset < right->offset; });
+
+    std::size_t covered = headerEnd;
+    for (const Blob* blob : inOrder) {
+        if (blob->offset < covered) {
+            throw ModelError(ModelStatus::inconsistent, "blob \"" + blob->name + "\" at byte " +
+                                                            std::to_string(blob->offset) +
+                                                            " overlaps what ends at byte " + std::to_string(covered));
+        }
+        if (blob->offset > file.size() || blob->bytes > file.size() - blob->offset) {
+            throw ModelError(ModelStatus::inconsistent,
+                             "blob \"" + blob->name + "\" at byte " + std::to_string(blob->offset) + " of " +
+                                 std::to_string(blob->bytes) + " bytes reaches beyond the end of the file");
+        }
+        requireZero(file, covered, blob->offset);
+        if (crc32(file.subspan(blob->offset, blob->bytes)) != blob->crc32) {
+            throw ModelError(ModelStatus::damaged, "blob \"" + blob->name + "\" at byte " +
+                                                       std::to_string(blob->offset) +
+                                                       " does not match its checksum: get the file again");
+        }
+        covered = blob->offset + blob->bytes;
     }
-    std::ifstream stream(path, std::ios::binary);
-    std::vector<std::byte> bytes(static_cast<std::size_t>(size));
-    if (!stream || !stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size))) {
-        throw ModelError(ModelStatus::unreadable, "cannot be opened or read to its end");
+    requireZero(file, covered, file.size());
+}
+
+float readFloat(std::span<const std::byte> bytes) {
+    std::uint32_t bits = 0;
+    for (std::size_t index = sizeof(float); index > 0; --index) {
+        bits = (bits << 8U) | std::to_integer<std::uint32_t>(bytes[index - 1]);
     }
-    return bytes;
+    return std::bit_cast<float>(bits);
+}
+
+/// The numbers of a float32 blob of `file`. Throws ModelError (inconsistent) if one is not finite or has a magnitude
+/// above 1e6.
+std::vector<float> readTensor(std::span<const std::byte> file, const Blob& blob) {
+    const auto bytes = file.subspan(blob.offset, blob.bytes);
+    std::vector<float> values(blob.bytes / sizeof(float));
+    for (std::size_t index = 0; index < values.size(); ++index) {
+        values[index] = readFloat(bytes.subspan(index * sizeof(float), sizeof(float)));
+        // In this form the condition is also true for NaN.
+        if (!(std::fabs(values[index]) <= maximumMagnitude)) {
+            throw ModelError(ModelStatus::inconsistent, "tensor \"" + blob.name + "\": number " +
+                                                            std::to_string(index) +
+                                                            " is not finite or above 1e6 in magnitude");
+        }
+    }
+    return values;
+}
+
+/// Checks that every row of seedSamples numbers has an RMS of 1 within 1 %. Throws ModelError (inconsistent).
+void checkSeedRows(std::span<const float> seeds) {
+    for (std::size_t row = 0; row < seeds.size() / seedSamples; ++row) {
+        const auto seed = seeds.subspan(row * seedSamples, seedSamples);
+        if (!isUnitRms(seed)) {
+            throw ModelError(ModelStatus::inconsistent, "seed " + std::to_string(row) + " has an RMS of " +
+                                                            std::to_string(rmsOf(seed)) + "; expected 1 within 1 %");
+        }
+    }
 }
 
 }  // namespace
@@ -69,7 +128,7 @@ ModelFile ModelFile::parse(std::vector<std::byte> bytes) {
 
 ModelFile ModelFile::read(const std::filesystem::path& path) {
     try {
-        return parse(readBytes(path));
+        return parse(readFile(path, maximumFileBytes));
     } catch (const ModelError& error) {
         const std::u8string name = path.u8string();
         throw ModelError(error.status(), std::string(name.begin(), name.end()) + ": " + error.what());

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -44,8 +45,6 @@ struct Provenance {
     std::string licence;
     std::int64_t seed = 0;
     std::string commit;
-    /// The training configuration as compact JSON.
-    std::string configurationJson;
     /// YYYY-MM-DD, or empty.
     std::string created;
 };
@@ -216,6 +215,10 @@ struct ModelHeader {
     std::vector<SeedEntry> seeds;
     std::vector<Blob> blobs;
 };
+
+/// The root mean square of a seed, and whether it is 1 within 1 %, as the formats require.
+[[nodiscard]] double rmsOf(std::span<const float> samples);
+[[nodiscard]] bool isUnitRms(std::span<const float> samples);
 
 /// Identifies the embedding space of the model's networks: 8 hexadecimal digits in lower case, the CRC-32 of
 /// "name:crc;" for each tier in the file's order, where crc is that of its graph, or for kind `skeleton` of the tensor

@@ -1,9 +1,10 @@
 #include "model/onnx_check.hpp"
 
 #include "model/model_error.hpp"
-#include "model/onnx_operators.hpp"
 #include "model/onnx_tensor.hpp"
 
+#include <algorithm>
+#include <span>
 #include <string_view>
 #include <unordered_map>
 #include <vector>
@@ -11,29 +12,34 @@
 namespace haptoflow::model {
 namespace {
 
-// Numbers of the fields in onnx.proto that are read, grouped by message.
+// Numbers of the fields in onnx.proto that are read, grouped by message, and those of the fields that may be there and
+// are not read: names, texts for people and, of attributes, plain numbers and texts.
 namespace model_field {
-constexpr std::uint32_t irVersion = 1, producerName = 2, producerVersion = 3, domain = 4, modelVersion = 5;
-constexpr std::uint32_t docString = 6, graph = 7, opsetImport = 8, metadata = 14;
+constexpr std::uint32_t graph = 7, opsetImport = 8;
+constexpr std::uint32_t unread[]{1, 2, 3, 4, 5, 6, 14};
 }  // namespace model_field
 namespace opset_field {
 constexpr std::uint32_t domain = 1, version = 2;
 }  // namespace opset_field
 namespace graph_field {
-constexpr std::uint32_t node = 1, name = 2, initializer = 5, docString = 10, input = 11, output = 12, valueInfo = 13;
-constexpr std::uint32_t metadata = 16;
+constexpr std::uint32_t node = 1, initializer = 5, input = 11, output = 12, valueInfo = 13;
+constexpr std::uint32_t unread[]{2, 10, 16};
 }  // namespace graph_field
 namespace value_field {
 constexpr std::uint32_t name = 1;
 }  // namespace value_field
 namespace node_field {
-constexpr std::uint32_t input = 1, output = 2, name = 3, operatorType = 4, attribute = 5, docString = 6, domain = 7;
-constexpr std::uint32_t metadata = 9;
+constexpr std::uint32_t input = 1, output = 2, operatorType = 4, attribute = 5, domain = 7;
+constexpr std::uint32_t unread[]{3, 6, 9};
 }  // namespace node_field
 namespace attribute_field {
-constexpr std::uint32_t name = 1, number = 2, integer = 3, text = 4, tensor = 5, numbers = 7, integers = 8, texts = 9;
-constexpr std::uint32_t docString = 13, type = 20;
+constexpr std::uint32_t tensor = 5;
+constexpr std::uint32_t unread[]{1, 2, 3, 4, 7, 8, 9, 13, 20};
 }  // namespace attribute_field
+
+bool isAmong(std::span<const std::uint32_t> unread, std::uint32_t field) {
+    return std::ranges::find(unread, field) != unread.end();
+}
 
 struct Node {
     std::string_view operatorType;
@@ -42,6 +48,22 @@ struct Node {
     std::vector<std::string_view> outputs;
     std::vector<std::span<const std::byte>> attributes;
 };
+
+bool isAllowedOperator(std::string_view name) {
+    return name.find(' ') == std::string_view::npos &&
+           allowedOperators.find(' ' + std::string(name) + ' ') != std::string_view::npos;
+}
+
+/// True if this input determines the size or shape of the operator's result.
+bool isShapeOperand(std::string_view name, std::size_t input) {
+    if (name == "ConstantOfShape") {
+        return input == 0;
+    }
+    if (name == "Expand" || name == "Pad" || name == "Reshape") {
+        return input == 1;
+    }
+    return name == "Slice" && input >= 1;
+}
 
 /// What a value of the graph depends on.
 enum class Origin {
@@ -79,16 +101,8 @@ public:
                 case model_field::opsetImport:
                     readOpset(messageOf(*field));
                     break;
-                case model_field::irVersion:
-                case model_field::producerName:
-                case model_field::producerVersion:
-                case model_field::domain:
-                case model_field::modelVersion:
-                case model_field::docString:
-                case model_field::metadata:
-                    break;
                 default:
-                    refuseField("model", field->number);
+                    requireUnread(model_field::unread, "model", field->number);
             }
         }
         if (graphs.size() != 1 || !hasOpset_) {
@@ -104,9 +118,11 @@ private:
     }
 
     /// Refuses functions, training information, sparse tensors and fields of later versions of ONNX.
-    [[noreturn]] void refuseField(const char* message, std::uint32_t number) const {
-        refuse("is not a plain ONNX graph: its " + std::string(message) + " has the field " + std::to_string(number) +
-               "; export it for opset 16, without functions, subgraphs or sparse tensors");
+    void requireUnread(std::span<const std::uint32_t> unread, const char* message, std::uint32_t number) const {
+        if (!isAmong(unread, number)) {
+            refuse("is not a plain ONNX graph: its " + std::string(message) + " has the field " +
+                   std::to_string(number) + "; export it for opset 16, without functions, subgraphs or sparse tensors");
+        }
     }
 
     void count(std::size_t& counter, std::size_t limit, const char* what) const {
@@ -137,7 +153,7 @@ private:
             } else if (field->number == opset_field::version) {
                 version = field->value;
             } else {
-                refuseField("opset", field->number);
+                requireUnread({}, "opset", field->number);
             }
         }
         if (!isOnnxDomain(domain)) {
@@ -170,12 +186,8 @@ private:
                 case graph_field::node:
                     count(nodes_, maximumGraphNodes, "operators");
                     break;
-                case graph_field::name:
-                case graph_field::docString:
-                case graph_field::metadata:
-                    break;
                 default:
-                    refuseField("graph", field->number);
+                    requireUnread(graph_field::unread, "graph", field->number);
             }
         }
         for (const std::string_view constant : constants) {
@@ -231,12 +243,8 @@ private:
                 case node_field::attribute:
                     node.attributes.push_back(messageOf(*field));
                     break;
-                case node_field::name:
-                case node_field::docString:
-                case node_field::metadata:
-                    break;
                 default:
-                    refuseField("operator", field->number);
+                    requireUnread(node_field::unread, "operator", field->number);
             }
         }
         return node;
@@ -287,26 +295,12 @@ private:
     void checkAttribute(std::span<const std::byte> bytes, const std::string& type) const {
         WireReader reader(bytes);
         while (const auto field = reader.next()) {
-            switch (field->number) {
-                case attribute_field::tensor:
-                    (void)checkTensor(messageOf(*field));
-                    break;
-                case attribute_field::name:
-                case attribute_field::number:
-                case attribute_field::integer:
-                case attribute_field::text:
-                case attribute_field::numbers:
-                case attribute_field::integers:
-                case attribute_field::texts:
-                case attribute_field::docString:
-                case attribute_field::type:
-                    break;
-                default:
-                    refuse("the operator " + type +
-                           " has an attribute with a subgraph or another kind of value (field " +
-                           std::to_string(field->number) +
-                           " of onnx.proto's AttributeProto) that a model file may not "
-                           "hold; export it without");
+            if (field->number == attribute_field::tensor) {
+                (void)checkTensor(messageOf(*field));
+            } else if (!isAmong(attribute_field::unread, field->number)) {
+                refuse("the operator " + type + " has an attribute with a subgraph or another kind of value (field " +
+                       std::to_string(field->number) +
+                       " of onnx.proto's AttributeProto) that a model file may not hold; export it without");
             }
         }
     }

@@ -151,9 +151,24 @@ void appendLetter(std::string& text, char32_t letter) {
 template <std::size_t Count>
 std::int32_t valueOf(const std::array<LetterRun, Count>& runs, char32_t letter) {
     const auto run = std::ranges::find_if(runs, [letter](const LetterRun& each) {
-        return letter >= each.first && letter <= each.last && (letter - each.first) % each.step == 0;
+        return letter >= each.first && (letter - each.first) / each.step < each.count &&
+               (letter - each.first) % each.step == 0;
     });
     return run == runs.end() ? 0 : run->value;
+}
+
+char32_t capitalOf(char32_t letter) {
+    return letter >= U'a' && letter <= U'z'
+               ? letter - U'a' + U'A'
+               : static_cast<char32_t>(static_cast<std::int32_t>(letter) + valueOf(capitals, letter));
+}
+
+/// Null for a letter that does not decompose.
+const Decomposition* decompositionOf(char32_t letter) {
+    const auto* const found =
+        std::lower_bound(decompositions.begin(), decompositions.end(), letter,
+                         [](const Decomposition& each, char32_t wanted) { return each.letter < wanted; });
+    return found != decompositions.end() && found->letter == letter ? found : nullptr;
 }
 
 void decompose(char32_t letter, std::u32string& letters) {
@@ -170,10 +185,12 @@ void decompose(char32_t letter, std::u32string& letters) {
         }
         return;
     }
-    const auto* const found =
-        std::lower_bound(decompositions.begin(), decompositions.end(), letter,
-                         [](const Decomposition& each, char32_t wanted) { return each.letter < wanted; });
-    if (found == decompositions.end() || found->letter != letter) {
+    const auto* found = decompositionOf(letter);
+    if (found == nullptr) {
+        // The table leaves out small letters that decompose as their capitals do.
+        found = decompositionOf(capitalOf(letter));
+    }
+    if (found == nullptr) {
         letters += letter;
         return;
     }
@@ -210,10 +227,7 @@ std::string labelKey(std::string_view label) {
     orderMarks(letters);
     std::string key;
     for (const char32_t letter : letters) {
-        const bool isSmall = letter >= U'a' && letter <= U'z';
-        appendLetter(key, isSmall
-                              ? letter - U'a' + U'A'
-                              : static_cast<char32_t>(static_cast<std::int32_t>(letter) + valueOf(capitals, letter)));
+        appendLetter(key, capitalOf(letter));
     }
     return key;
 }

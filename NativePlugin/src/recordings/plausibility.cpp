@@ -1,7 +1,5 @@
 #include "recordings/plausibility.hpp"
 
-#include "recordings/recording_table.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -41,11 +39,6 @@ std::string placeOf(const std::string& path, const Track& track, std::size_t ind
 
 double share(std::size_t part, std::size_t whole) {
     return static_cast<double>(part) / static_cast<double>(std::max<std::size_t>(whole, 1));
-}
-
-/// The value below which the share of a list lies; the list is sorted.
-double percentile(std::span<const double> sorted, double part) {
-    return sorted[static_cast<std::size_t>(part * static_cast<double>(sorted.size() - 1))];
 }
 
 double restOf(const Track& acceleration, std::span<double> means) {
@@ -285,9 +278,8 @@ void checkForce(const std::string& path, const TableSeries& series, const Track&
     std::ranges::transform(force.values, sizes.begin(), [](double value) { return std::abs(value); });
     const auto strongest = static_cast<std::size_t>(std::ranges::max_element(sizes) - sizes.begin());
     const double spike = sizes[strongest];
-    std::ranges::sort(sizes);
-    const double median = percentile(sizes, 0.5);
-    const double usual = percentile(sizes, 0.95);
+    const double median = quantile(sizes, 0.5);
+    const double usual = quantile(sizes, 0.95);
     if (median > maximumForceNewtons) {
         fail(path, series.columns + " is " + plainNumber(median) + " N in the median",
              series.columns == "force_newtons" ? "newtons; name the column force_millinewtons where it is in mN"

@@ -3,11 +3,9 @@
 #include "dsp/fourier_transform.hpp"
 #include "dsp/sample_rates.hpp"
 #include "recordings/dft321.hpp"
-#include "recordings/sensor_noise.hpp"
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <complex>
 
 namespace haptoflow::recordings {
@@ -141,16 +139,6 @@ std::vector<float> windowMeans(const float* values, std::size_t stride, std::siz
 
 double PreparedRecording::speedMps(std::size_t sample) const {
     return std::hypot(static_cast<double>(motion[sample][0]), static_cast<double>(motion[sample][1]));
-}
-
-std::array<double, 3> PreparedRecording::meanMotion(std::size_t first, std::size_t count) const {
-    std::array<double, 3> mean{};
-    for (std::size_t i = first; i < first + count; ++i) {
-        for (std::size_t component = 0; component < mean.size(); ++component) {
-            mean[component] += static_cast<double>(motion[i][component]) / static_cast<double>(count);
-        }
-    }
-    return mean;
 }
 
 std::vector<float> combinedWave(const Recording& recording) {

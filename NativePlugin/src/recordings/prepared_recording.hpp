@@ -27,7 +27,9 @@ struct PreparedRecording {
 
     [[nodiscard]] double speedMps(std::size_t sample) const;
     /// Of `count` samples from `first` on: vx, vy in m/s and force in N.
-    [[nodiscard]] std::array<double, 3> meanMotion(std::size_t first, std::size_t count) const;
+    [[nodiscard]] std::array<double, 3> meanMotion(std::size_t first, std::size_t count) const {
+        return meanMotionOf(std::span(motion).subspan(first, count));
+    }
 };
 
 /// The first `maximumSeconds` as one axis at 2 kHz, in m/s^2: resampled (windowed sinc), three axes combined (DFT321),

@@ -2,12 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <locale>
 #include <sstream>
-#include <string>
-#include <vector>
 
 namespace haptoflow::recordings {
 namespace {
@@ -116,6 +113,12 @@ double quantile(std::vector<double> values, double share) {
     const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
     std::ranges::nth_element(values, at);
     return *at;
+}
+
+double upperMedian(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::ranges::nth_element(values, middle);
+    return *middle;
 }
 
 void fail(const std::string& place, const std::string& found, const std::string& expected) {

@@ -67,6 +67,9 @@ void checkRecording(const Recording& recording);
 /// The value below which `share` of one value or more lies.
 [[nodiscard]] double quantile(std::vector<double> values, double share);
 
+/// The middle value; of two in the middle the larger. One value or more.
+[[nodiscard]] double upperMedian(std::vector<double> values);
+
 /// Throws RecordingUnusable "PLACE: FOUND; expected EXPECTED".
 [[noreturn]] void fail(const std::string& place, const std::string& found, const std::string& expected);
 

@@ -1,25 +1,22 @@
 #include "recordings/recording_files.hpp"
 
+#include "model/header_node.hpp"
+#include "model/model_error.hpp"
+#include "model/model_header.hpp"
+#include "model/plain_text.hpp"
 #include "recordings/recording.hpp"
+#include "recordings/table_rows.hpp"
+
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <fstream>
 #include <system_error>
 
 namespace haptoflow::recordings {
-namespace {
 
 namespace fs = std::filesystem;
-
-std::string lowerCase(std::string text) {
-    std::ranges::transform(text, text.begin(), [](char letter) {
-        return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
-    });
-    return text;
-}
-
-}  // namespace
 
 std::string utf8Of(const fs::path& path) {
     const std::u8string text = path.u8string();
@@ -116,6 +113,184 @@ fs::path GivenFiles::beside(const fs::path& /*file*/, const std::string& name) c
 
 bool GivenFiles::isBeside(const fs::path& /*origin*/, const fs::path& path) const {
     return path == path.filename();
+}
+
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* signs = "1, or -1 where the sensor counts pressing as negative";
+constexpr const char* defaultsFile = "recordings.json";
+constexpr std::array keys{"label",      "full_scale_mps2",    "speed_mps", "velocity_mps", "force_newtons",
+                          "force_sign", "force_rest_newtons", "motion",    "rate_hz",      "licence",
+                          "source"};
+
+std::string allKeys() {
+    std::string text;
+    for (const char* key : keys) {
+        text += (text.empty() ? "" : ", ") + std::string(key);
+    }
+    return text;
+}
+
+[[noreturn]] void fail(const fs::path& file, const std::string& found, const std::string& expected) {
+    recordings::fail(utf8Of(file), found, expected);
+}
+
+json documentIn(RecordingFiles& files, const std::string& role, const fs::path& file) {
+    // Also where it does not exist: a report of that name would be read as the sidecar from then on.
+    std::optional<std::string> bytes = files.read(role, file);
+    if (!bytes) {
+        return json::object();
+    }
+    std::string& text = *bytes;
+    if (text.starts_with("\xEF\xBB\xBF")) {
+        text.erase(0, 3);
+    }
+    json document;
+    try {
+        document = model::parseBoundedJson(text);
+    } catch (const model::ModelError& error) {
+        fail(file, std::string("not JSON (") + error.what() + ")", "a JSON object with keys of " + allKeys());
+    }
+    if (!document.is_object()) {
+        fail(file, "JSON that is no object", "a JSON object with keys of " + allKeys());
+    }
+    for (const auto& [key, unused] : document.items()) {
+        if (std::ranges::find(keys, key) == keys.end()) {
+            fail(file, "unknown key '" + key + "'", "keys of " + allKeys());
+        }
+    }
+    if (document.contains("speed_mps") && document.contains("velocity_mps")) {
+        fail(file, "keys speed_mps and velocity_mps", "one of them");
+    }
+    return document;
+}
+
+/// The values of both files and the file that each comes from.
+class Values {
+public:
+    Values(RecordingFiles& files, const fs::path& recording, const fs::path& own) : files_(files) {
+        const fs::path defaults = files.beside(recording, defaultsFile);
+        add("the folder's defaults", defaults);
+        if (own.filename() != defaults.filename()) {
+            add("the recording's sidecar", own);
+        }
+    }
+
+    [[nodiscard]] std::string text(const std::string& key) const {
+        const json* value = find(key);
+        if (value == nullptr) {
+            return {};
+        }
+        if (!value->is_string()) {
+            refuse(key, "a text in quotes");
+        }
+        std::string text(trimmed(value->get_ref<const std::string&>(), " \t\r\n"));
+        if (text.size() > model::maximumTextBytes || model::hasControlCharacter(text)) {
+            refuse(key, "one line of text without control characters, of " + std::to_string(model::maximumTextBytes) +
+                            " bytes at most");
+        }
+        return text;
+    }
+
+    [[nodiscard]] std::optional<double> number(const std::string& key, double lowest, double highest,
+                                               const std::string& expected) const {
+        const json* value = find(key);
+        if (value == nullptr) {
+            return std::nullopt;
+        }
+        if (!value->is_number() || !(value->get<double>() >= lowest && value->get<double>() <= highest)) {
+            refuse(key, expected);
+        }
+        return value->get<double>();
+    }
+
+    [[nodiscard]] std::optional<std::array<double, 2>> velocity() const {
+        if (const auto speed =
+                number("speed_mps", 0.0, maximumHandSpeedMps, "metres a second, 0 to 10 (a thousandth of mm/s)")) {
+            return std::array{*speed, 0.0};
+        }
+        const json* value = find("velocity_mps");
+        if (value == nullptr) {
+            return std::nullopt;
+        }
+        const bool isPair =
+            value->is_array() && value->size() == 2 && (*value)[0].is_number() && (*value)[1].is_number();
+        if (!isPair || !(std::hypot((*value)[0].get<double>(), (*value)[1].get<double>()) <= maximumHandSpeedMps)) {
+            refuse("velocity_mps", "[vx, vy] in metres a second, 10 at most (a thousandth of mm/s)");
+        }
+        return std::array{(*value)[0].get<double>(), (*value)[1].get<double>()};
+    }
+
+    [[nodiscard]] std::optional<fs::path> motion() const {
+        const std::string name = text("motion");
+        if (name.empty()) {
+            return std::nullopt;
+        }
+        const fs::path& origin = origins_.at("motion");
+        const fs::path path = files_.beside(origin, name);
+        // A name in a file leads no further than its own folder.
+        if (!files_.isBeside(origin, path)) {
+            fail(origin, "key 'motion' names " + name + ", which is outside the folder of " + utf8Of(origin.filename()),
+                 "a table beside the recording: copy it there");
+        }
+        if (!files_.contains(path)) {
+            fail(origin, "key 'motion' names " + name + ", which is not there", "a table beside the recording");
+        }
+        return path;
+    }
+
+    [[noreturn]] void refuse(const std::string& key, const std::string& expected) const {
+        fail(origins_.at(key), "key '" + key + "' is " + std::string(model::shortened(values_.at(key).dump(), 60)),
+             expected);
+    }
+
+private:
+    void add(const std::string& role, const fs::path& file) {
+        const json document = documentIn(files_, role, file);
+        for (const auto& [key, value] : document.items()) {
+            // A file gives either the speed or the velocity; that of the later file replaces both.
+            if (key == "speed_mps") {
+                values_.erase("velocity_mps");
+            } else if (key == "velocity_mps") {
+                values_.erase("speed_mps");
+            }
+            values_[key] = value;
+            origins_[key] = file;
+        }
+    }
+
+    [[nodiscard]] const json* find(const std::string& key) const {
+        const auto found = values_.find(key);
+        return found == values_.end() ? nullptr : &found->second;
+    }
+
+    RecordingFiles& files_;
+    std::map<std::string, json> values_;
+    std::map<std::string, fs::path> origins_;
+};
+
+}  // namespace
+
+RecordingSidecar readRecordingSidecar(RecordingFiles& files, const fs::path& recording) {
+    RecordingSidecar sidecar;
+    sidecar.path = files.beside(recording, utf8Of(recording.stem()) + ".json");
+    const Values values(files, recording, sidecar.path);
+    sidecar.label = values.text("label");
+    sidecar.fullScaleMps2 = values.number("full_scale_mps2", 0.01, 1e5, "m/s^2 at +-1, 0.01 to 100000");
+    sidecar.velocityMps = values.velocity();
+    sidecar.forceNewtons = values.number("force_newtons", 0.0, 100.0, "newtons, 0 to 100 (a thousandth of mN)");
+    sidecar.forceSign = values.number("force_sign", -1.0, 1.0, signs);
+    if (sidecar.forceSign && std::abs(*sidecar.forceSign) != 1.0) {
+        values.refuse("force_sign", signs);
+    }
+    sidecar.forceRestNewtons = values.number("force_rest_newtons", -100.0, 100.0, "newtons, -100 to 100");
+    sidecar.motion = values.motion();
+    sidecar.rateHz = values.number("rate_hz", lowestRateHz, highestRateHz, "samples a second, 1000 to 192000");
+    sidecar.licence = values.text("licence");
+    sidecar.source = values.text("source");
+    return sidecar;
 }
 
 }  // namespace haptoflow::recordings

@@ -4,8 +4,6 @@
 #include "model/plain_text.hpp"
 #include "recordings/force_zero.hpp"
 #include "recordings/plausibility.hpp"
-#include "recordings/recording_sidecar.hpp"
-#include "recordings/recording_table.hpp"
 #include "recordings/table_rows.hpp"
 #include "recordings/wave_file.hpp"
 

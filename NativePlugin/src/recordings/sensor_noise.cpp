@@ -8,7 +8,6 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
-#include <string>
 #include <utility>
 
 namespace haptoflow::recordings {
@@ -66,16 +65,6 @@ public:
 private:
     std::vector<std::uint32_t> before_;
 };
-
-std::array<double, 3> meanMotionOf(std::span<const std::array<float, 3>> motion) {
-    std::array<double, 3> mean{};
-    for (const std::array<float, 3>& each : motion) {
-        for (std::size_t axis = 0; axis < mean.size(); ++axis) {
-            mean[axis] += static_cast<double>(each[axis]) / static_cast<double>(motion.size());
-        }
-    }
-    return mean;
-}
 
 /// For each frame. `motion`, for each sample: vx, vy in m/s and force in N.
 std::vector<FrameMotion> motionOfFrames(std::size_t frames, std::span<const std::array<float, 3>> motion,
@@ -387,6 +376,16 @@ SpectrumCells gainsOf(SpectrumCells power, std::span<const double> noisePower, s
 }
 
 }  // namespace
+
+std::array<double, 3> meanMotionOf(std::span<const std::array<float, 3>> motion) {
+    std::array<double, 3> mean{};
+    for (const std::array<float, 3>& each : motion) {
+        for (std::size_t axis = 0; axis < mean.size(); ++axis) {
+            mean[axis] += static_cast<double>(each[axis]) / static_cast<double>(motion.size());
+        }
+    }
+    return mean;
+}
 
 std::string_view nameOf(NoiseSource source) {
     constexpr std::array<std::string_view, 3> names{"none", "rest", "quiet part"};

@@ -28,6 +28,9 @@ struct SensorNoise {
     std::vector<double> power;
 };
 
+/// vx, vy in m/s and force in N.
+[[nodiscard]] std::array<double, 3> meanMotionOf(std::span<const std::array<float, 3>> motion);
+
 /// Finds the sensor's noise and subtracts its power from the wave's, at every time and frequency, so that level and
 /// spectrum are those of the surface. What is far above the noise is not changed, attacks included; where no noise is
 /// found, no bit is. The power left is at least a hundredth of what was there.

@@ -5,7 +5,6 @@
 #include <charconv>
 #include <locale>
 #include <sstream>
-#include <string>
 #include <system_error>
 #include <utility>
 #include <version>
@@ -73,14 +72,6 @@ namespace {
 constexpr std::array separators{',', ';', '\t', ' '};
 /// A quote that is not closed within so many bytes is a character of its cell.
 constexpr std::size_t longestQuotedBytes = 65'536;
-
-std::string lowerCase(std::string_view text) {
-    std::string lower(text);
-    std::ranges::transform(lower, lower.begin(), [](char letter) {
-        return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
-    });
-    return lower;
-}
 
 bool isBlankBeside(char character, char separator) {
     return (character == ' ' || character == '\t') && character != separator;
@@ -296,6 +287,14 @@ bool isMissing(std::string_view cell) {
         word.erase(0, 1);
     }
     return std::ranges::find(words, word) != words.end();
+}
+
+std::string lowerCase(std::string_view text) {
+    std::string lower(text);
+    std::ranges::transform(lower, lower.begin(), [](char letter) {
+        return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
+    });
+    return lower;
 }
 
 std::string_view trimmed(std::string_view text, std::string_view blank) {

@@ -77,6 +77,9 @@ private:
 /// True for the words that stand for a missing number: nothing, nan, N/A, null and their kin, in any case.
 [[nodiscard]] bool isMissing(std::string_view cell);
 
+/// Of ASCII letters.
+[[nodiscard]] std::string lowerCase(std::string_view text);
+
 /// The text without `blank` characters at its ends.
 [[nodiscard]] std::string_view trimmed(std::string_view text, std::string_view blank = " \t\r");
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <span>
 #include <utility>
 
 namespace haptoflow::recordings {
@@ -55,18 +54,12 @@ Track trackOf(const RecordingTable& table, const TableSeries& series) {
     return track;
 }
 
-double medianOfSteps(std::vector<double> steps) {
-    const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-    std::nth_element(steps.begin(), middle, steps.end());
-    return *middle;
-}
-
 double medianStepSeconds(const Track& track) {
     std::vector<double> steps(track.count() - 1);
     for (std::size_t i = 0; i < steps.size(); ++i) {
         steps[i] = track.timeSeconds[i + 1] - track.timeSeconds[i];
     }
-    return medianOfSteps(std::move(steps));
+    return upperMedian(std::move(steps));
 }
 
 double rateOf(const Track& track, double roundingSeconds) {
@@ -206,13 +199,11 @@ Track readAnew(const Track& track) {
     }
     std::size_t period = 1;
     if (changes.size() > 8) {
-        std::vector<std::size_t> distances;
+        std::vector<double> distances;
         for (std::size_t i = 1; i < changes.size(); ++i) {
-            distances.push_back(changes[i] - changes[i - 1]);
+            distances.push_back(static_cast<double>(changes[i] - changes[i - 1]));
         }
-        const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-        std::nth_element(distances.begin(), middle, distances.end());
-        period = *middle;
+        period = static_cast<std::size_t>(upperMedian(std::move(distances)));
     }
     if (period < 2) {
         return track;

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <string>
 #include <vector>
 
 namespace haptoflow::recordings {
@@ -28,10 +27,7 @@ struct Track {
 /// Throws RecordingUnusable that names file and line if time runs back, and if fewer than 4 rows are left.
 [[nodiscard]] Track trackOf(const RecordingTable& table, const TableSeries& series);
 
-/// The median of the steps between times, of one or more; of two in the middle the larger.
-[[nodiscard]] double medianOfSteps(std::vector<double> steps);
-
-/// The median of the steps between a track's times.
+/// The median of the steps between a track's times; of two in the middle the larger.
 [[nodiscard]] double medianStepSeconds(const Track& track);
 
 /// Samples a second: the mean over all steps but gaps, because times are often written with few digits; the roundest

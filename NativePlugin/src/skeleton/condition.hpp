@@ -44,7 +44,7 @@ inline constexpr std::size_t smoothFeatures = 12;
 [[nodiscard]] Phases advanced(const Phases& phases, double samples) noexcept;
 
 /// Of each family's rate 0.25 ln(1 + |rate|), then of each rate / (|rate| + 20 Hz): the training's rate_features
-/// (Training/haptoflow_training/models/surface_waves.py).
+/// (Training/haptoflow_training/models/label_embedding.py).
 inline constexpr std::size_t rateFeatures = 2 * familyCount;
 
 /// What the perceptrons of skeleton and refinement see: the material embedding, the fine features of the motion, then

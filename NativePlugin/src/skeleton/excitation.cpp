@@ -48,51 +48,41 @@ TailImpulses::TailImpulses() {
                            [](double threshold) { return static_cast<float>(1.0 / excessDeviation(threshold)); });
 }
 
-void TailImpulses::add(Segment noise, std::span<const float, gainCount> gains,
-                       std::span<float, segmentSamples> impulses) const noexcept {
-    std::ranges::fill(impulses, 0.0F);
-    // Rarely more than twenty of the 200 samples.
-    std::array<std::size_t, segmentSamples> places{};
+void TailImpulses::add(std::span<const float> noise, std::span<const float, gainCount> gains,
+                       Ringing& ringing) const noexcept {
+    // Rarely more than two of eleven samples.
+    std::array<std::size_t, pieceSamples + 1> places{};
     std::size_t count = 0;
     for (std::size_t at = 0; at < noise.size(); ++at) {
         places[count] = at;
         count += std::fabs(noise[at]) > lowestThreshold ? 1 : 0;
     }
-    for (const bool isNegative : {false, true}) {
+    for (const std::size_t at : std::span(places).first(count)) {
+        const bool isNegative = noise[at] < 0.0F;
+        const float height = std::fabs(noise[at]);
+        Kernel kernel{};
         for (std::size_t threshold = 0; threshold < thresholdCount; ++threshold) {
-            const std::size_t first = ((isNegative ? thresholdCount : 0) + threshold) * atomCount;
-            const float sign = isNegative ? -1.0F : 1.0F;
-            const auto height = static_cast<float>(model::SkeletonHeader::impulseThresholds[threshold]);
-            Kernel kernel;
-            bool hasKernel = false;
-            for (const std::size_t at : std::span(places).first(count)) {
-                const float excess = sign * noise[at] - height;
-                if (!(excess > 0.0F)) {
-                    continue;
-                }
-                if (!hasKernel) {
-                    kernel = kernelOf(std::span<const float, atomCount>(gains.subspan(first, atomCount)));
-                    hasKernel = true;
-                }
-                const float event = sign * scales_[threshold] * excess;
-                const std::size_t heard = std::min(taps, segmentSamples - at);
-                for (std::size_t tap = 0; tap < heard; ++tap) {
-                    impulses[at + tap] += event * kernel[tap];
-                }
+            const float excess = height - static_cast<float>(model::SkeletonHeader::impulseThresholds[threshold]);
+            if (!(excess > 0.0F)) {
+                break;
             }
+            const std::size_t first = ((isNegative ? thresholdCount : 0) + threshold) * atomCount;
+            const float event = (isNegative ? -scales_[threshold] : scales_[threshold]) * excess;
+            addKernel(std::span<const float, atomCount>(gains.subspan(first, atomCount)), event, kernel);
+        }
+        for (std::size_t tap = 0; tap < taps; ++tap) {
+            ringing[at + tap] += kernel[tap];
         }
     }
 }
 
-TailImpulses::Kernel TailImpulses::kernelOf(std::span<const float, atomCount> gains) const noexcept {
-    Kernel kernel{};
+void TailImpulses::addKernel(std::span<const float, atomCount> gains, float event, Kernel& kernel) const noexcept {
     for (std::size_t atom = 0; atom < atomCount; ++atom) {
-        const float gain = largestGain * std::tanh(gains[atom] / largestGain);
+        const float gain = event * largestGain * std::tanh(gains[atom] / largestGain);
         for (std::size_t tap = 0; tap < taps; ++tap) {
             kernel[tap] += gain * atoms_[atom][tap];
         }
     }
-    return kernel;
 }
 
 namespace {
@@ -102,46 +92,36 @@ constexpr double highestSwingHz = 700.0;
 constexpr double highestLineHz = 960.0;
 constexpr float largestLine = 30.0F;
 
-using Wave = std::array<float, segmentSamples>;
-
 /// Cosine and sine of an angle that grows evenly from sample to sample.
 struct Rotation {
-    Wave cosine;
-    Wave sine;
+    Piece cosine;
+    Piece sine;
 };
 
-/// The rotation of a family's first harmonic. Eight samples are computed as such and turned on from there, in double
-/// precision, so that the error does not grow over the segment.
-Rotation firstHarmonic(double cycles, double cyclesPerSample) noexcept {
-    constexpr std::size_t lanes = 8;
-    static_assert(segmentSamples % lanes == 0);
-    std::array<double, lanes> cosine{};
-    std::array<double, lanes> sine{};
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
-        const double angle = cycles + cyclesPerSample * (static_cast<double>(lane) + 0.5);
-        const double radians = 2.0 * std::numbers::pi * (angle - std::round(angle));
-        cosine[lane] = std::cos(radians);
-        sine[lane] = std::sin(radians);
-    }
-    const double step = 2.0 * std::numbers::pi * cyclesPerSample * static_cast<double>(lanes);
+/// The rotation of a family's first harmonic, turned on from its first sample in double precision.
+Rotation firstHarmonic(double cycles, double cyclesPerSample, std::size_t samples) noexcept {
+    constexpr double wholeTurn = 2.0 * std::numbers::pi;
+    const double start = cycles + 0.5 * cyclesPerSample;
+    const double angle = wholeTurn * (start - std::round(start));
+    const double step = wholeTurn * cyclesPerSample;
     const double stepCosine = std::cos(step);
     const double stepSine = std::sin(step);
+    double cosine = std::cos(angle);
+    double sine = std::sin(angle);
     Rotation rotation;
-    for (std::size_t first = 0; first < rotation.cosine.size(); first += lanes) {
-        for (std::size_t lane = 0; lane < lanes; ++lane) {
-            rotation.cosine[first + lane] = static_cast<float>(cosine[lane]);
-            rotation.sine[first + lane] = static_cast<float>(sine[lane]);
-            const double turned = cosine[lane] * stepCosine - sine[lane] * stepSine;
-            sine[lane] = cosine[lane] * stepSine + sine[lane] * stepCosine;
-            cosine[lane] = turned;
-        }
+    for (std::size_t n = 0; n < samples; ++n) {
+        rotation.cosine[n] = static_cast<float>(cosine);
+        rotation.sine[n] = static_cast<float>(sine);
+        const double turned = cosine * stepCosine - sine * stepSine;
+        sine = cosine * stepSine + sine * stepCosine;
+        cosine = turned;
     }
     return rotation;
 }
 
 /// Turns `rotation` on by `step`.
-void turn(Rotation& rotation, const Rotation& step) noexcept {
-    for (std::size_t n = 0; n < rotation.cosine.size(); ++n) {
+void turn(Rotation& rotation, const Rotation& step, std::size_t samples) noexcept {
+    for (std::size_t n = 0; n < samples; ++n) {
         const float cosine = rotation.cosine[n];
         const float sine = rotation.sine[n];
         rotation.cosine[n] = cosine * step.cosine[n] - sine * step.sine[n];
@@ -155,15 +135,24 @@ float lineGain(float output) noexcept {
 
 }  // namespace
 
-bool FamilyPhase::isHeard() const noexcept {
-    return std::isfinite(cycles) && std::fabs(rateHz) > slowestHz && std::fabs(rateHz) < highestLineHz;
+bool isHeardHz(double rateHz) noexcept {
+    return std::fabs(rateHz) > slowestHz && std::fabs(rateHz) < highestLineHz;
 }
 
-void SurfaceWaves::add(const FamilyPhase& phase, const FamilyGains& gains, Pulses* cosines, Pulses* sines) noexcept {
+double linePower(const FamilyGains& gains, double rateHz, std::size_t harmonic) noexcept {
+    if (std::fabs(rateHz) * static_cast<double>(harmonic) >= highestLineHz) {
+        return 0.0;
+    }
+    const auto cosine = static_cast<double>(lineGain(gains.lineCosine[harmonic - 1]));
+    const auto sine = static_cast<double>(lineGain(gains.lineSine[harmonic - 1]));
+    return 0.5 * (cosine * cosine + sine * sine);
+}
+
+void SurfaceWaves::add(const FamilyPhase& phase, const FamilyGains& gains, NetworkView view) noexcept {
     isHeard_ = true;
     const double rateHz = std::fabs(phase.rateHz);
     const double cycles = phase.rateHz >= 0.0 ? phase.cycles : -phase.cycles;
-    const Rotation first = firstHarmonic(cycles, rateHz / waveformRateHz);
+    const Rotation first = firstHarmonic(cycles, rateHz / waveformRateHz, samples_);
     Rotation rotation = first;
     for (std::size_t index = 0; index < lineHarmonics; ++index) {
         const double harmonicHz = rateHz * static_cast<double>(index + 1);
@@ -171,11 +160,11 @@ void SurfaceWaves::add(const FamilyPhase& phase, const FamilyGains& gains, Pulse
             return;
         }
         if (index > 0) {
-            turn(rotation, first);
+            turn(rotation, first, samples_);
         }
         const float lineCosine = lineGain(gains.lineCosine[index]);
         const float lineSine = lineGain(gains.lineSine[index]);
-        for (std::size_t n = 0; n < lines_.size(); ++n) {
+        for (std::size_t n = 0; n < samples_; ++n) {
             lines_[n] += lineCosine * rotation.cosine[n] + lineSine * rotation.sine[n];
         }
         if (index >= swingHarmonics || harmonicHz >= highestSwingHz) {
@@ -183,13 +172,15 @@ void SurfaceWaves::add(const FamilyPhase& phase, const FamilyGains& gains, Pulse
         }
         const float swingCosine = gains.swingCosine[index];
         const float swingSine = gains.swingSine[index];
-        for (std::size_t n = 0; n < segmentSamples; ++n) {
+        for (std::size_t n = 0; n < samples_; ++n) {
             swing_[n] += swingCosine * rotation.cosine[n] + swingSine * rotation.sine[n];
         }
-        if (cosines != nullptr && sines != nullptr) {
-            for (std::size_t n = 0; n < segmentSamples; ++n) {
-                (*cosines)[index][n] += rotation.cosine[n];
-                (*sines)[index][n] += rotation.sine[n];
+        if (view.input != nullptr) {
+            const auto cosines = view.input->piece(2 + index, view.first, samples_);
+            const auto sines = view.input->piece(2 + swingHarmonics + index, view.first, samples_);
+            for (std::size_t n = 0; n < samples_; ++n) {
+                cosines[n] += rotation.cosine[n];
+                sines[n] += rotation.sine[n];
             }
         }
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
 
 namespace haptoflow::skeleton {
@@ -55,19 +56,19 @@ ReflectionFilter ReflectionFilter::of(std::span<const float, filterOrder> reflec
     return filter;
 }
 
-void ReflectionFilter::run(std::span<const float, filterOrder> past, Segment drive,
-                           std::span<float, segmentSamples> filtered) const noexcept {
+void ReflectionFilter::run(std::array<double, filterOrder>& past, std::span<const float> drive,
+                           std::span<float> filtered) const noexcept {
     constexpr std::size_t older = filterOrder - newest;
     // In the order of time, as the samples lie.
     std::array<double, older> olderTaps{};
     for (std::size_t i = 0; i < older; ++i) {
         olderTaps[i] = coefficients[filterOrder - 1 - i];
     }
-    std::array<double, filterOrder + segmentSamples> wave{};
+    std::array<double, filterOrder + pieceSamples> wave;
     std::ranges::copy(past, wave.begin());
     std::array<double, newest> last{wave[filterOrder - 1], wave[filterOrder - 2], wave[filterOrder - 3],
                                     wave[filterOrder - 4]};
-    for (std::size_t n = 0; n < segmentSamples; ++n) {
+    for (std::size_t n = 0; n < drive.size(); ++n) {
         const double* samples = wave.data() + n;
         std::array<double, 4> sums{};
         for (std::size_t i = 0; i < older; i += sums.size()) {
@@ -80,8 +81,62 @@ void ReflectionFilter::run(std::span<const float, filterOrder> past, Segment dri
         const double y = (static_cast<double>(drive[n]) - earlier) - coefficients[0] * last[0];
         last = {y, last[0], last[1], last[2]};
         wave[filterOrder + n] = y;
-        filtered[n] = std::clamp(static_cast<float>(y), -unitLimit, unitLimit);
+        filtered[n] = limitedOrZero(static_cast<float>(y), unitLimit);
     }
+    std::copy_n(wave.begin() + static_cast<std::ptrdiff_t>(drive.size()), filterOrder, past.begin());
+}
+
+namespace {
+
+/// What predicts a sample from 0 to 24 samples before it, and how far it then still varies.
+struct StepDown {
+    /// Row m: the m coefficients.
+    std::array<std::array<double, filterOrder>, filterOrder + 1> predictors{};
+    std::array<double, filterOrder + 1> variances{};
+
+    explicit StepDown(const ReflectionFilter& filter) noexcept {
+        predictors[filterOrder] = filter.coefficients;
+        variances[filterOrder] = std::exp(2.0 * filter.logGain);
+        for (std::size_t m = filterOrder; m > 0; --m) {
+            const auto& a = predictors[m];
+            const double k = a[m - 1];
+            // Rounding may carry a reflection of a very sharp filter to 1.
+            const double rest = std::max(1.0 - k * k, 1e-9);
+            variances[m - 1] = variances[m] / rest;
+            for (std::size_t i = 0; i + 1 < m; ++i) {
+                predictors[m - 1][i] = (a[i] - k * a[m - 2 - i]) / rest;
+            }
+        }
+    }
+};
+
+}  // namespace
+
+std::array<double, filterOrder> ReflectionFilter::stationaryPast(
+    std::span<const float, filterOrder> noise) const noexcept {
+    const StepDown steps(*this);
+    std::array<double, filterOrder> past{};
+    for (std::size_t n = 0; n < filterOrder; ++n) {
+        double sample = std::sqrt(steps.variances[n]) * static_cast<double>(noise[n]);
+        for (std::size_t i = 0; i < n; ++i) {
+            sample -= steps.predictors[n][i] * past[n - 1 - i];
+        }
+        past[n] = sample;
+    }
+    return past;
+}
+
+double ReflectionFilter::variance() const noexcept {
+    return StepDown(*this).variances.front();
+}
+
+double ReflectionFilter::powerGain(double frequencyHz) const noexcept {
+    const std::complex<double> delay = std::polar(1.0, -2.0 * std::numbers::pi * frequencyHz / waveformRateHz);
+    std::complex<double> sum = 0.0;
+    for (std::size_t i = filterOrder; i > 0; --i) {
+        sum = (sum + coefficients[i - 1]) * delay;
+    }
+    return std::exp(2.0 * logGain) / std::norm(1.0 + sum);
 }
 
 }  // namespace haptoflow::skeleton

@@ -37,8 +37,6 @@ float LevelModel::logLevel(std::span<const float, model::embeddingSize> embeddin
 
 namespace {
 
-constexpr float largestSwing = 2.0F;
-
 /// The outputs of one family, in the perceptron's order.
 FamilyGains gainsOf(std::span<const float, 2 * (swingHarmonics + lineHarmonics)> outputs) noexcept {
     FamilyGains gains;
@@ -54,41 +52,23 @@ FamilyGains gainsOf(std::span<const float, 2 * (swingHarmonics + lineHarmonics)>
     return gains;
 }
 
-/// What drives the filter: the noise, which swings with the waves, the waves' lines, both times `gain`, and the
-/// impulses.
-std::array<float, segmentSamples> driveOf(Segment noise, Segment impulses, float gain,
-                                          const SurfaceWaves& waves) noexcept {
-    std::array<float, segmentSamples> drive{};
-    if (!waves.isHeard()) {
-        std::ranges::transform(noise, impulses, drive.begin(),
-                               [gain](float sample, float impulse) { return gain * sample + impulse; });
-        return drive;
-    }
-    for (std::size_t n = 0; n < segmentSamples; ++n) {
-        const float swing = largestSwing * std::tanh(waves.swing()[n] / largestSwing);
-        drive[n] = gain * (noise[n] * std::exp(swing) + waves.lines()[n]) + impulses[n];
-    }
-    return drive;
-}
-
 }  // namespace
 
-struct Skeleton::Pulses {
-    SurfaceWaves::Pulses cosines{};
-    SurfaceWaves::Pulses sines{};
-};
+double logPowerOf(const SkeletonParameters& parameters, const std::array<double, familyCount>& ratesHz) noexcept {
+    double power = parameters.filter.variance();
+    for (std::size_t family = 0; family < familyCount; ++family) {
+        for (std::size_t harmonic = 1; isHeardHz(ratesHz[family]) && harmonic <= lineHarmonics; ++harmonic) {
+            const double line = linePower(parameters.families[family], ratesHz[family], harmonic);
+            if (line > 0.0) {
+                power += line * parameters.filter.powerGain(static_cast<double>(harmonic) * ratesHz[family]);
+            }
+        }
+    }
+    return std::log(power);
+}
 
 Skeleton::Skeleton(HiddenLayers hidden, OutputLayers outputs)
     : hidden_(std::move(hidden)), outputs_(std::move(outputs)) {}
-
-std::array<FamilyPhase, familyCount> Skeleton::familiesOf(const Phases& phases) noexcept {
-    std::array<FamilyPhase, familyCount> families{};
-    for (std::size_t family = 0; family < familyCount; ++family) {
-        families[family] = {.cycles = static_cast<double>(phases[family]),
-                            .rateHz = static_cast<double>(phases[familyCount + family])};
-    }
-    return families;
-}
 
 ReflectionFilter Skeleton::filterOf(const HiddenLayers::Activations& activations) const noexcept {
     std::array<float, filterOrder + 1> outputs{};
@@ -100,14 +80,13 @@ ReflectionFilter Skeleton::filterFor(const Condition& condition) const noexcept 
     return filterOf(hidden_.run(condition));
 }
 
-SegmentParameters Skeleton::parametersFor(const Condition& condition,
-                                          const std::array<FamilyPhase, familyCount>& phases,
-                                          float impulseGain) const noexcept {
+SkeletonParameters Skeleton::parametersFor(const Condition& condition, const std::array<double, familyCount>& ratesHz,
+                                           float impulseGain) const noexcept {
     const HiddenLayers::Activations activations = hidden_.run(condition);
-    SegmentParameters parameters;
+    SkeletonParameters parameters;
     parameters.filter = filterOf(activations);
     for (std::size_t family = 0; family < familyCount; ++family) {
-        if (phases[family].isHeard()) {
+        if (isHeardHz(ratesHz[family])) {
             std::array<float, 2 * (swingHarmonics + lineHarmonics)> outputs{};
             outputs_.families[family].apply(activations, outputs);
             parameters.families[family] = gainsOf(outputs);
@@ -117,49 +96,6 @@ SegmentParameters Skeleton::parametersFor(const Condition& condition,
     // Limited where they arise, as without a gain.
     std::ranges::for_each(parameters.impulseGains, [impulseGain](float& threshold) { threshold *= impulseGain; });
     return parameters;
-}
-
-void Skeleton::begin(const Moment& moment, const SegmentParameters& parameters,
-                     std::span<float, segmentSamples> segment, std::span<float, segmentSamples> impulses,
-                     Pulses* pulses) const noexcept {
-    const auto phases = familiesOf(moment.phases);
-    SurfaceWaves waves;
-    for (std::size_t family = 0; family < familyCount; ++family) {
-        if (phases[family].isHeard()) {
-            waves.add(phases[family], parameters.families[family], pulses != nullptr ? &pulses->cosines : nullptr,
-                      pulses != nullptr ? &pulses->sines : nullptr);
-        }
-    }
-    std::array<float, segmentSamples> noise{};
-    std::ranges::transform(moment.noise, noise.begin(), [](float sample) { return limitedOrZero(sample, noiseLimit); });
-    const auto gain = static_cast<float>(std::exp(parameters.filter.logGain));
-    impulses_.add(noise, parameters.impulseGains, impulses);
-    std::ranges::for_each(impulses, [gain](float& impulse) { impulse *= gain; });
-    parameters.filter.run(moment.previous.last<filterOrder>(), driveOf(noise, impulses, gain, waves), segment);
-}
-
-void Skeleton::sketch(const Moment& moment, const Condition& condition,
-                      std::span<float, segmentSamples> segment) const noexcept {
-    sketch(moment, parametersFor(condition, familiesOf(moment.phases), moment.impulseGain), segment);
-}
-
-void Skeleton::sketch(const Moment& moment, const SegmentParameters& parameters,
-                      std::span<float, segmentSamples> segment) const noexcept {
-    std::array<float, segmentSamples> impulses{};
-    begin(moment, parameters, segment, impulses, nullptr);
-}
-
-void Skeleton::enter(const Moment& moment, const Condition& condition,
-                     std::span<float, networkInputChannels * segmentSamples> networkInput) const noexcept {
-    Pulses pulses;
-    begin(moment, parametersFor(condition, familiesOf(moment.phases), moment.impulseGain),
-          networkInput.first<segmentSamples>(), networkInput.subspan<segmentSamples, segmentSamples>(), &pulses);
-    auto next = networkInput.begin() + 2 * segmentSamples;
-    for (const SurfaceWaves::Pulses* each : {&pulses.cosines, &pulses.sines}) {
-        for (const auto& harmonic : *each) {
-            next = std::ranges::copy(harmonic, next).out;
-        }
-    }
 }
 
 }  // namespace haptoflow::skeleton

@@ -31,18 +31,6 @@ private:
     Perceptron correction_;
 };
 
-/// What a segment is made of. The spans must live while it is used.
-struct Moment {
-    std::span<const float, embeddingSize> embedding;
-    Motion motion{};
-    Phases phases{};
-    /// The 200 samples before the segment in unit scale, limited to +-16.
-    Segment previous;
-    /// Standard normal; limited to +-9, a sample that is not a number counts as 0.
-    Segment noise;
-    float impulseGain = 1.0F;
-};
-
 /// The last layer of the perceptron `skeleton`, cut by what its outputs are for, so that a family that is not heard
 /// costs nothing.
 struct OutputLayers {
@@ -53,47 +41,35 @@ struct OutputLayers {
     LinearLayer impulseGains;
 };
 
-/// The parameters of a segment.
-struct SegmentParameters {
+/// What a contact sounds like: outputs of the perceptron. A plain value.
+struct SkeletonParameters {
     ReflectionFilter filter;
     /// Zero for a family that is not heard.
     std::array<FamilyGains, familyCount> families{};
     std::array<float, TailImpulses::gainCount> impulseGains{};
 };
 
-/// What sounds without a graph: a filter continues the previous waveform, driven by noise, by the lines of ribs and
-/// stick-slip, and by impulses. Immutable, so that any number of threads may use it; allocates nothing while it runs.
-/// The result is finite for any argument, and the segment within +-16.
+/// Natural logarithm of the mean square, in unit scale, of what these parameters sound like at the families' rates: of
+/// noise and lines behind the filter. Swing and impulses, which add a tenth of a decibel, are left out.
+[[nodiscard]] double logPowerOf(const SkeletonParameters& parameters,
+                                const std::array<double, familyCount>& ratesHz) noexcept;
+
+/// What sounds without a graph: a filter, driven by noise, by the lines of ribs and stick-slip, and by impulses (see
+/// Synthesis). Immutable, so that any number of threads may use it; allocates nothing while it runs.
 class Skeleton {
 public:
-    /// Channels of what the refining graph sees.
-    static constexpr std::size_t networkInputChannels = 2 + 2 * swingHarmonics;
-
     Skeleton(HiddenLayers hidden, OutputLayers outputs);
 
-    [[nodiscard]] SegmentParameters parametersFor(const Condition& condition,
-                                                  const std::array<FamilyPhase, familyCount>& phases,
-                                                  float impulseGain = 1.0F) const noexcept;
+    /// `ratesHz`: signed rates of the families of waves. `impulseGain`: factor on the impulses.
+    [[nodiscard]] SkeletonParameters parametersFor(const Condition& condition,
+                                                   const std::array<double, familyCount>& ratesHz,
+                                                   float impulseGain = 1.0F) const noexcept;
     /// The filter alone, which costs a fraction of the whole.
     [[nodiscard]] ReflectionFilter filterFor(const Condition& condition) const noexcept;
-    [[nodiscard]] static std::array<FamilyPhase, familyCount> familiesOf(const Phases& phases) noexcept;
-
-    /// Writes the segment in unit scale.
-    void sketch(const Moment& moment, const Condition& condition,
-                std::span<float, segmentSamples> segment) const noexcept;
-    /// The same with parameters that are known; of the moment only phases, previous waveform and noise count.
-    void sketch(const Moment& moment, const SegmentParameters& parameters,
-                std::span<float, segmentSamples> segment) const noexcept;
-    /// Writes what the refining graph sees, one channel after the other: the segment, the impulses that drove it, and
-    /// the cosines and then the sines of the first five harmonics, summed over the families.
-    void enter(const Moment& moment, const Condition& condition,
-               std::span<float, networkInputChannels * segmentSamples> networkInput) const noexcept;
+    [[nodiscard]] const TailImpulses& impulses() const noexcept { return impulses_; }
 
 private:
-    struct Pulses;
     [[nodiscard]] ReflectionFilter filterOf(const HiddenLayers::Activations& activations) const noexcept;
-    void begin(const Moment& moment, const SegmentParameters& parameters, std::span<float, segmentSamples> segment,
-               std::span<float, segmentSamples> impulses, Pulses* pulses) const noexcept;
 
     HiddenLayers hidden_;
     OutputLayers outputs_;

@@ -29,13 +29,17 @@ inline constexpr std::size_t atomCount = 13;
 
 /// Largest magnitude of a sample in unit scale: m/s^2 divided by the level.
 inline constexpr float unitLimit = 16.0F;
-/// Largest magnitude of the noise; no number of inference::fillStandardNormal reaches it.
+/// Largest magnitude of the noise; no number of skeleton::fillStandardNormal reaches it.
 inline constexpr float noiseLimit = 9.0F;
 
 /// Turns of the three families at a segment's first sample, then their signed rates in Hz.
 using Phases = std::array<float, 2 * familyCount>;
 
 using Segment = std::span<const float, segmentSamples>;
+
+/// The most samples that are synthesised at once.
+inline constexpr std::size_t pieceSamples = 32;
+using Piece = std::array<float, pieceSamples>;
 
 /// Where the outputs of the perceptron `skeleton` begin: reflections and gain, swing and lines of each family,
 /// impulseGains.

@@ -1,5 +1,3 @@
 using System.Runtime.CompilerServices;
 
 [assembly: InternalsVisibleTo("HaptoFlow.EditorTests")]
-[assembly: InternalsVisibleTo("HaptoFlow.MissingLibraryTests")]
-[assembly: InternalsVisibleTo("HaptoFlow.PreviewTests")]

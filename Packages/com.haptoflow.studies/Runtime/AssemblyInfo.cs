@@ -1,3 +1,3 @@
 using System.Runtime.CompilerServices;
 
-[assembly: InternalsVisibleTo("HaptoFlow.SampleTests")]
+[assembly: InternalsVisibleTo("HaptoFlow.Tests")]

@@ -10,38 +10,17 @@ using HaptoFlow.Model;
 
 namespace HaptoFlow.Studies
 {
-    /// <summary>The file system as a study's log uses it. Members throw <see cref="IOException"/> and <see
-    /// cref="UnauthorizedAccessException"/>.</summary>
-    internal interface IStudyFiles
+    /// <summary>How a study's log writes. Members throw <see cref="IOException"/> and <see
+    /// cref="UnauthorizedAccessException"/>; the tests' own let a write fail.</summary>
+    internal class LogWriter
     {
-        /// <summary>Full paths of matching files; none where the folder is missing.</summary>
-        IReadOnlyList<string> Find(string folder, string pattern);
-
-        bool Exists(string path);
-
-        byte[] Read(string path);
-
         /// <summary>Writes a file atomically, replacing an older one.</summary>
-        void Replace(string path, string text);
+        public virtual void Replace(string path, string text) => WholeFile.Write(path, text);
 
         /// <summary>Appends a line; it is on disk when the call returns. A failure may leave part of the line, which
         /// the next call removes.</summary>
         /// <param name="before">The expected present contents of the file.</param>
-        void AddLine(string path, byte[] before, byte[] line);
-    }
-
-    internal sealed class DiskFiles : IStudyFiles
-    {
-        public IReadOnlyList<string> Find(string folder, string pattern) =>
-            Directory.Exists(folder) ? Directory.GetFiles(folder, pattern) : Array.Empty<string>();
-
-        public bool Exists(string path) => File.Exists(path);
-
-        public byte[] Read(string path) => File.ReadAllBytes(path);
-
-        public void Replace(string path, string text) => WholeFile.Write(path, text);
-
-        public void AddLine(string path, byte[] before, byte[] line)
+        public virtual void AddLine(string path, byte[] before, byte[] line)
         {
             using var stream = new FileStream(path, FileMode.Open, FileAccess.ReadWrite, FileShare.Read);
             if (!HoldsOnly(stream, before))
@@ -58,14 +37,10 @@ namespace HaptoFlow.Studies
         /// line.</summary>
         private static bool HoldsOnly(FileStream stream, byte[] before)
         {
-            var content = new byte[stream.Length];
-            int filled = 0;
-            int read;
-            while (filled < content.Length && (read = stream.Read(content, filled, content.Length - filled)) > 0)
-            {
-                filled += read;
-            }
-            if (filled < before.Length || !content.AsSpan(0, before.Length).SequenceEqual(before))
+            var copy = new MemoryStream();
+            stream.CopyTo(copy);
+            byte[] content = copy.ToArray();
+            if (!content.AsSpan().StartsWith(before))
             {
                 return false;
             }
@@ -184,64 +159,25 @@ namespace HaptoFlow.Studies
     /// differ.</summary>
     internal static class JsonDifference
     {
+        private const string Missing = "missing";
+
         /// <returns>Path and both values; null where they are equal. A member that only one of the objects has is a
         /// difference.</returns>
         public static (string Path, string Was, string Is)? Find(JsonValue was, JsonValue now)
         {
-            if (was.IsObject && now.IsObject)
-            {
-                return OfMembers(was.AsObject(), now.AsObject(), now.Path);
-            }
-            if (was.Elements is { } elements && now.Elements is { } present)
-            {
-                return OfElements(elements, present, now.Path);
-            }
-            string before = JsonText.Of(was);
-            string after = JsonText.Of(now);
-            return string.Equals(before, after, StringComparison.Ordinal) ? null : (now.Path, before, after);
+            Dictionary<string, string> before = Leaves(was).ToDictionary(leaf => leaf.Path, leaf => leaf.Text);
+            Dictionary<string, string> after = Leaves(now).ToDictionary(leaf => leaf.Path, leaf => leaf.Text);
+            string? path = after.Keys.Concat(before.Keys).FirstOrDefault(each => Value(before, each) != Value(after, each));
+            return path == null ? null : (path, Value(before, path), Value(after, path));
         }
 
-        private static (string Path, string Was, string Is)? OfMembers(
-            IReadOnlyDictionary<string, JsonValue> was, IReadOnlyDictionary<string, JsonValue> now, string path)
-        {
-            foreach (KeyValuePair<string, JsonValue> member in now)
-            {
-                if (!was.TryGetValue(member.Key, out JsonValue? before))
-                {
-                    return (member.Value.Path, "missing", JsonText.Of(member.Value));
-                }
-                (string, string, string)? difference = Find(before, member.Value);
-                if (difference != null)
-                {
-                    return difference;
-                }
-            }
-            foreach (KeyValuePair<string, JsonValue> member in was)
-            {
-                if (!now.ContainsKey(member.Key))
-                {
-                    return (member.Value.Path, JsonText.Of(member.Value), "missing");
-                }
-            }
-            return null;
-        }
+        private static string Value(Dictionary<string, string> leaves, string path) =>
+            leaves.TryGetValue(path, out string? text) ? text : Missing;
 
-        private static (string Path, string Was, string Is)? OfElements(
-            IReadOnlyList<JsonValue> was, IReadOnlyList<JsonValue> now, string path)
-        {
-            if (was.Count != now.Count)
-            {
-                return (path, $"{was.Count} long", $"{now.Count} long");
-            }
-            for (int index = 0; index < now.Count; ++index)
-            {
-                (string, string, string)? difference = Find(was[index], now[index]);
-                if (difference != null)
-                {
-                    return difference;
-                }
-            }
-            return null;
-        }
+        private static IEnumerable<(string Path, string Text)> Leaves(JsonValue value) =>
+            value.IsObject ? value.AsObject().Values.SelectMany(Leaves)
+            : value.Elements is { } elements
+                ? elements.SelectMany(Leaves).Prepend((value.Path, $"{elements.Count} long"))
+            : new[] { (value.Path, JsonText.Of(value)) };
     }
 }

@@ -7,20 +7,10 @@ using HaptoFlow.Model;
 namespace HaptoFlow.Studies
 {
     /// <summary>A model or exported baseline that a study plays.</summary>
-    public readonly struct StudyModel
-    {
-        /// <param name="sha256">SHA-256 of the file, 64 hexadecimal digits.</param>
-        public StudyModel(string method, string file, string sha256) => (Method, File, Sha256) = (method, file, sha256);
-
-        /// <summary>The method's name in the settings; "signal" in the latency study.</summary>
-        public string Method { get; }
-
-        /// <summary>The file's name without its folders.</summary>
-        public string File { get; }
-
-        /// <summary>SHA-256 of the file, 64 hexadecimal digits.</summary>
-        public string Sha256 { get; }
-    }
+    /// <param name="Method">The method's name in the settings; "signal" in the latency study.</param>
+    /// <param name="File">The file's name without its folders.</param>
+    /// <param name="Sha256">SHA-256 of the file, 64 hexadecimal digits.</param>
+    public sealed record StudyModel(string Method, string File, string Sha256);
 
     /// <summary>The contents of a sidecar that are known before the session.</summary>
     public sealed class StudyDescription
@@ -43,8 +33,11 @@ namespace HaptoFlow.Studies
         /// <summary>True where no person took part; reports state it.</summary>
         public bool IsSimulated { get; set; }
 
-        /// <summary>Application, platform and devices of the study.</summary>
-        public StudyEnvironment Environment { get; set; } = new StudyEnvironment();
+        /// <summary>Application and platform: <see cref="StudyPlayer.Build"/>.</summary>
+        public StudyFields Build { get; set; } = new StudyFields();
+
+        /// <summary>Headset, audio device and its delay: <see cref="StudySettings.Device"/>.</summary>
+        public StudyFields Device { get; set; } = new StudyFields();
 
         /// <summary>The models that generated the vibration.</summary>
         public IReadOnlyList<StudyModel> Models { get; set; } = new StudyModel[0];
@@ -89,8 +82,8 @@ namespace HaptoFlow.Studies
             document.Add("finished", state.IsFinished);
             document.Add("resumptions", state.ResumedAtTrials.Count);
             document.Add("resumed_at_trials", state.ResumedAtTrials.ToArray());
-            document.Add("build", Environment.Build());
-            document.Add("device", Environment.Device(Delay));
+            document.Add("build", Build);
+            document.Add("device", Device);
             document.Add("delay", new StudyFields
             {
                 { "pose_interval_ms", Delay.PoseIntervalMilliseconds },
@@ -119,57 +112,6 @@ namespace HaptoFlow.Studies
 
         /// <summary>Measured with an oscilloscope or an accelerometer on this set-up.</summary>
         Measured,
-    }
-
-    /// <summary>Application, headset and audio device of a study, for the record. Contains nothing about a
-    /// person.</summary>
-    public sealed class StudyEnvironment
-    {
-        /// <summary>Name and version of the application.</summary>
-        public string Application { get; set; } = "";
-
-        /// <summary>Unity's version.</summary>
-        public string Unity { get; set; } = "";
-
-        /// <summary>HaptoFlow's version.</summary>
-        public string Package { get; set; } = "";
-
-        /// <summary>The platform, for example WindowsPlayer.</summary>
-        public string Platform { get; set; } = "";
-
-        /// <summary>Name of the headset; empty without one.</summary>
-        public string Headset { get; set; } = "";
-
-        /// <summary>Refresh rate of headset or screen in Hz; 0 where unknown.</summary>
-        public double RefreshRateHz { get; set; }
-
-        /// <summary>Sample rate of the audio device, in Hz.</summary>
-        public int OutputRateHz { get; set; }
-
-        /// <summary>Frames of an audio block.</summary>
-        public int BlockFrames { get; set; }
-
-        /// <summary>Origin of the device delay.</summary>
-        public DeviceDelaySource DeviceDelaySource { get; set; }
-
-        /// <summary>How the delay was measured, or the basis of the estimate.</summary>
-        public string DeviceDelayNote { get; set; } = "";
-
-        internal StudyFields Build() => new StudyFields
-        {
-            { "application", Application }, { "unity", Unity }, { "package", Package }, { "platform", Platform },
-        };
-
-        internal StudyFields Device(SystemDelay delay) => new StudyFields
-        {
-            { "headset", Headset },
-            { "refresh_rate_hz", RefreshRateHz },
-            { "output_rate_hz", OutputRateHz },
-            { "block_frames", BlockFrames },
-            { "device_delay_ms", delay.DeviceMilliseconds },
-            { "device_delay_source", DeviceDelaySource == DeviceDelaySource.Measured ? "measured" : "estimated" },
-            { "device_delay_note", DeviceDelayNote },
-        };
     }
 
     /// <summary>Ordered keys and values of a sidecar: texts, numbers, booleans, lists of them, or further fields. Use a

@@ -15,16 +15,16 @@ namespace HaptoFlow.Studies
     {
         private const string AnotherParticipant = "or choose another participant number";
 
-        private readonly IStudyFiles files;
+        private readonly LogWriter writer;
         private readonly StudyDescription description;
         private readonly SidecarState state;
         private byte[] written;
         private byte[]? pending;
 
         private StudyLog(
-            IStudyFiles files, string path, StudyDescription description, SidecarState state, LogTable table)
+            LogWriter writer, string path, StudyDescription description, SidecarState state, LogTable table)
         {
-            this.files = files;
+            this.writer = writer;
             this.description = description;
             this.state = state;
             CsvPath = path;
@@ -68,15 +68,12 @@ namespace HaptoFlow.Studies
         /// has a log, or where the folder cannot be read. Any thread. Reads the folder and allocates.</summary>
         /// <param name="kind">The kind of study.</param>
         /// <param name="participant">The number that would be begun next.</param>
-        public static string NumbersLeftOut(string folder, StudyKind kind, int participant) =>
-            NumbersLeftOut(folder, kind, participant, new DiskFiles());
-
-        internal static string NumbersLeftOut(string folder, StudyKind kind, int participant, IStudyFiles files)
+        public static string NumbersLeftOut(string folder, StudyKind kind, int participant)
         {
             try
             {
                 var present = new HashSet<int>();
-                foreach (string path in files.Find(folder, kind.Name + "-P*.csv"))
+                foreach (string path in FilesOf(folder, kind.Name + "-P", ".csv"))
                 {
                     string[] words = Path.GetFileNameWithoutExtension(path).Split('-');
                     if (words.Length == 3 && int.TryParse(words[1].Substring(1),
@@ -106,9 +103,9 @@ namespace HaptoFlow.Studies
         /// <exception cref="StudyException">The participant has finished this study, the interrupted session used other
         /// settings, a file is damaged, or the folder is not writable. Nothing was overwritten.</exception>
         public static StudyLog Open(string folder, StudyDescription description) =>
-            Open(folder, description, new DiskFiles());
+            Open(folder, description, new LogWriter());
 
-        internal static StudyLog Open(string folder, StudyDescription description, IStudyFiles files)
+        internal static StudyLog Open(string folder, StudyDescription description, LogWriter writer)
         {
             try
             {
@@ -117,8 +114,8 @@ namespace HaptoFlow.Studies
                     throw new ArgumentException("the folder for the logs is empty");
                 }
                 string stem = $"{description.Plan.Kind.Name}-P{description.Plan.Participant:00}-";
-                List<string> tables = FilesOf(files, folder, stem, ".csv");
-                List<string> sidecars = FilesOf(files, folder, stem, ".json");
+                IReadOnlyList<string> tables = FilesOf(folder, stem, ".csv");
+                IReadOnlyList<string> sidecars = FilesOf(folder, stem, ".json");
                 List<string> sessions = tables
                     .Union(sidecars.Select(each => Path.ChangeExtension(each, ".csv")))
                     .ToList();
@@ -128,8 +125,8 @@ namespace HaptoFlow.Studies
                         $"{sessions.Count} sessions in this folder; move all but one elsewhere, {AnotherParticipant}");
                 }
                 return sessions.Count == 1
-                    ? Resume(files, sessions[0], description)
-                    : Begin(files, Path.Combine(folder, stem + NewSession() + ".csv"), description);
+                    ? Resume(writer, sessions[0], description)
+                    : Begin(writer, Path.Combine(folder, stem + NewSession() + ".csv"), description);
             }
             catch (Exception error) when (IsOfDisk(error) || IsOfPath(error))
             {
@@ -171,7 +168,7 @@ namespace HaptoFlow.Studies
                 return true;
             }
             byte[] line = pending;
-            if (!TryWrite(CsvPath, () => files.AddLine(CsvPath, written, line)))
+            if (!TryWrite(CsvPath, () => writer.AddLine(CsvPath, written, line)))
             {
                 return false;
             }
@@ -206,53 +203,53 @@ namespace HaptoFlow.Studies
             }
         }
 
-        private static StudyLog Begin(IStudyFiles files, string path, StudyDescription description)
+        private static StudyLog Begin(LogWriter writer, string path, StudyDescription description)
         {
             // The table comes first: a table without sidecar has no answers, while a sidecar without table may have
             // lost some.
             string header = LogTable.Header(description.Plan.Kind);
-            files.Replace(path, header);
-            return NewLog(files, path, description, Encoding.UTF8.GetBytes(header));
+            writer.Replace(path, header);
+            return NewLog(writer, path, description, Encoding.UTF8.GetBytes(header));
         }
 
-        private static StudyLog NewLog(IStudyFiles files, string path, StudyDescription description, byte[] content)
+        private static StudyLog NewLog(LogWriter writer, string path, StudyDescription description, byte[] content)
         {
             string session = Path.GetFileNameWithoutExtension(path).Split('-').Last();
             var state = new SidecarState(session, DateTime.UtcNow.ToString("yyyy-MM-ddTHH:mm:ssZ",
                 System.Globalization.CultureInfo.InvariantCulture));
-            var log = new StudyLog(files, path, description, state, LogTable.Read(description.Plan, content));
+            var log = new StudyLog(writer, path, description, state, LogTable.Read(description.Plan, content));
             log.WriteSidecar();
             return log;
         }
 
-        private static StudyLog Resume(IStudyFiles files, string path, StudyDescription description)
+        private static StudyLog Resume(LogWriter writer, string path, StudyDescription description)
         {
             string sidecar = SidecarOf(path);
-            if (!files.Exists(path))
+            if (!File.Exists(path))
             {
                 throw new StudyException(
                     $"{path}: is missing but its sidecar exists; restore it, {AnotherParticipant}");
             }
-            if (!files.Exists(sidecar))
+            if (!File.Exists(sidecar))
             {
-                byte[] content = files.Read(path);
+                byte[] content = File.ReadAllBytes(path);
                 bool isBare = content.SequenceEqual(Encoding.UTF8.GetBytes(LogTable.Header(description.Plan.Kind)));
                 return isBare
-                    ? NewLog(files, path, description, content)
+                    ? NewLog(writer, path, description, content)
                     : throw new StudyException(
                         $"{sidecar}: is missing but its table exists; restore it, {AnotherParticipant}");
             }
-            SidecarState state = Checked(sidecar, () => Resumable(files, sidecar, description));
-            LogTable table = Checked(path, () => LogTable.Read(description.Plan, files.Read(path)));
+            SidecarState state = Checked(sidecar, () => Resumable(sidecar, description));
+            LogTable table = Checked(path, () => LogTable.Read(description.Plan, File.ReadAllBytes(path)));
             state.ResumedAtTrials.Add(table.Rows + 1);
-            var log = new StudyLog(files, path, description, state, table);
+            var log = new StudyLog(writer, path, description, state, table);
             log.WriteSidecar();
             return log;
         }
 
-        private static SidecarState Resumable(IStudyFiles files, string sidecar, StudyDescription description)
+        private static SidecarState Resumable(string sidecar, StudyDescription description)
         {
-            JsonValue was = JsonValue.Parse(Encoding.UTF8.GetString(files.Read(sidecar)));
+            JsonValue was = JsonValue.Parse(Encoding.UTF8.GetString(File.ReadAllBytes(sidecar)));
             SidecarState state = SidecarState.Read(was);
             if (state.IsFinished)
             {
@@ -292,13 +289,15 @@ namespace HaptoFlow.Studies
             }
         }
 
-        private void WriteSidecar() => files.Replace(SidecarPath, description.Sidecar(state));
+        private void WriteSidecar() => writer.Replace(SidecarPath, description.Sidecar(state));
 
-        private static List<string> FilesOf(IStudyFiles files, string folder, string stem, string ending) => files
-            .Find(folder, stem + "*" + ending)
-            .Where(each => each.EndsWith(ending, StringComparison.Ordinal))
-            .OrderBy(each => each, StringComparer.Ordinal)
-            .ToList();
+        /// <summary>None where the folder is missing.</summary>
+        private static IReadOnlyList<string> FilesOf(string folder, string stem, string ending) =>
+            !Directory.Exists(folder)
+                ? Array.Empty<string>()
+                : Directory.GetFiles(folder, stem + "*" + ending)
+                    .Where(each => each.EndsWith(ending, StringComparison.Ordinal))
+                    .OrderBy(each => each, StringComparer.Ordinal).ToArray();
 
         private static string SidecarOf(string path) => Path.ChangeExtension(path, ".json");
 

@@ -236,30 +236,14 @@ namespace HaptoFlow.Studies
             {
                 throw new ArgumentOutOfRangeException(nameof(count), count, "a design has at least one treatment");
             }
-            bool isMirrored = count % 2 == 1 && count > 1;
-            var rows = new int[isMirrored ? 2 * count : count][];
-            for (int shift = 0; shift < count; ++shift)
-            {
-                rows[shift] = Row(count, shift);
-                if (isMirrored)
-                {
-                    rows[count + shift] = (int[])rows[shift].Clone();
-                    Array.Reverse(rows[count + shift]);
-                }
-            }
-            return rows;
+            int[][] rows = Enumerable.Range(0, count).Select(shift => Row(count, shift)).ToArray();
+            return count % 2 == 1 && count > 1
+                ? rows.Concat(rows.Select(row => row.Reverse().ToArray())).ToArray()
+                : rows;
         }
 
-        private static int[] Row(int count, int shift)
-        {
-            var row = new int[count];
-            for (int place = 0; place < count; ++place)
-            {
-                int zigzag = place % 2 == 1 ? (place + 1) / 2 : count - place / 2;
-                row[place] = (zigzag + shift) % count;
-            }
-            return row;
-        }
+        private static int[] Row(int count, int shift) => Enumerable.Range(0, count)
+            .Select(place => (shift + (place % 2 == 1 ? (place + 1) / 2 : count - place / 2)) % count).ToArray();
     }
 
     /// <summary>The pseudorandom numbers of study plans: Steele, Lea and Flood (2014), Fast splittable pseudorandom
@@ -277,11 +261,7 @@ namespace HaptoFlow.Studies
         public static int[] Shuffle(int count, ulong seed)
         {
             var random = new SplitMix64(seed);
-            var order = new int[count];
-            for (int index = 0; index < count; ++index)
-            {
-                order[index] = index;
-            }
+            int[] order = Enumerable.Range(0, count).ToArray();
             for (int index = count - 1; index > 0; --index)
             {
                 int other = (int)(random.Next() % (ulong)(index + 1));

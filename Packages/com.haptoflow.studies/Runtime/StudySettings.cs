@@ -55,17 +55,8 @@ namespace HaptoFlow.Studies
             set => folder = value ?? "";
         }
 
-        /// <summary>The name of the headset, for the log.</summary>
-        public string Headset => headset;
-
         /// <summary>The channel of the audio device that the actuator is wired to, from 0.</summary>
         public int HapticChannel { get => hapticChannel; set => hapticChannel = value; }
-
-        /// <summary>The colour of the masking noise in the headphones.</summary>
-        public NoiseColour NoiseColour => noiseColour;
-
-        /// <summary>The RMS level of the masking noise, in dB of full scale.</summary>
-        public float NoiseDecibels => noiseDecibels;
 
         /// <summary>The delay from the audio callback to the hand, in ms.</summary>
         public float DeviceDelayMilliseconds { get => deviceDelayMilliseconds; set => deviceDelayMilliseconds = value; }
@@ -79,13 +70,22 @@ namespace HaptoFlow.Studies
         /// <summary>Whether the session is a rehearsal without a participant.</summary>
         public bool Simulated { get => simulated; set => simulated = value; }
 
-        /// <summary>Application, platform, audio device, headset and device delay, for the log. Allocates.</summary>
-        public StudyEnvironment Environment()
+        /// <summary>Headset, audio device and device delay, for the log. Contains nothing about a person. Allocates.
+        /// </summary>
+        public StudyFields Device()
         {
-            StudyEnvironment environment = StudyPlayer.Environment(headset);
-            environment.DeviceDelaySource = deviceDelaySource;
-            environment.DeviceDelayNote = deviceDelayNote;
-            return environment;
+            AudioSettings.GetDSPBufferSize(out int frames, out _);
+            DisplayRate.TryGet(out double hertz);
+            return new StudyFields
+            {
+                { "headset", headset },
+                { "refresh_rate_hz", hertz },
+                { "output_rate_hz", StudyPlayer.OutputRateHz },
+                { "block_frames", frames },
+                { "device_delay_ms", (double)deviceDelayMilliseconds },
+                { "device_delay_source", deviceDelaySource == DeviceDelaySource.Measured ? "measured" : "estimated" },
+                { "device_delay_note", deviceDelayNote },
+            };
         }
 
         /// <summary>Colour and level of the masking noise, for the log.</summary>
@@ -133,23 +133,13 @@ namespace HaptoFlow.Studies
         /// <summary>Number of channels of the audio device.</summary>
         public static int Channels => SpeakerChannels.Count(AudioSettings.GetConfiguration().speakerMode);
 
-        /// <summary>Application, platform and audio device, for the record. Makes garbage.</summary>
-        /// <param name="headset">Name of the headset as entered by the operator; empty without one.</param>
-        public static StudyEnvironment Environment(string headset)
+        /// <summary>Application, Unity, package and platform, for the log. Allocates.</summary>
+        public static StudyFields Build() => new StudyFields
         {
-            AudioSettings.GetDSPBufferSize(out int frames, out _);
-            DisplayRate.TryGet(out double hertz);
-            return new StudyEnvironment
-            {
-                Application = $"{Application.productName} {Application.version}",
-                Unity = Application.unityVersion,
-                Package = OnnxRuntime.LibraryVersion(),
-                Platform = Application.platform.ToString(),
-                Headset = headset,
-                RefreshRateHz = hertz,
-                OutputRateHz = OutputRateHz,
-                BlockFrames = frames,
-            };
-        }
+            { "application", $"{Application.productName} {Application.version}" },
+            { "unity", Application.unityVersion },
+            { "package", OnnxRuntime.LibraryVersion() },
+            { "platform", Application.platform.ToString() },
+        };
     }
 }

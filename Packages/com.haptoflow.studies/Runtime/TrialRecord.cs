@@ -125,13 +125,7 @@ namespace HaptoFlow.Studies
     public sealed class StudyException : Exception
     {
         /// <summary>Creates an exception with a message that says what is wrong and what to do.</summary>
-        public StudyException(string message)
-            : base(message)
-        {
-        }
-
-        /// <summary>Creates an exception with a message and the exception that caused it.</summary>
-        public StudyException(string message, Exception cause)
+        public StudyException(string message, Exception? cause = null)
             : base(message, cause)
         {
         }

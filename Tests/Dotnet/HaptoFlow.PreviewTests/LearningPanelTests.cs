@@ -78,9 +78,9 @@ namespace HaptoFlow.PreviewTests
         public void UnknownFiguresOfAReportAreRead()
         {
             LearningCurves curves = LearningReport.Read(MadeReports.Of(2, 1, 1))!.Curves!;
-            Assert.That(curves.Speeds[1].Learnt.RibsDecibels, Is.EqualTo(new double?[] { -6.1, null }));
-            Assert.That(curves.Speeds[1].Recorded.Kurtosis, Is.EqualTo(3.4));
-            Assert.That(curves.Forces.Single().RecordedMps, Is.EqualTo((0.02, 0.034)));
+            Assert.That(curves.Spectra.Speeds[1].Learnt.RibsDb, Is.EqualTo(new double?[] { -6.1, null }));
+            Assert.That(curves.Spectra.Speeds[1].Recorded.Kurtosis, Is.EqualTo(3.4));
+            Assert.That(curves.Levels.Forces.Single().RecordedSpeedMps, Is.EqualTo(new[] { 0.02, 0.034 }));
         }
     }
 }

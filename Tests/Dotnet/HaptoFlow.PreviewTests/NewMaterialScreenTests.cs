@@ -1,6 +1,5 @@
 using System;
 using System.Collections.Generic;
-using System.Diagnostics;
 using System.IO;
 using System.Linq;
 using HaptoFlow.Editor;
@@ -201,66 +200,6 @@ namespace HaptoFlow.PreviewTests
             Assert.That(ClipPreview.Position, Is.EqualTo(9600));
             Press("Stop");
             Assert.That(ClipPreview.Playing, Is.Null);
-        }
-
-        [Test]
-        public void TheWindowExportsTheBytesOfTheCommandLine()
-        {
-            string program = Path.Combine(RepositoryFiles.NativeFolder, "haptoflow");
-            Assume.That(File.Exists(program), "the command line is built");
-            string table = RibbedTable();
-            window.Take(table);
-            window.Finish();
-            Press("Learn");
-            window.Finish();
-            Assert.That(window.Session!.Problem, Is.Null);
-            Assume.That(JsonValue.Parse(State.Report.Trim())["stopped_early"].AsBoolean(), Is.False, "there was time");
-            Assert.That(JsonValue.Parse(State.Material)["periodic"].AsBoolean(), Is.True);
-            WindowHost.AnswerToSave = _ => "Assets/window.haptomaterial";
-            Press("Export File\u2026");
-            string line = Path.ChangeExtension(table, ".haptomaterial");
-            var command = new ProcessStartInfo(program)
-            {
-                // Mono ignores ArgumentList.
-                Arguments = $"learn \"{table}\" -o \"{line}\" --model \"{RepositoryFiles.DefaultModel}\" " +
-                    "--seconds-limit 3600 --quiet",
-                RedirectStandardOutput = true,
-                UseShellExecute = false,
-            };
-            using Process learn = Process.Start(command)!;
-            learn.StandardOutput.ReadToEnd();
-            learn.WaitForExit();
-            Assert.That(learn.ExitCode, Is.Zero);
-            Assert.That(File.ReadAllText("Assets/window.haptomaterial"), Is.EqualTo(File.ReadAllText(line)));
-        }
-
-        /// <summary>Ten seconds of noise in many directions, with a sidecar; with ribs 1.25 mm apart.</summary>
-        private static string RibbedTable()
-        {
-            var random = new System.Random(3);
-            var text = new System.Text.StringBuilder(
-                "time_s,acceleration_mps2,velocity_x_mps,velocity_y_mps,force_newtons\n");
-            double millimetres = 0.0;
-            double slow = 0.0;
-            for (int index = 0; index < 20000; ++index)
-            {
-                double time = index / 2000.0;
-                double speed = 0.08 * Math.Exp(Math.Sin(2.7 * time));
-                double x = speed * Math.Cos(0.9 * time);
-                millimetres += x / 2.0;
-                double white = random.NextDouble() - 0.5;
-                slow += 0.3 * (white - slow);
-                double ribs = Math.Cos(1.6 * Math.PI * millimetres) + 0.5 * Math.Cos(3.2 * Math.PI * millimetres);
-                text.Append(FormattableString.Invariant(
-                    $"{time:R},{20.0 * speed * (4.0 * slow + 0.8 * ribs):R},{x:R},{speed * Math.Sin(0.9 * time):R},1\n"));
-            }
-            string folder = Path.Combine(Environment.CurrentDirectory, "Recordings");
-            Directory.CreateDirectory(folder);
-            string path = Path.Combine(folder, "kitchen_mat.csv");
-            File.WriteAllText(path, text.ToString());
-            File.WriteAllText(Path.ChangeExtension(path, ".json"),
-                "{\"label\": \"Kitchen_Mat\", \"licence\": \"CC BY 4.0\", \"source\": \"our hall\"}");
-            return path;
         }
 
         [Test]

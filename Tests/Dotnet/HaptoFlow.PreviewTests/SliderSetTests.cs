@@ -13,7 +13,7 @@ namespace HaptoFlow.PreviewTests
     public sealed class SliderSetTests
     {
         private static readonly string Text = File.ReadAllText(RepositoryFiles.In(
-            "Packages", "com.haptoflow.runtime", "Editor", "Sliders", "default.sliders.json"));
+            "Packages", "com.haptoflow.runtime", "Editor", "default.sliders.json"));
         private static readonly JsonValue Json = JsonValue.Parse(Text);
         private static readonly SliderSet Sliders = SliderSet.Read(Text);
 
@@ -77,7 +77,7 @@ namespace HaptoFlow.PreviewTests
         [TestCase("haptoflow-sliders", "haptoflow-material", "format is not \"haptoflow-sliders\"")]
         [TestCase("\"direction\": [", "\"direction\": [0,", "sliders[0].direction is not a list of")]
         [TestCase("\"lowest\": [", "\"lowest\": [0,", "lowest is not a list of")]
-        [TestCase("0.211864", "1e7", "sliders[0].direction[0] is not a number from -1000000 to 1000000")]
+        [TestCase("0.192288", "1e7", "sliders[0].direction[0] is not a number from -1000000 to 1000000")]
         [TestCase("\"mean\"", "\"means\"", "has no key \"mean\"")]
         public void AnInvalidFileIsRefusedWithTheNameOfItsKey(string part, string instead, string message)
         {

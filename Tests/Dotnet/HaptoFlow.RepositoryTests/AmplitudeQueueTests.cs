@@ -12,14 +12,14 @@ namespace HaptoFlow.RepositoryTests
         private const double FrameSeconds = 1.0 / 72.0;
 
         [Test]
-        public void TheMotorIsUpdatedForTenMinutesAndNeverFasterThanItAccepts([Values(45.0, 72.0, 500.0)] double rateHz)
+        public void TheMotorIsUpdatedForAMinuteAndNeverFasterThanItAccepts([Values(45.0, 72.0, 500.0)] double rateHz)
         {
             var motor = new SimulatedMotor { RateHz = rateHz };
             AmplitudeQueue queue = QueueFor(motor, SimulatedWave.Sine(120.0));
             double now = 0.0;
             int silent = 0;
             var random = new Random(3);
-            while (now < 600.0)
+            while (now < 60.0)
             {
                 now += FrameSeconds * (0.85 + 0.3 * random.NextDouble());
                 silent += now > 1.0 && motor.AmplitudeAt(now) <= 0f ? 1 : 0;
@@ -29,8 +29,8 @@ namespace HaptoFlow.RepositoryTests
             }
             Assert.That(silent, Is.Zero);
             Assert.That(queue.Statistics.Gaps, Is.Zero);
-            Assert.That(motor.Commands.Count, Is.LessThanOrEqualTo(600.0 * Math.Min(rateHz, 85.0) + 2.0));
-            Assert.That(motor.Commands.Count, Is.GreaterThan(600.0 * Math.Min(0.9 * rateHz, 70.0)));
+            Assert.That(motor.Commands.Count, Is.LessThanOrEqualTo(60.0 * Math.Min(rateHz, 85.0) + 2.0));
+            Assert.That(motor.Commands.Count, Is.GreaterThan(60.0 * Math.Min(0.9 * rateHz, 70.0)));
         }
 
         [Test]

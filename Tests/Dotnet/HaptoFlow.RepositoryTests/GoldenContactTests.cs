@@ -69,15 +69,13 @@ namespace HaptoFlow.RepositoryTests
     {
         private readonly JsonValue testCase;
         private readonly List<GoldenSurface> surfaces = new List<GoldenSurface>();
-        private readonly ContactSettings settings;
         private int played;
 
         public GoldenScene(JsonValue testCase)
         {
             this.testCase = testCase;
-            settings = SettingsOf(testCase["settings"]);
             JsonValue scene = testCase["scene"];
-            Tracker = new ContactTracker(settings, scene["stylus"]["tip_radius"].AsNumber()) { Geometry = this };
+            Tracker = new ContactTracker(scene["stylus"]["tip_radius"].AsNumber()) { Geometry = this };
             foreach (JsonValue surface in scene["surfaces"].AsArray())
             {
                 surfaces.Add(new GoldenSurface(surface, testCase["label_stiffness"]));
@@ -151,30 +149,6 @@ namespace HaptoFlow.RepositoryTests
 
         private static double NumberOrNaN(JsonValue value) => value.IsNull ? double.NaN : value.AsNumber();
 
-        private static ContactSettings SettingsOf(JsonValue json)
-        {
-            var settings = new ContactSettings
-            {
-                MaximumForceNewtons = json["maximum_force_newtons"].AsNumber(),
-                DefaultStiffnessNewtonsPerMetre = json["default_stiffness_newtons_per_metre"].AsNumber(),
-                ReleaseDistanceMetres = json["release_distance_metres"].AsNumber(),
-                SwitchMarginMetres = json["switch_margin_metres"].AsNumber(),
-                OpenMeshDepthMetres = json["open_mesh_depth_metres"].AsNumber(),
-                LostSeconds = json["lost_seconds"].AsNumber(),
-            };
-            settings.Velocity.WindowSeconds = json["velocity_window_seconds"].AsNumber();
-            settings.Velocity.ApproachSeconds = json["velocity_approach_seconds"].AsNumber();
-            settings.Velocity.HoldSeconds = json["velocity_hold_seconds"].AsNumber();
-            settings.Velocity.StopSeconds = json["velocity_stop_seconds"].AsNumber();
-            settings.Velocity.MaximumGapSeconds = json["velocity_longest_gap_seconds"].AsNumber();
-            settings.Velocity.MinimumStepSeconds = json["velocity_shortest_step_seconds"].AsNumber();
-            settings.Velocity.MinimumMoveMetres = json["velocity_smallest_move_metres"].AsNumber();
-            settings.Velocity.MaximumSpeedMps = json["velocity_fastest_mps"].AsNumber();
-            settings.Velocity.JumpGainMps = json["velocity_jump_gain_mps"].AsNumber();
-            settings.Velocity.JumpAccelerationMps2 = json["velocity_jump_acceleration_mps2"].AsNumber();
-            settings.Velocity.MinimumJumpSeconds = json["velocity_shortest_jump_seconds"].AsNumber();
-            return settings;
-        }
     }
 
     /// <summary>A surface of a golden scene: its shape, and its pose at each sample.</summary>
@@ -208,7 +182,7 @@ namespace HaptoFlow.RepositoryTests
             SurfaceEntry? entry = from.HasValue ? EntryInto(from.Value, tip) : null;
             HeldFace held = tracker.HeldFaceOf(Tracked);
             held = entry.HasValue ? held.EnteredBy(entry.Value) : held;
-            SurfacePoint? local = Closest(tip, held, tracker.Settings);
+            SurfacePoint? local = Closest(tip, held);
             if (entry.HasValue && !held.IsTouched &&
                 !(local.HasValue && local.Value.BeyondMetres <= 0.0 && local.Value.SignedDistanceMetres <= 0.0))
             {
@@ -221,13 +195,13 @@ namespace HaptoFlow.RepositoryTests
         }
 
         public SurfacePoint? Closest(ContactTracker tracker, int frame, Double3 tipMetres) =>
-            Closest(PoseAt(frame).PointToLocal(tipMetres), tracker.HeldFaceOf(Tracked), tracker.Settings);
+            Closest(PoseAt(frame).PointToLocal(tipMetres), tracker.HeldFaceOf(Tracked));
 
         private RigidPose PoseAt(int frame) => Poses == null
             ? restingPose
             : new RigidPose(VectorAt(Poses[frame], 0), RotationOf(Poses[frame], 3));
 
-        private SurfacePoint? Closest(Double3 tip, in HeldFace held, ContactSettings settings)
+        private SurfacePoint? Closest(Double3 tip, in HeldFace held)
         {
             if (shape.Find("box") is { } box)
             {
@@ -237,7 +211,8 @@ namespace HaptoFlow.RepositoryTests
             {
                 return Shapes.OnCapsule(round.Radius, round.Height, tip, held);
             }
-            return mesh == null ? Shapes.OnPlane(tip) : mesh.Closest(tip, held);
+            // Without another shape it is the half-space below y = 0.
+            return mesh == null ? new SurfacePoint(tip.With(1, 0.0), Double3.Up, tip.Y) : mesh.Closest(tip, held);
         }
 
         private SurfaceEntry? EntryInto(Double3 from, Double3 tip)
@@ -250,7 +225,14 @@ namespace HaptoFlow.RepositoryTests
             {
                 return Shapes.EntryOfCapsule(round.Radius, round.Height, from, tip);
             }
-            return mesh == null ? Shapes.EntryOfPlane(from, tip) : mesh.EntryInto(from, tip);
+            if (mesh != null)
+            {
+                return mesh.EntryInto(from, tip);
+            }
+            double share = from.Y / (from.Y - tip.Y);
+            return from.Y < 0.0 || tip.Y >= 0.0
+                ? (SurfaceEntry?)null
+                : new SurfaceEntry((from + (tip - from) * share).With(1, 0.0), Double3.Up, share);
         }
 
         /// <summary>Radius and height of a sphere or a capsule.</summary>

@@ -18,6 +18,18 @@ namespace HaptoFlow.RepositoryTests
 
         private static readonly byte[] Model = File.ReadAllBytes(RepositoryFiles.DefaultModel);
 
+        // Read faster than a real recording.
+        private static readonly Recording Short = Noise().With(0.08, 1.0);
+
+        /// <summary>Eleven seconds of noise without motion.</summary>
+        private static Recording Noise()
+        {
+            var random = new Random(3);
+            return MadeRecordings.Table("time_s,acceleration_mps2\n" + string.Concat(
+                Enumerable.Range(0, 22000).Select(index => FormattableString.Invariant(
+                    $"{index / 2000.0:R},{6.0 * random.NextDouble() - 3.0:R}\n"))));
+        }
+
         private static HapticLearning Start(Recording recording, string name = "") =>
             HapticLearning.Start(Model, recording, new LearningOptions
             {
@@ -44,8 +56,9 @@ namespace HaptoFlow.RepositoryTests
                 hasReportedStep |= learning.Doing.Length > 0;
                 Thread.Sleep(1);
             }
-            Assert.That((hasReportedStep, learning.Problem, learning.IsCancelled),
-                Is.EqualTo((true, (string?)null, false)));
+            Assert.That(hasReportedStep, Is.True);
+            Assert.That(learning.Problem, Is.Null);
+            Assert.That(learning.IsCancelled, Is.False);
             MaterialFile material = MaterialFile.Read(learning.Material!);
             Assert.That((material.Name, material.Category, material.Description, material.Licence, material.Space),
                 Is.EqualTo(("doormat", "cloth", "A mat.", "MIT", ModelHeader.Read(Model).Space)));
@@ -64,16 +77,17 @@ namespace HaptoFlow.RepositoryTests
             learning.Cancel();
             learning.Cancel();
             learning.Wait();
-            Assert.That((learning.IsCancelled, learning.Problem, learning.Material, learning.NearestLabel),
-                Is.EqualTo((true, (string?)null, (string?)null, "")));
+            Assert.That(learning.IsCancelled, Is.True);
+            Assert.That(learning.Problem ?? learning.Material, Is.Null);
+            Assert.That(learning.NearestLabel, Is.Empty);
             learning.Cancel();
         }
 
         [Test]
         public void CancellingOneLearningDoesNotCancelTheOther()
         {
-            using HapticLearning one = Start(MadeRecordings.Doormat(), "one");
-            using HapticLearning other = Start(MadeRecordings.Doormat(), "other");
+            using HapticLearning one = Start(Short, "one");
+            using HapticLearning other = Start(Short, "other");
             one.Cancel();
             one.Wait();
             other.Wait();
@@ -85,10 +99,10 @@ namespace HaptoFlow.RepositoryTests
         public void EndAllWaitsForAllLearningsAndLaterOnesCanStart()
         {
             HapticLearning[] all =
-                Enumerable.Range(0, 3).Select(number => Start(MadeRecordings.Doormat(), "m" + number)).ToArray();
+                Enumerable.Range(0, 3).Select(number => Start(Short, "m" + number)).ToArray();
             HapticLearning.EndAll();
             Assert.That(all.All(each => each.IsCompleted), Is.True);
-            using HapticLearning later = Start(MadeRecordings.Doormat());
+            using HapticLearning later = Start(Short);
             later.Wait();
             Assert.That(later.Problem, Is.Null);
         }
@@ -96,14 +110,10 @@ namespace HaptoFlow.RepositoryTests
         [Test]
         public void EnteredSpeedAndForceReplaceMissingOnes()
         {
-            var random = new Random(3);
-            Recording recording = MadeRecordings.Table("time_s,acceleration_mps2\n" + string.Concat(
-                Enumerable.Range(0, 22000).Select(index => FormattableString.Invariant(
-                    $"{index / 2000.0:R},{6.0 * random.NextDouble() - 3.0:R}\n"))));
-            using HapticLearning without = Start(recording);
+            using HapticLearning without = Start(Noise());
             without.Wait();
             Assert.That(without.Problem, Does.StartWith("made.csv: no motion in it or beside it"));
-            using HapticLearning learning = Start(recording.With(0.08, 1.0));
+            using HapticLearning learning = Start(Short);
             learning.Wait();
             Assert.That(learning.Problem, Is.Null);
         }

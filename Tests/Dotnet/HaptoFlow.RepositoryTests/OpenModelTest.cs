@@ -17,6 +17,22 @@ namespace HaptoFlow.RepositoryTests
             model = HapticModel.Open(RepositoryFiles.DefaultModel);
         }
 
+        private protected HapticEngine EngineWithoutWorker(HapticCancellation? cancellation = null) => new HapticEngine(
+            runtime, model, new HapticEngineOptions
+            {
+                Quality = HapticQuality.Draft, WithoutWorker = true, FixedLeadMs = 8.0, Seed = 1,
+                Cancellation = cancellation,
+            });
+
+        private protected static ContactState Sliding(uint touch) => new ContactState
+        {
+            Touching = true,
+            TouchCounter = touch,
+            Material = LabelBlend.Of(1),
+            FirstVelocityMps = 0.05f,
+            ForceNewtons = 0.6f,
+        };
+
         [OneTimeTearDown]
         public void Close()
         {

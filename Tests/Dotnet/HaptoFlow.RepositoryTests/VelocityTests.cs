@@ -39,6 +39,19 @@ namespace HaptoFlow.RepositoryTests
         }
 
         [Test]
+        public void AnEndSpeedBeyondTheLimitIsTheLimit()
+        {
+            Double3 place = Double3.Zero;
+            for (int frame = 0; frame < 9; ++frame)
+            {
+                // Each step as fast as allowed, and faster than the one before by as much as a hand can.
+                place += new Double3((19.9 - 2.4 * (8 - frame)) / 90.0, 0.0, 0.0);
+                path.Add(frame / 90.0, place, place);
+            }
+            Assert.That(relative.Of(path).NowMps.X, Is.EqualTo(20.0).Within(1e-9));
+        }
+
+        [Test]
         public void NoFrameAllocates()
         {
             var random = new Random(6);
@@ -63,7 +76,7 @@ namespace HaptoFlow.RepositoryTests
             }
         }
 
-        private static TipPath NewPath() => new TipPath(new VelocitySettings(), new TrackerNoise());
+        private static TipPath NewPath() => new TipPath(new TrackerNoise());
 
         private static Double3 Noise(Random random, double metres)
         {

@@ -16,7 +16,7 @@ namespace HaptoFlow.RepositoryTests
             2.0 / rateHz + Math.Max(0.012, 1.6 / rateHz));
 
         [Test]
-        public void TheQueueNeitherStarvesNorGrowsInTenMinutesAtAnyRateAndDrift(
+        public void TheQueueNeitherStarvesNorGrowsInAMinuteAtAnyRateAndDrift(
             [Values(45.0, 320.0, 2000.0)] double rateHz, [Values(-0.005, 0.0, 0.005)] double drift,
             [Values] bool replaces)
         {
@@ -26,7 +26,7 @@ namespace HaptoFlow.RepositoryTests
             double now = 0.0;
             double deepest = 0.0;
             double longestLatency = 0.0;
-            for (int frame = 0; now < 600.0; ++frame)
+            for (int frame = 0; now < 60.0; ++frame)
             {
                 now += FrameSeconds * (0.85 + 0.3 * random.NextDouble());
                 device.AdvanceTo(now);

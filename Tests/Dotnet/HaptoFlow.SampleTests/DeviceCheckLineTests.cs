@@ -26,32 +26,26 @@ namespace HaptoFlow.SampleTests
             Assert.That(Failed(lines), Is.EqualTo(new[] { broken }));
             Assert.That(Measured(lines, broken), Is.EqualTo("it is broken"));
 
-            static LibraryFacts Facts(string broken) => new LibraryFacts
-            {
-                Version = () => broken == "native library" ? throw new DllNotFoundException("it is broken") : "0.2.0",
-                RequireAgreement = () => Throw(broken == "struct sizes"),
-                OpenOnnxRuntime = () => Throw(broken == "ONNX Runtime"),
-                Structs = 17,
-            };
+            static LibraryFacts Facts(string broken) => new LibraryFacts(
+                Version: () => broken == "native library" ? throw new DllNotFoundException("it is broken") : "0.2.0",
+                RequireAgreement: () => Throw(broken == "struct sizes"),
+                OpenOnnxRuntime: () => Throw(broken == "ONNX Runtime"),
+                Structs: 17);
         }
 
         [Test]
         public void AttributesFailWithoutRoutesSettingsOrCallback()
         {
-            var good = new AttributeFacts
-            {
-                Routes = new[] { "XR impulse" }, ExpectsRoutes = true, HasModel = true, Callback = "reading",
-            };
+            var good = new AttributeFacts(
+                Routes: new[] { "XR impulse" }, ExpectsRoutes: true, HasModel: true, Callback: "reading");
             Passes(good.AddTo, 3);
-            Fails(good, (ref AttributeFacts facts) => facts.Routes = Array.Empty<string>(), "routes to devices");
-            Fails(good, (ref AttributeFacts facts) => facts.HasModel = false, "settings and model");
-            Fails(good, (ref AttributeFacts facts) => facts.Callback = "", "callback from the library");
+            Fails(good, facts => facts with { Routes = Array.Empty<string>() }, "routes to devices");
+            Fails(good, facts => facts with { HasModel = false }, "settings and model");
+            Fails(good, facts => facts with { Callback = "" }, "callback from the library");
             // Where IL2CPP does not recognise the callback, it throws before learning begins.
-            Fails(good, (ref AttributeFacts facts) => (facts.Callback, facts.CallbackProblem) = ("", "not supported"),
+            Fails(good, facts => facts with { Callback = "", CallbackProblem = "not supported" },
                 "callback from the library");
-            good.Routes = Array.Empty<string>();
-            good.ExpectsRoutes = false;
-            good.CallbackSkipped = "no model";
+            good = good with { Routes = Array.Empty<string>(), ExpectsRoutes = false, CallbackSkipped = "no model" };
             Assert.That(States(Lines(good.AddTo)), Is.EqualTo(new[]
             {
                 CheckState.Skipped, CheckState.Passed, CheckState.Skipped,
@@ -61,35 +55,32 @@ namespace HaptoFlow.SampleTests
         [Test]
         public void AModelFailsWithAProblemTooSlowOrWithoutLabelsAndTiers()
         {
-            var good = new ModelFacts { Seconds = 0.4, Labels = new[] { "wood" }, Tiers = new[] { "draft" } };
+            var good = new ModelFacts(null, 0.4, new[] { "wood" }, new[] { "draft" });
             Passes(good.AddTo, 3);
-            Fails(good, (ref ModelFacts facts) => facts.Problem = "damaged", "loading");
-            Fails(good, (ref ModelFacts facts) => facts.Seconds = 10.1, "loading");
-            Fails(good, (ref ModelFacts facts) => facts.Labels = Array.Empty<string>(), "labels");
-            Fails(good, (ref ModelFacts facts) => facts.Tiers = Array.Empty<string>(), "tiers");
+            Fails(good, facts => facts with { Problem = "damaged" }, "loading");
+            Fails(good, facts => facts with { Seconds = 10.1 }, "loading");
+            Fails(good, facts => facts with { Labels = Array.Empty<string>() }, "labels");
+            Fails(good, facts => facts with { Tiers = Array.Empty<string>() }, "tiers");
         }
 
         [Test]
         public void CallbacksFailWhenMissingSlowOrAllocating()
         {
-            var good = new CallbackFacts
-            {
-                Milliseconds = Enumerable.Repeat(0.2f, 468).Append(5f).ToArray(), Blocks = 469, Seconds = 5.0,
-                SampleRateHz = 48000, BlockFrames = 512, Bytes = 0,
-            };
+            var good = new CallbackFacts(
+                Milliseconds: Enumerable.Repeat(0.2f, 468).Append(5f).ToArray(), Blocks: 469, Seconds: 5.0,
+                SampleRateHz: 48000, BlockFrames: 512, Bytes: 0);
             Passes(good.AddTo, 3);
             Assert.That(Measured(Lines(good.AddTo), "time for a block"),
                 Is.EqualTo("median 0.200 ms, 99th percentile 0.200 ms, worst 5.000 ms, of 10.7 ms"));
-            Fails(good, (ref CallbackFacts facts) => facts.Blocks = 400, "callbacks");
-            Fails(good, (ref CallbackFacts facts) => facts.Milliseconds[468] = 11f, "time for a block");
-            good.Milliseconds[468] = 5f;
-            Fails(good, (ref CallbackFacts facts) => facts.Milliseconds = Enumerable.Repeat(3f, 469).ToArray(),
+            Fails(good, facts => facts with { Blocks = 400 }, "callbacks");
+            Fails(good, facts => facts with { Milliseconds = facts.Milliseconds.SkipLast(1).Append(11f).ToArray() },
                 "time for a block");
-            Fails(good, (ref CallbackFacts facts) => facts.Bytes = 24, "allocations");
-            good.Bytes = null;
+            Fails(good, facts => facts with { Milliseconds = Enumerable.Repeat(3f, 469).ToArray() },
+                "time for a block");
+            Fails(good, facts => facts with { Bytes = 24 }, "allocations");
+            good = good with { Bytes = null };
             Assert.That(States(Lines(good.AddTo)).Last(), Is.EqualTo(CheckState.Skipped));
-            good.Blocks = 0;
-            good.Milliseconds = Array.Empty<float>();
+            good = good with { Blocks = 0, Milliseconds = Array.Empty<float>() };
             Assert.That(States(Lines(good.AddTo)), Is.EqualTo(new[]
             {
                 CheckState.Failed, CheckState.Skipped, CheckState.Skipped,
@@ -99,53 +90,47 @@ namespace HaptoFlow.SampleTests
         [Test]
         public void TheEngineFailsWithADeadWorkerRefusedPrioritySlownessLatenessOrAFrameRateBelowTheDisplays()
         {
-            var good = new EngineFacts
-            {
-                WorkerIsAlive = true, Failure = "", BudgetMs = 6.0, MedianMs = 1.0, Percentile99Ms = 2.0, Runs = 100,
-                Segments = 100, Late = 1, FramesHz = 71.0, DisplayHz = 72.0,
-            };
+            var good = new EngineFacts(
+                WorkerIsAlive: true, PriorityWasRefused: false, FailedRounds: 0, Failure: "", BudgetMs: 6.0, MedianMs: 1.0,
+                Percentile99Ms: 2.0, Runs: 100, Segments: 100, Late: 1, FramesHz: 71.0, DisplayHz: 72.0);
             Passes(good.AddTo, 5);
-            Fails(good, (ref EngineFacts facts) => facts.WorkerIsAlive = false, "worker");
-            Fails(good, (ref EngineFacts facts) => facts.FailedRounds = 1, "worker");
-            Fails(good, (ref EngineFacts facts) => facts.PriorityWasRefused = true, "worker's priority");
-            Fails(good, (ref EngineFacts facts) => facts.Percentile99Ms = 6.1, "time for a segment");
-            Fails(good, (ref EngineFacts facts) => facts.Runs = 0, "time for a segment");
-            Fails(good, (ref EngineFacts facts) => facts.Late = 2, "late segments");
-            Fails(good, (ref EngineFacts facts) => facts.Segments = 0, "late segments");
-            Fails(good, (ref EngineFacts facts) => facts.FramesHz = 36.0, "display's rate");
-            good.DisplayHz = 0.0;
+            Fails(good, facts => facts with { WorkerIsAlive = false }, "worker");
+            Fails(good, facts => facts with { FailedRounds = 1 }, "worker");
+            Fails(good, facts => facts with { PriorityWasRefused = true }, "worker's priority");
+            Fails(good, facts => facts with { Percentile99Ms = 6.1 }, "time for a segment");
+            Fails(good, facts => facts with { Runs = 0 }, "time for a segment");
+            Fails(good, facts => facts with { Late = 2 }, "late segments");
+            Fails(good, facts => facts with { Segments = 0 }, "late segments");
+            Fails(good, facts => facts with { FramesHz = 36.0 }, "display's rate");
+            good = good with { DisplayHz = 0.0 };
             Assert.That(States(Lines(good.AddTo)).Last(), Is.EqualTo(CheckState.Skipped));
         }
 
         [Test]
         public void TheAudioDeviceFailsWithLongBlocksOddRatesOrSilenceAfterAChange()
         {
-            var good = new ConfigurationFacts
-            {
-                SampleRateHz = 48000, BlockFrames = 512, WasAccepted = true, AskedFrames = 1024, NewFrames = 1024,
-                BlocksAfter = 70, SegmentsAfter = 50,
-            };
+            var good = new ConfigurationFacts(
+                SampleRateHz: 48000, BlockFrames: 512, WasAccepted: true, AskedFrames: 1024, NewFrames: 1024,
+                BlocksAfter: 70, SegmentsAfter: 50);
             Passes(good.AddTo, 2);
-            Fails(good, (ref ConfigurationFacts facts) => facts.BlockFrames = 2048, "configuration");
-            Fails(good, (ref ConfigurationFacts facts) => facts.SampleRateHz = 384000, "configuration");
-            Fails(good, (ref ConfigurationFacts facts) => facts.BlocksAfter = 0, "change of configuration");
-            Fails(good, (ref ConfigurationFacts facts) => facts.SegmentsAfter = 0, "change of configuration");
-            good.WasAccepted = false;
+            Fails(good, facts => facts with { BlockFrames = 2048 }, "configuration");
+            Fails(good, facts => facts with { SampleRateHz = 384000 }, "configuration");
+            Fails(good, facts => facts with { BlocksAfter = 0 }, "change of configuration");
+            Fails(good, facts => facts with { SegmentsAfter = 0 }, "change of configuration");
+            good = good with { WasAccepted = false };
             Assert.That(States(Lines(good.AddTo)).Last(), Is.EqualTo(CheckState.Skipped));
         }
 
         [Test]
         public void APauseFailsWithoutEngineBlocksOrSegmentsAfterwards()
         {
-            var good = new PauseFacts
-            {
-                Happened = true, Seconds = 3.0, EngineIsReady = true, BlocksAfter = 70, SegmentsAfter = 50,
-            };
+            var good = new PauseFacts(
+                Happened: true, Seconds: 3.0, EngineIsReady: true, BlocksAfter: 70, SegmentsAfter: 50);
             Passes(good.AddTo, 1);
-            Fails(good, (ref PauseFacts facts) => facts.EngineIsReady = false, "pause and resume");
-            Fails(good, (ref PauseFacts facts) => facts.BlocksAfter = 0, "pause and resume");
-            Fails(good, (ref PauseFacts facts) => facts.SegmentsAfter = 0, "pause and resume");
-            Assert.That(States(Lines(default(PauseFacts).AddTo)), Is.EqualTo(new[] { CheckState.Skipped }));
+            Fails(good, facts => facts with { EngineIsReady = false }, "pause and resume");
+            Fails(good, facts => facts with { BlocksAfter = 0 }, "pause and resume");
+            Fails(good, facts => facts with { SegmentsAfter = 0 }, "pause and resume");
+            Assert.That(States(Lines(new PauseFacts().AddTo)), Is.EqualTo(new[] { CheckState.Skipped }));
         }
 
         [TestCase(HapticForm.Waveform)]
@@ -153,19 +138,17 @@ namespace HaptoFlow.SampleTests
         [TestCase(HapticForm.Amplitude)]
         public void ARouteFailsWithoutSubmissionsWithARefusalOrWithAGap(HapticForm form)
         {
-            var good = new RouteFacts
-            {
-                Hand = "Right", Route = "a route", Form = form, Device = "a device", RateHz = 500.0,
-                MaximumSamples = 256, Submissions = 30,
-            };
+            var good = new RouteFacts(
+                Hand: "Right", Route: "a route", Form: form, Device: "a device", RateHz: 500.0,
+                MaximumSamples: 256, Submissions: 30, Refused: 0, Gaps: 0);
             Passes(good.AddTo, 1);
             Assert.That(Lines(good.AddTo)[0].Measured, Does.StartWith(
                 $"a device: {form.ToString().ToLowerInvariant()}, 500 Hz")
                 .And.EndsWith("; 30 of 30 submissions accepted, 0 gaps"));
             const string Name = "Right hand, a route";
-            Fails(good, (ref RouteFacts facts) => facts.Submissions = 0, Name);
-            Fails(good, (ref RouteFacts facts) => facts.Refused = 1, Name);
-            Fails(good, (ref RouteFacts facts) => facts.Gaps = 1, Name);
+            Fails(good, facts => facts with { Submissions = 0 }, Name);
+            Fails(good, facts => facts with { Refused = 1 }, Name);
+            Fails(good, facts => facts with { Gaps = 1 }, Name);
             Assert.That(RouteFacts.None("Left").State, Is.EqualTo(CheckState.Skipped));
         }
 
@@ -248,26 +231,9 @@ namespace HaptoFlow.SampleTests
             Assert.That(DeviceCheckReport.WhereToSendTo(""), Does.Contain("repository that you have the package from"));
         }
 
-        private delegate void Change<TFacts>(ref TFacts facts);
-
         /// <summary>The change makes exactly one line fail, and that line says what to do.</summary>
-        private static void Fails<TFacts>(TFacts good, Change<TFacts> change, string name)
-            where TFacts : struct
-        {
-            change(ref good);
-            var lines = new List<CheckLine>();
-            switch ((object)good)
-            {
-                case AttributeFacts facts: facts.AddTo(lines); break;
-                case ModelFacts facts: facts.AddTo(lines); break;
-                case CallbackFacts facts: facts.AddTo(lines); break;
-                case EngineFacts facts: facts.AddTo(lines); break;
-                case ConfigurationFacts facts: facts.AddTo(lines); break;
-                case PauseFacts facts: facts.AddTo(lines); break;
-                case RouteFacts facts: facts.AddTo(lines); break;
-            }
-            Assert.That(Failed(lines), Is.EqualTo(new[] { name }));
-        }
+        private static void Fails<TFacts>(TFacts good, Func<TFacts, TFacts> change, string name)
+            where TFacts : Facts => Assert.That(Failed(Lines(change(good).AddTo)), Is.EqualTo(new[] { name }));
 
         private static void Passes(Action<List<CheckLine>> add, int count) => Assert.That(States(Lines(add)),
             Is.EqualTo(Enumerable.Repeat(CheckState.Passed, count)));

@@ -46,8 +46,8 @@ namespace HaptoFlow.SampleTests
             scene.Settings = settings;
             scene.Sketch();
             Assert.That(Gizmos.Solids, Has.Count.EqualTo(2));
-            Assert.That(Gizmos.Solids.Select(solid => solid.Size), Is.All.EqualTo(settings.SampleMetres));
-            Assert.That(Gizmos.Solids[1].Position - Gizmos.Solids[0].Position, Is.EqualTo(settings.VirtualMetres));
+            Assert.That(Gizmos.Solids.Select(solid => solid.Size), Is.All.EqualTo(settings.sampleMetres));
+            Assert.That(Gizmos.Solids[1].Position - Gizmos.Solids[0].Position, Is.EqualTo(settings.virtualMetres));
         }
 
         private void Check<TScene>(string sample, int solids)

@@ -48,10 +48,8 @@ namespace HaptoFlow.ShimTests
             return output;
         }
 
-        internal static void Pause(DeviceOutput output, bool paused) => typeof(DeviceOutput)
-            .GetMethod("OnApplicationPause", System.Reflection.BindingFlags.Instance |
-                System.Reflection.BindingFlags.NonPublic)!
-            .Invoke(output, new object[] { paused });
+        internal static void Pause(DeviceOutput output, bool paused) =>
+            output.SendMessage("OnApplicationPause", paused);
 
         internal static TComponent[] All<TComponent>()
             where TComponent : Object => Object.FindObjectsByType<TComponent>(

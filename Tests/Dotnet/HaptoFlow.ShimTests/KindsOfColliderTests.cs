@@ -33,7 +33,7 @@ namespace HaptoFlow.ShimTests
         [TearDown]
         public void RestoreTheFrameRate() => World.FrameRateHz = 90.0;
 
-        [Test]
+        [Test, Pairwise]
         public void AMatOnATableStaysAMatHoweverDeepTheHandIs(
             [ValueSource(nameof(Kinds))] string kind, [ValueSource(nameof(TableKinds))] string table,
             [Values(0.0001f, 0.005f)] float thick, [Values(4f, 18f)] float deepMillimetres)
@@ -93,7 +93,7 @@ namespace HaptoFlow.ShimTests
             Assert.That(pen.IsTouching, Is.False, "9 mm below the plate's top, 6 mm below it");
         }
 
-        [Test]
+        [Test, Pairwise]
         public void EveryFastPassIsOneTouch([ValueSource(nameof(PassedKinds))] string kind,
             [Values(10.0, 72.0)] double framesPerSecond, [Values(0f, 3f)] float liftMps)
         {
@@ -119,7 +119,7 @@ namespace HaptoFlow.ShimTests
             Assert.That(touches, Is.EqualTo(20));
         }
 
-        [Test]
+        [Test, Pairwise]
         public void APlateThatCarriesARestingTipAlongPassesNothing(
             [ValueSource(nameof(PassedKinds))] string kind, [Values(-0.02f, 0.02f)] float height, [Values(3f, 15f)] float mps)
         {
@@ -134,7 +134,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void ABoxAndItsMeshesAreFeltAlikeOnRandomStrokes([NUnit.Framework.Range(0, 3)] int seed)
+        public void ABoxAndItsMeshesAreFeltAlikeOnRandomStrokes([NUnit.Framework.Range(0, 1)] int seed)
         {
             var random = new System.Random(seed);
             float Between(float low, float high) => low + (high - low) * (float)random.NextDouble();

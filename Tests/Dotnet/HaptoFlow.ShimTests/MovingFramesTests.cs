@@ -146,7 +146,7 @@ namespace HaptoFlow.ShimTests
             return most;
         }
 
-        [Test]
+        [Test, Pairwise]
         public void ATipThatRidesAlongIsAtRestAtEverySpeed([ValueSource(nameof(Rates))] (double, double) rates,
             [Values] Carrier carrier, [Values(0.05, 3.0, 250.0)] double mps)
         {
@@ -161,7 +161,7 @@ namespace HaptoFlow.ShimTests
         }
 
         /// <summary>The pen follows the same path in Update, as a hand in a vehicle that a script copies.</summary>
-        [Test]
+        [Test, Pairwise]
         public void ATipThatFollowsWithoutAParentIsAtRestAtEverySpeed([ValueSource(nameof(Rates))] (double, double) rates,
             [Values] Carrier carrier, [Values(0.05, 3.0, 250.0)] double mps)
         {
@@ -178,7 +178,7 @@ namespace HaptoFlow.ShimTests
         }
 
         /// <summary>A surface that moves steadily under a tip at rest, by whatever steps.</summary>
-        [Test]
+        [Test, Pairwise]
         public void ASteadySurfaceHasItsSpeedUnderATipAtRest([ValueSource(nameof(Rates))] (double Frames, double Steps) rates,
             [Values] Carrier carrier, [Values(0.02f, 0.2f, 1f)] float mps)
         {
@@ -188,7 +188,7 @@ namespace HaptoFlow.ShimTests
         }
 
         /// <summary>Ticks of a network, of an animation and of a slow tracker.</summary>
-        [Test]
+        [Test, Pairwise]
         public void ASurfaceThatMovesInTicksHasItsSpeedUnderATipAtRest([Values(72.0, 120.0)] double framesPerSecond,
             [Values(20.0, 45.0)] double ticksPerSecond, [Values(0.02f, 0.2f, 1f)] float mps, [Values(0.0, 0.5)] double phase)
         {
@@ -362,14 +362,21 @@ namespace HaptoFlow.ShimTests
             Assert.That(pen.Contact.TangentialVelocity.magnitude, Is.EqualTo(0.2f).Within(0.004f));
         }
 
-        [Test]
-        public void ThePensOwnScaleIsNoRig()
+        [TestCase(false)]
+        [TestCase(true)]
+        public void ThePensOwnScaleIsNoRigNorIsItsRootsWhereARigIsNamed(bool isNamed)
         {
             Ground(4f);
-            HapticStylus pen = Pen(Circle);
+            GameObject world = Make("World");
+            HapticStylus pen = Pen(Circle, isNamed ? world : null);
             pen.transform.localScale = new Vector3(0.01f, 0.01f, 0.01f);
+            if (isNamed)
+            {
+                world.transform.localScale = new Vector3(1.5f, 1.5f, 1.5f);
+                pen.Rig = Make("Rig").transform;
+            }
             World.Frames(90);
-            Assert.That(pen.Contact.TangentialVelocity.magnitude, Is.EqualTo(0.2f).Within(0.004f));
+            Assert.That(pen.Contact.TangentialVelocity.magnitude, Is.EqualTo(isNamed ? 0.3f : 0.2f).Within(0.006f));
         }
 
         private sealed class Follower : MonoBehaviour

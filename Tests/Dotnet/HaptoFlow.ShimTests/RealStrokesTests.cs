@@ -46,7 +46,15 @@ namespace HaptoFlow.ShimTests
             table.transform.SetPositionAndRotation(
                 new Vector3(0f, (float)height, 0f), Quaternion.FromToRotation(Vector3.up, normal));
             AudioTap tap = Output(out HapticOutput output);
-            HapticStylus stylus = StylusAlong(seconds => At(samples, seconds));
+            int last = 0;
+            HapticStylus stylus = StylusAlong(seconds =>
+            {
+                // The tracker's last sample.
+                for (; last + 1 < samples.Count && samples[last + 1][0] - samples[0][0] <= seconds; ++last)
+                {
+                }
+                return PlaceOf(samples[last]);
+            });
             stylus.TipRadiusMetres = tipRadiusMetres;
             stylus.Output = output;
             var log = new TouchLog(stylus);
@@ -75,13 +83,8 @@ namespace HaptoFlow.ShimTests
             UnityEngine.Object.DestroyImmediate(output.gameObject);
         }
 
-        /// <summary>The tracker's last sample at a time. The table is the x-y plane of the recordings.</summary>
-        private static Vector3 At(List<double[]> samples, double seconds)
-        {
-            int index = samples.FindLastIndex(sample => sample[0] - samples[0][0] <= seconds);
-            double[] found = samples[Math.Max(0, index)];
-            return new Vector3((float)found[1], (float)found[3], (float)found[2]);
-        }
+        /// <summary>The table is the x-y plane of the recordings.</summary>
+        private static Vector3 PlaceOf(double[] sample) => new Vector3((float)sample[1], (float)sample[3], (float)sample[2]);
 
         private static Dictionary<string, List<double[]>> Read(string path) => File.ReadLines(path).Skip(1)
             .Select(line => line.Split(','))

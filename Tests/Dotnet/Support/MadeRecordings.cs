@@ -10,11 +10,11 @@ namespace HaptoFlow.Tests.Support
     {
         /// <summary>The recording from which the sample Workshop learns, and the files beside it.</summary>
         public static string DoormatFolder => RepositoryFiles.In(
-            "Packages", "com.haptoflow.runtime", "Runtime", "SampleScenes", "Recordings");
+            "Packages", "com.haptoflow.runtime", "Runtime", "SampleScenes");
 
         /// <summary>The recording of the sample Workshop.</summary>
         public static Recording Doormat() => RecordingReader.Read("doormat.wav", Directory
-            .GetFiles(DoormatFolder)
+            .GetFiles(DoormatFolder, "doormat*")
             .ToDictionary(path => Path.GetFileName(path).Replace(".bytes", ""), File.ReadAllBytes));
 
         /// <summary>A table without files beside it.</summary>

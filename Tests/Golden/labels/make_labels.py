@@ -30,8 +30,11 @@ def key(label: str) -> str:
 
 
 def decompositions() -> Iterator[tuple[int, int, int]]:
-    """Letter, first part and second part or 0. Without the ideographs that only other standards had twice."""
+    """Letter, first part and second part or 0. Without the ideographs that only other standards had twice, and without
+    small letters that decompose as their capitals do."""
     for letter in LETTERS:
+        if capital(letter) != letter and unicodedata.decomposition(capital(letter)) and key(letter) == key(capital(letter)):
+            continue
         words = unicodedata.decomposition(letter).split()
         is_twice = unicodedata.name(letter, "").startswith("CJK COMPATIBILITY IDEOGRAPH")
         if words and not words[0].startswith("<") and not is_twice and ord(letter) not in HANGUL:
@@ -39,28 +42,26 @@ def decompositions() -> Iterator[tuple[int, int, int]]:
             yield ord(letter), parts[0], parts[1] if len(parts) > 1 else 0
 
 
-def runs(values: dict[int, int]) -> Iterator[tuple[int, int, int, int]]:
-    """First, last, step and value of letters of one value, at every or every other code."""
+def runs(values: dict[int, int]) -> Iterator[tuple[int, ...]]:
+    """First, number and value of letters of one value at every code; at every other one, with 2 as a fourth number."""
     codes = sorted(values)
-    at = 0
-    while at < len(codes):
-        step = 1
-        end = at
-        for step in (1, 2):
-            end = at
-            while end + 1 < len(codes) and codes[end + 1] == codes[end] + step and values[codes[end + 1]] == values[codes[at]]:
-                end += 1
-            if end > at:
-                break
-        yield codes[at], codes[end], step, values[codes[at]]
-        at = end + 1
+    while codes:
+        first = codes[0]
+        lengths = {1: 1, 2: 1}
+        for step in lengths:
+            while values.get(first + lengths[step] * step) == values[first]:
+                lengths[step] += 1
+        step = 2 if lengths[2] > lengths[1] else 1
+        run = {first + index * step for index in range(lengths[step])}
+        yield (first, len(run), values[first], *([2] if step == 2 else []))
+        codes = [code for code in codes if code not in run]
 
 
 def array(name: str, kind: str, what: str, rows: list[tuple[int, ...]]) -> str:
     lines = [f"/// {what}", f"inline constexpr std::array<{kind}, {len(rows)}> {name}{{{{"]
     line = "   "
     for row in rows:
-        entry = " {" + ", ".join(str(number) if number < 0 else f"0x{number:X}" for number in row) + "},"
+        entry = " {" + ", ".join(f"0x{number:X}" if number > 0xFF else str(number) for number in row) + "},"
         if len(line) + len(entry) > 120:
             lines.append(line)
             line = "   "
@@ -78,8 +79,8 @@ def write_tables() -> None:
         "namespace haptoflow::model {\n\n"
         "/// A letter and what it decomposes to; the second part is 0 where there is one.\n"
         "struct Decomposition {\n    char32_t letter;\n    char32_t first;\n    char32_t second;\n};\n\n"
-        "/// The letters first, first + step and so on to last, and their value.\n"
-        "struct LetterRun {\n    char32_t first;\n    char32_t last;\n    std::uint32_t step;\n    std::int32_t value;\n};\n\n"
+        "/// The letters first, first + step and so on, and their value.\n"
+        "struct LetterRun {\n    char32_t first;\n    std::uint32_t count;\n    std::int32_t value;\n    std::uint32_t step = 1;\n};\n\n"
         + array("decompositions", "Decomposition", "In the order of their letters.", list(decompositions())) + "\n\n"
         + array("combiningClasses", "LetterRun", "Canonical combining classes other than 0.", list(classes)) + "\n\n"
         + array("capitals", "LetterRun", "What is added to a letter for its capital.", list(capitals)) + "\n\n"

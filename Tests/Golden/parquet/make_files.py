@@ -1,4 +1,4 @@
-"""Makes the Parquet files beside this: by Apache's C++ library (writer/Program.cs) and by DuckDB (writer/duckdb.mjs).
+"""Makes the Parquet files beside this: by Apache's C++ library (Program.cs) and by DuckDB (duckdb.mjs).
 
 PYTHONPATH=Training:Tests/Training python3 Tests/Golden/parquet/make_files.py FOLDER
 FOLDER lies outside the repository and holds node_modules/@duckdb/node-api 1.5.6-r.1; dotnet with SDK 10 is on PATH.
@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 import pandas
-from parquet_samples import COLUMNS, GOLDEN, HUB, HUB_NAMES, column_table, hub_recording, hub_tables
+from parquet_samples import COLUMNS, GOLDEN, HUB_FILES, HUB_NAMES, column_table, hub_recording, hub_tables
 
 from haptoflow_training.recordings.dataset_writer import TextureEntry, write_texture_list
 
@@ -26,7 +26,7 @@ _SQL_TYPES = {"int64": "BIGINT", "int32": "INTEGER", "float32": "FLOAT", "float6
 def main() -> None:
     work = Path(sys.argv[1]).resolve()
     (work / "csv").mkdir(exist_ok=True)
-    for folder in (COLUMNS, HUB):
+    for folder in (COLUMNS, HUB_FILES):
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir()
     write_with_apache(work)
@@ -52,14 +52,16 @@ def write_with_apache(work: Path) -> None:
     add(own_table(), COLUMNS / "own.parquet", "Snappy", 9999)
     for number, name in enumerate(HUB_NAMES):
         for kind, table in hub_tables(hub_recording(name)).items():
-            target = HUB / "sensor_data" / kind / name.split("_")[0] / f"{name}.parquet"
+            target = HUB_FILES / f"{kind}_{name}.parquet"
             add(table, target, "Snappy" if number == 0 else "Zstd", 1000 if number == 1 else 1 << 20)
     names = {0: "Nyatoh", 38: "Granite", 49: "HDPE"}
-    write_texture_list(HUB, [TextureEntry(texture, name, {}) for texture, name in names.items()])
+    write_texture_list(HUB_FILES, [TextureEntry(texture, name, {}) for texture, name in names.items()])
     (work / "jobs.txt").write_text("".join(jobs), encoding="utf-8")
     project = work / "writer"
     shutil.rmtree(project, ignore_errors=True)
-    shutil.copytree(GOLDEN / "writer", project)
+    project.mkdir()
+    for name in ("Program.cs", "writer.csproj"):
+        shutil.copy(GOLDEN / name, project)
     subprocess.run(["dotnet", "run", "--project", str(project), "--", str(work / "jobs.txt")], check=True)
 
 
@@ -99,7 +101,7 @@ def write_with_duckdb(work: Path) -> None:
         write.format(nested, COLUMNS / "nested-v2.parquet", "zstd", "v2"),
     ]
     (work / "statements.sql").write_text(";\n".join(statements), encoding="utf-8")
-    subprocess.run(["node", str(GOLDEN / "writer" / "duckdb.mjs"), str(work / "statements.sql")], cwd=work, check=True)
+    subprocess.run(["node", str(GOLDEN / "duckdb.mjs"), str(work / "statements.sql")], cwd=work, check=True)
 
 
 main()

@@ -10,10 +10,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <random>
-#include <string>
 #include <thread>
 #include <vector>
 

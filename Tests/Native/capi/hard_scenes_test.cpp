@@ -4,7 +4,6 @@
 #include "headless/test_scenes.hpp"
 #include "output_checks.hpp"
 
-#include <array>
 #include <functional>
 #include <numbers>
 #include <random>

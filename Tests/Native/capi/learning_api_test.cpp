@@ -1,7 +1,7 @@
 // Recordings and learning through the C interface: handles, defaults, progress, cancellation, refusals.
-#include "inference/gaussian_noise.hpp"
 #include "learning_options.hpp"
 #include "open_engine.hpp"
+#include "skeleton/gaussian_noise.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -55,6 +55,8 @@ TEST_F(LearningApiTest, ALearntMaterialIsRegisteredBesideTheModelsLabelsAndProgr
     const char* text = nullptr;
     const char* report = nullptr;
     ASSERT_EQ(haptoflow_learning_results(learning_, &text, &report), HAPTOFLOW_OK) << message();
+    EXPECT_EQ(haptoflow_learning_results(learning_, nullptr, &report), HAPTOFLOW_INVALID_ARGUMENT);
+    EXPECT_EQ(haptoflow_learning_results(learning_, &text, nullptr), HAPTOFLOW_INVALID_ARGUMENT);
     const nlohmann::json json = nlohmann::json::parse(text);
     EXPECT_EQ(json["name"], "made surface") << "the recording's own";
     EXPECT_EQ(json["category"], "wood");
@@ -220,7 +222,7 @@ TEST(RecordingApiTest, TheNoiseAtRestIsRemovedAndToldAndNothingButNoiseRefused) 
         std::vector<float> wave(samples);
         std::vector<float> velocity(2 * samples);
         const std::vector<float> force(samples, 1.0F);
-        inference::fillStandardNormal({.seed = 5, .voice = 0, .segment = 0}, wave);
+        skeleton::fillStandardNormal({.seed = 5, .voice = 0, .segment = 0}, wave);
         for (std::size_t i = 0; i < samples; ++i) {
             const bool slides = i >= samples / 2;
             wave[i] *= slides ? 0.04F * slidingGain : 0.04F;

@@ -8,12 +8,9 @@
 #include <malloc.h>
 #endif
 
-#include <atomic>
 #include <fstream>
 #include <functional>
-#include <iterator>
 #include <string>
-#include <thread>
 #include <vector>
 
 namespace haptoflow::capi::testing {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <fstream>
 #include <iterator>
@@ -11,10 +10,14 @@
 
 namespace haptoflow::capi::testing {
 
+inline std::string textOf(const std::string& path) {
+    std::ifstream stream(path);
+    return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
 /// The text of haptoflow.h.
 inline std::string headerText() {
-    std::ifstream stream(HAPTOFLOW_TEST_HEADER);
-    return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+    return textOf(HAPTOFLOW_TEST_HEADER);
 }
 
 struct DeclaredFunction {

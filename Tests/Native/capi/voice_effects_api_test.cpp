@@ -2,11 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cstddef>
 #include <limits>
 #include <string>
-#include <vector>
 
 namespace haptoflow::capi::testing {
 namespace {

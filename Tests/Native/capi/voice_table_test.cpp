@@ -10,7 +10,6 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
-#include <chrono>
 #include <functional>
 #include <future>
 #include <memory>
@@ -51,12 +50,12 @@ class VoiceTableTest : public ::testing::Test {
 protected:
     VoiceTableTest() {
         engine::EngineTiers tiers;
-        tiers.push_back(std::make_unique<engine::testing::FakeGenerator>(engine::testing::continueTone));
+        auto model = std::make_shared<const model::ModelFile>(engine::testing::calmSkeletonModel());
+        tiers.push_back(std::make_unique<inference::SkeletonGenerator>(skeleton::readNativeParts(*model), 1));
         engine::LiveEngineSettings settings;
         settings.quality.fixedTier = 0;
         settings.hasWorker = false;
-        engine_ = std::make_shared<engine::LiveEngine>(
-            std::make_shared<const model::ModelFile>(engine::testing::smallModel()), std::move(tiers), 0, settings);
+        engine_ = std::make_shared<engine::LiveEngine>(std::move(model), std::move(tiers), 0, settings);
         auto opened = std::make_unique<OpenVoice>();
         opened->engine = engine_;
         opened->voice = engine_->addVoice(48000.0);
@@ -96,7 +95,7 @@ protected:
         sink_.letGo();
         renderer.join();
         EXPECT_EQ(status, HAPTOFLOW_OK);
-        EXPECT_GT(peak(output), 0.001F) << "the running block is complete";
+        EXPECT_GT(peak(output), 0.0F) << "the running block is complete";
 
         std::vector<float> block;
         std::vector<float> rest = output;
@@ -132,11 +131,11 @@ TEST_F(VoiceTableTest, ASecondThreadThatRendersAVoiceIsRefusedGetsSilenceAndIsCo
     sink_.letGo();
     other.join();
     EXPECT_EQ(firstStatus, HAPTOFLOW_OK);
-    EXPECT_GT(peak(channel(first, 1)), 0.001F);
+    EXPECT_GT(peak(channel(first, 1)), 0.0F);
     EXPECT_EQ(table_.use(handle_)->voice->channels.counters.renderedFrames, blockFrames);
 
     EXPECT_EQ(render(second), HAPTOFLOW_OK) << "the voice can be rendered again";
-    EXPECT_GT(peak(channel(second, 1)), 0.001F);
+    EXPECT_GT(peak(channel(second, 1)), 0.0F);
     EXPECT_EQ(table_.use(handle_)->refusedCalls, 1U);
     EXPECT_TRUE(table_.close(handle_));
 }

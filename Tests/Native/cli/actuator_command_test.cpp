@@ -1,8 +1,8 @@
 #include "command_line.hpp"
 #include "effects/actuator_profile.hpp"
+#include "output_file.hpp"
 #include "svg_plot.hpp"
 #include "texture_distance.hpp"
-#include "wav_file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -132,7 +132,7 @@ TEST_F(ActuatorCommandTest, ShowDescribesAndPlotsTheCompensation) {
     write("broken.json", "{\"format_version\": 1}");
     const testing::Finished broken = run("actuator show broken.json");
     EXPECT_EQ(broken.exitCode, 3);
-    EXPECT_THAT(broken.errors, HasSubstr("broken.json: top level: missing key \"name\""));
+    EXPECT_THAT(broken.errors, HasSubstr("broken.json: profile: expected a member \"name\""));
 }
 
 TEST(TextureDistanceTest, CompensationReducesTheDistanceOfEveryLabelOfTheShippedModel) {

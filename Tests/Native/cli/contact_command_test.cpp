@@ -1,4 +1,4 @@
-#include "contact_command.hpp"
+#include "commands.hpp"
 
 #include "command_line.hpp"
 #include "messages.hpp"

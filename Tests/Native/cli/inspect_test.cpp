@@ -1,6 +1,6 @@
 #include "command_line.hpp"
 #include "messages.hpp"
-#include "model_location.hpp"
+#include "option_values.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

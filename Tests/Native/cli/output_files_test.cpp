@@ -12,7 +12,6 @@
 #include <map>
 #include <sstream>
 #include <string>
-#include <vector>
 
 namespace haptoflow::cli {
 namespace {
@@ -129,7 +128,7 @@ TEST_F(OutputFilesTest, ContactAndActuatorAndBenchLeaveEveryFileThatTheyReadAsIt
     expectRefused("actuator identify sweep.wav --sweep sweep.wav -o sweep.wav", "-o sweep.wav", "--sweep sweep.wav");
     expectRefused("actuator identify sweep.wav --sweep sweep.wav -o new.json --plot ./new.json", "--plot ./new.json",
                   "-o new.json");
-    expectRefused("bench --quick --only contact --quiet --model model.haptoflow -o model.haptoflow",
+    expectRefused("bench --quick --only callback --quiet --model model.haptoflow -o model.haptoflow",
                   "-o model.haptoflow", "the model");
 }
 
@@ -168,7 +167,7 @@ TEST_F(OutputFilesTest, ADashIsStandardOutputAndMessagesGoElsewhere) {
     EXPECT_TRUE(rendered.output == read("sound.wav")) << rendered.output.size();
     const Finished contact = run("contact scene.json --stroke stroke.csv -o -");
     EXPECT_EQ(contact.output, run("contact scene.json --stroke stroke.csv").output);
-    const Finished learnt = run("learn tile.csv --model model.haptoflow --quiet -o -");
+    const Finished learnt = run("learn tile.csv --model '" + std::string(testing::tinyModel) + "' --quiet -o -");
     EXPECT_EQ(learnt.exitCode, 0) << learnt.errors;
     EXPECT_TRUE(nlohmann::json::accept(learnt.output)) << learnt.output.substr(0, 200);
     EXPECT_THAT(learnt.errors, HasSubstr("Learnt tile from "));

@@ -1,5 +1,5 @@
 #include "command_line.hpp"
-#include "wav_file.hpp"
+#include "output_file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

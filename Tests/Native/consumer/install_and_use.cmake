@@ -1,4 +1,4 @@
-# Installs the build, moves the installed tree (it must not contain its path), builds the project in outside/ against it
+# Installs the build, moves the installed tree (it must not contain its path), builds the project beside this file against it
 # and runs the program.
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)

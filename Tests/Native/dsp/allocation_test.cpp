@@ -20,7 +20,7 @@ using Input = std::span<const float>;
 static_assert(noexcept(std::declval<WaveformResampler&>().process(Input{}, Samples{})));
 static_assert(noexcept(std::declval<RateWarp&>().process(Input{}, Samples{})));
 static_assert(noexcept(std::declval<Gate&>().process(Samples{})));
-static_assert(noexcept(std::declval<SoftLimiter&>().process(Samples{})));
+static_assert(noexcept(std::declval<SoftLimiter&>().processScaled(Samples{})));
 static_assert(noexcept(std::declval<LevelSmoother&>().process(Samples{})));
 static_assert(noexcept(std::declval<Splice&>().begin(Input{}, Input{}, 4)));
 
@@ -49,7 +49,8 @@ TEST(AllocationTest, ACompleteCallbackAllocatesNothing) {
         resampler.process(block2kHz, Samples(output).first(output.size() / 2));
         gate.open();
         gate.process(output);
-        limiter.process(output);
+        limiter.scale(output);
+        limiter.processScaled(output);
         resampler.reset();
         warp.reset();
     }

@@ -236,21 +236,10 @@ TEST(ListenTest, AfterItsTailItIsIdleAndSilent) {
     EXPECT_EQ(heardPeak(silence), 0.0);
 }
 
-TEST(ListenTest, AFullScaleOrRateOutOfRangeIsRefused) {
-    EXPECT_THROW(Listen(7000.0, 200.0), std::invalid_argument);
+TEST(ListenTest, AFullScaleOutOfRangeIsRefused) {
     for (const double scale : {0.0, -1.0, std::numeric_limits<double>::infinity()}) {
         EXPECT_THROW(Listen(48000.0, scale), std::invalid_argument) << scale;
     }
-}
-
-TEST(ListenTest, ProcessingAllocatesNothing) {
-    Listen listen(48000.0, listenFullScaleMps2);
-    std::vector<float> wave(4800, 1.0F);
-    const std::size_t before = haptoflow::testing::allocationCount();
-    listen.process(wave);
-    (void)listen.isIdle();
-    listen.reset();
-    EXPECT_EQ(haptoflow::testing::allocationCount(), before);
 }
 
 }  // namespace

@@ -8,8 +8,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <random>
-#include <stdexcept>
 #include <vector>
 
 namespace haptoflow::effects {
@@ -247,33 +245,10 @@ TEST(ExposureGuardTest, TheResultIsTheSameAtEveryRate) {
     }
 }
 
-TEST(ExposureGuardTest, TheBlockLengthsDoNotChangeTheResult) {
-    ExposureLaw law = shortDay();
-    law.shortTermSeconds = 0.5;
-    law.slewDbPerSecond = 20.0;
-    std::vector<float> sent(44100 * 3);
-    std::mt19937 random(2);
-    std::normal_distribution<float> noise(0.0F, 150.0F);
-    std::ranges::generate(sent, [&] { return noise(random); });
-    const auto played = [&](std::size_t block) {
-        ExposureGuard guard(44100.0, law);
-        std::vector<float> out = sent;
-        for (std::size_t i = 0; i < out.size(); i += block) {
-            guard.process(std::span(out).subspan(i, std::min(block, out.size() - i)));
-        }
-        return out;
-    };
-    const std::vector<float> whole = played(sent.size());
-    EXPECT_NE(whole, sent);
-    for (const std::size_t block : {1U, 7U, 64U, 441U, 1024U}) {
-        EXPECT_EQ(played(block), whole) << block;
-    }
-}
-
 class ExposureDayTest : public ::testing::TestWithParam<double> {};
 
 TEST_P(ExposureDayTest, InSilenceTheGainNeverFallsAndReturnsWithTheDose) {
-    for (const double playSeconds : {1.0, 5.0, 30.0}) {
+    for (const double playSeconds : {1.0, 30.0}) {
         ExposureGuard guard(voiceRateHz);
         guard.setActuatorGain(GetParam());
         Session session(guard);
@@ -298,7 +273,7 @@ TEST_P(ExposureDayTest, InSilenceTheGainNeverFallsAndReturnsWithTheDose) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(AtActuatorGain, ExposureDayTest, ::testing::Values(1.0, 5.0, 20.0));
+INSTANTIATE_TEST_SUITE_P(AtActuatorGain, ExposureDayTest, ::testing::Values(1.0, 20.0));
 
 TEST(ExposureGuardTest, SwitchedOffItPassesTheSignalAndMeasuresOn) {
     ExposureGuard guard(voiceRateHz, shortDay());
@@ -347,20 +322,6 @@ TEST(ExposureGuardTest, NonFiniteSamplesBecomeZeroAndDoNotCount) {
     EXPECT_TRUE(std::isfinite(guard.report().dailyMps2));
     EXPECT_TRUE(std::isfinite(guard.report().shortTermMps2));
     EXPECT_GT(guard.report().gain, 0.0);
-}
-
-TEST(ExposureGuardTest, InvalidLawsAndRatesAreRejected) {
-    ExposureLaw law;
-    law.dailyMps2 = 0.0;
-    EXPECT_THROW(ExposureGuard(voiceRateHz, law), std::invalid_argument);
-    law = {};
-    law.minimumGain = 1.5;
-    EXPECT_THROW(ExposureGuard(voiceRateHz, law), std::invalid_argument);
-    law = {};
-    law.slewDbPerSecond = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_THROW(ExposureGuard(voiceRateHz, law), std::invalid_argument);
-    EXPECT_THROW(ExposureGuard(7000.0), std::invalid_argument);
-    EXPECT_THROW(ExposureGuard(std::numeric_limits<double>::quiet_NaN()), std::invalid_argument);
 }
 
 TEST(ExposureGuardTest, NothingAllocates) {

@@ -2,8 +2,8 @@
 
 #include "engine/material.hpp"
 #include "engine/offline_renderer.hpp"
-#include "engine/rib_phase.hpp"
 #include "model/model_file.hpp"
+#include "simulated_device.hpp"
 #include "small_library.hpp"
 #include "support/model_generator.hpp"
 #include "support/wave_measures.hpp"
@@ -20,11 +20,12 @@
 #include <string>
 #include <vector>
 
-// A blend has whole wave vectors of its materials, not means, and each keeps its phase.
+// A blend has whole wave vectors of its materials, not means, and each keeps its slot.
 
 namespace haptoflow::engine {
 namespace {
 
+using skeleton::WaveVector;
 using testing::SmallLibrary;
 
 constexpr WaveVector none{};
@@ -70,48 +71,19 @@ TEST_F(BlendRibsTest, TheHeaviestMaterialsWaveVectorsAreKeptIfSlotsAreMissing) {
     EXPECT_EQ(ribsOf({{1, 0.4F}, {2, 0.6F}}), (WaveVectors{fine, across}));
 }
 
-TEST_F(BlendRibsTest, APhaseFollowsItsWaveVectorToAnotherSlot) {
-    const RibCycles phases{0.1, 0.6};
-    EXPECT_EQ(phasesFor({fine, none}, {coarse, fine}, phases), (RibCycles{0.6, 0.6}));
-    EXPECT_EQ(phasesFor({across, fine}, {fine, across}, phases), (RibCycles{0.6, 0.1}));
-    EXPECT_EQ(phasesFor({coarse, fine}, {coarse, fine}, phases), phases);
-    EXPECT_EQ(phasesFor({across, none}, {coarse, none}, phases), phases) << "new ribs get the phase of their slot";
-}
-
-TEST_F(BlendRibsTest, NoPhaseJumpsDuringASweepBetweenTwoRuledLabels) {
-    RibTrack track;
-    track.begin(0, {.phase = {0.3, 0.0}, .cyclesPerSample = {0.01, 0.0}, .vectors = {coarse, none}});
-    constexpr std::int64_t hop = 28;
+TEST_F(BlendRibsTest, ARibKeepsItsSlotThroughASweepBetweenTwoRuledLabels) {
     WaveVectors before{coarse, none};
-    std::array<double, 3> travelled{0.3, 0.0, 0.0};
-    const std::array<WaveVector, 3> all{coarse, fine, across};
-    std::array<bool, 3> isKnown{true, false, false};
-    for (int step = 0; step <= 100; ++step) {
+    for (int step = 1; step < 100; ++step) {
         const float share = 0.01F * static_cast<float>(step);
-        const WaveVectors vectors = ribsOf({{1, 1.0F - share}, {2, share}}, before);
-        const RibCycles phases = track.at(step * hop, vectors);
-        for (std::size_t rib = 0; rib < all.size(); ++rib) {
-            const auto slot = std::ranges::find(vectors, all[rib]) - vectors.begin();
-            if (slot == 2) {
-                isKnown[rib] = false;
-                continue;
+        const WaveVectors now = ribsOf({{1, 1.0F - share}, {2, share}}, before);
+        for (std::size_t slot = 0; slot < now.size(); ++slot) {
+            if (!before[slot].isNone() && std::ranges::find(now, before[slot]) != now.end()) {
+                ASSERT_EQ(now[slot], before[slot]) << "slot " << slot << " at a share of " << share;
             }
-            const double phase = phases[static_cast<std::size_t>(slot)];
-            if (isKnown[rib]) {
-                const double gap = phase - travelled[rib];
-                ASSERT_NEAR(gap, std::round(gap), 1e-4) << "rib " << rib << " at a share of " << share;
-            }
-            isKnown[rib] = true;
-            // The tip moves at 0.1 m/s along x and 0.05 m/s along y.
-            const double cycles =
-                (static_cast<double>(all[rib].x) * 100.0 + static_cast<double>(all[rib].y) * 50.0) / 2000.0;
-            travelled[rib] = phase + cycles * static_cast<double>(hop);
         }
-        std::array<float, model::embeddingSize> embedding{};
-        setWaveVectors(embedding, vectors);
-        track.add(step * hop, vectors, phases, ribCyclesPerSample(embedding, 0.1, 0.05));
-        before = vectors;
+        before = now;
     }
+    EXPECT_EQ(before, (WaveVectors{across, fine}));
 }
 
 class BlendSoundTest : public ::testing::Test {
@@ -125,28 +97,16 @@ protected:
     /// The waveform played while a tip slides over a blend, without the touch-down.
     std::vector<float> played(const std::vector<testing::LabelWeight>& blend, std::array<float, 2> velocityMps,
                               double seconds) {
-        std::vector<TimedContactState> states;
-        for (int update = 0; update < static_cast<int>(seconds * 72.0); ++update) {
-            states.push_back(stateOf(update, velocityMps, blend));
-        }
-        return render(states);
-    }
-    std::vector<float> render(const std::vector<TimedContactState>& states) {
+        const auto states = testing::statesOf(seconds, [&](double) {
+            ContactState state = testing::sliding();
+            state.velocityMps = velocityMps;
+            state.material = testing::blendOf(blend);
+            return state;
+        });
         std::vector<float> wave =
             renderOffline(model_, *generator_, states, {.fullScaleMps2 = 1e5F, .tailSeconds = 0.0}).waveformMps2;
         wave.erase(wave.begin(), wave.begin() + 400);
         return wave;
-    }
-    static TimedContactState stateOf(int update, std::array<float, 2> velocityMps,
-                                     const std::vector<testing::LabelWeight>& blend) {
-        TimedContactState state;
-        state.timeSeconds = update / 72.0;
-        state.touching = true;
-        state.touchCounter = 1;
-        state.velocityMps = velocityMps;
-        state.forceNewtons = 1.0F;
-        state.material = testing::blendOf(blend);
-        return state;
     }
 
     /// The share of the power within 2 % of a frequency.
@@ -201,7 +161,7 @@ TEST_F(BlendSoundTest, ABlendOfWoodAndCorduroyHasWeakerRibsOfTheSamePitch) {
     const double half = shareOfLine(blend, 60.0);
     const double wood = shareOfLine(played({part("wood", 1.0F)}, velocity, 4.0), 60.0);
     EXPECT_GT(half, 2.0 * wood) << "the ribs are present";
-    EXPECT_LT(half, 0.8 * pure) << "the ribs are weaker";
+    EXPECT_LT(half, 0.9 * pure) << "the ribs are weaker";
     EXPECT_GT(half, 3.0 * shareOfLine(blend, 30.0)) << "there are no ribs at half the pitch";
 }
 

@@ -1,7 +1,6 @@
 #include "engine/offline_renderer.hpp"
 #include "engine/tap_pieces.hpp"
 #include "simulated_device.hpp"
-#include "test_model.hpp"
 
 #include <gtest/gtest.h>
 
@@ -21,8 +20,6 @@ namespace {
 using effects::EffectKind;
 using effects::EffectMask;
 using effects::maskOf;
-using testing::DeviceSettings;
-using testing::FakeGenerator;
 using testing::SimulatedDevice;
 
 constexpr EffectMask impact = maskOf(EffectKind::impact);
@@ -86,25 +83,18 @@ double energy(std::span<const float> samples) {
     });
 }
 
-class ContactEventsTest : public ::testing::Test {
+class ContactEventsTest : public testing::DeviceTest {
 protected:
-    static std::uint64_t events(const SimulatedDevice& device, EffectKind kind) {
-        return device.counters().effects[static_cast<std::size_t>(kind)].events;
-    }
+    static std::uint64_t events(const SimulatedDevice& device, EffectKind kind) { return of(device, kind).events; }
     [[nodiscard]] std::vector<float> play(std::size_t blockFrames, const std::vector<ContactState>& states,
                                           int blocks = 8) {
         SimulatedDevice device(model_, tone_, {.blockFrames = blockFrames});
         for (const ContactState& state : states) {
             device.publish(state);
         }
-        for (int block = 0; block < blocks; ++block) {
-            device.renderBlock();
-        }
+        renderBlocks(device, blocks);
         return device.output;
     }
-
-    model::ModelFile model_ = testing::smallModel();
-    FakeGenerator tone_{testing::continueTone};
 };
 
 TEST_F(ContactEventsTest, AStrongBlowSoundsEvenIfAWeakOneFollowsInTheSameBlock) {
@@ -146,9 +136,7 @@ TEST_F(ContactEventsTest, OfTwoLandingsInOneBlockAPanicBetweenSilencesTheFirst) 
             device.publish(testing::lifted(1));
             device.voice().channels.panic();
             device.publish(landing(after, 2));
-            for (int i = 0; i < 8; ++i) {
-                device.renderBlock();
-            }
+            renderBlocks(device, 8);
             EXPECT_EQ(events(device, EffectKind::impact), 1U) << block;
             return testing::peak(device.output);
         };
@@ -239,10 +227,7 @@ class EventLoudnessTest : public ContactEventsTest, public ::testing::WithParamI
 
 TEST_P(EventLoudnessTest, DoesNotDependOnTheBlockLengthNorOnRenderingLiveOrOffline) {
     const auto& [scene, rateHz] = GetParam();
-    std::vector<TimedContactState> states;
-    for (int state = 0; state < 2500; ++state) {
-        states.push_back({scene.hand(0.001 * state), 0.001 * state});
-    }
+    const std::vector<TimedContactState> states = testing::statesOf(2.5, scene.hand, 1000.0);
     OfflineSettings settings;
     settings.outputRateHz = rateHz;
     settings.fullScaleMps2 = 60.0F;

@@ -59,17 +59,17 @@ TEST(MailboxTest, AConcurrentReaderNeverGetsAHalfWrittenOrOlderMessage) {
     EXPECT_TRUE(isWhole);
 }
 
-TEST(SegmentQueueTest, SegmentsKeepTheirOrderAndAFullQueueRejects) {
-    SegmentQueue queue;
+TEST(CorrectionQueueTest, CorrectionsKeepTheirOrderAndAFullQueueRejects) {
+    CorrectionQueue queue;
     EXPECT_EQ(queue.front(), nullptr);
-    QueuedSegment segment;
-    for (std::uint64_t sequence = 1; sequence <= SegmentQueue::capacity; ++sequence) {
-        segment.sequence = sequence;
-        EXPECT_TRUE(queue.push(segment));
+    Correction correction;
+    for (std::uint64_t sequence = 1; sequence <= CorrectionQueue::capacity; ++sequence) {
+        correction.sequence = sequence;
+        EXPECT_TRUE(queue.push(correction));
     }
     EXPECT_EQ(queue.room(), 0U);
-    EXPECT_FALSE(queue.push(segment));
-    for (std::uint64_t sequence = 1; sequence <= SegmentQueue::capacity; ++sequence) {
+    EXPECT_FALSE(queue.push(correction));
+    for (std::uint64_t sequence = 1; sequence <= CorrectionQueue::capacity; ++sequence) {
         ASSERT_NE(queue.front(), nullptr);
         EXPECT_EQ(queue.front()->sequence, sequence);
         queue.pop();
@@ -77,29 +77,29 @@ TEST(SegmentQueueTest, SegmentsKeepTheirOrderAndAFullQueueRejects) {
     EXPECT_EQ(queue.front(), nullptr);
 }
 
-TEST(SegmentQueueTest, NoSegmentIsLostOrTornBetweenTwoThreads) {
-    SegmentQueue queue;
+TEST(CorrectionQueueTest, NoCorrectionIsLostOrTornBetweenTwoThreads) {
+    CorrectionQueue queue;
     constexpr std::uint64_t count = 20000;
     std::thread writer([&queue] {
-        QueuedSegment segment;
+        Correction correction;
         for (std::uint64_t sequence = 1; sequence <= count; ++sequence) {
-            segment.sequence = sequence;
-            segment.samplesMps2.fill(static_cast<float>(sequence));
-            while (!queue.push(segment)) {
+            correction.sequence = sequence;
+            correction.unit.fill(static_cast<float>(sequence));
+            while (!queue.push(correction)) {
                 std::this_thread::yield();
             }
         }
     });
     bool isWhole = true;
     for (std::uint64_t expected = 1; expected <= count; ++expected) {
-        const QueuedSegment* segment = queue.front();
-        while (segment == nullptr) {
+        const Correction* correction = queue.front();
+        while (correction == nullptr) {
             std::this_thread::yield();
-            segment = queue.front();
+            correction = queue.front();
         }
-        isWhole = isWhole && segment->sequence == expected &&
-                  segment->samplesMps2.front() == static_cast<float>(expected) &&
-                  segment->samplesMps2.back() == static_cast<float>(expected);
+        isWhole = isWhole && correction->sequence == expected &&
+                  correction->unit.front() == static_cast<float>(expected) &&
+                  correction->unit.back() == static_cast<float>(expected);
         queue.pop();
     }
     writer.join();

@@ -6,6 +6,7 @@
 #include "model/material_builder.hpp"
 #include "model/model_builder.hpp"
 #include "model/model_file.hpp"
+#include "simulated_device.hpp"
 #include "small_library.hpp"
 #include "support/model_generator.hpp"
 #include "support/wave_measures.hpp"
@@ -74,6 +75,52 @@ TEST(ContactStateTest, EveryInvalidFieldOfAStateBecomesFiniteAndIsCounted) {
     EXPECT_EQ(state.forceNewtons, 0.0F);
     EXPECT_EQ(state.material.count, MaterialBlend::capacity);
     EXPECT_EQ(sanitise(state), 0U);
+
+    struct Limited {
+        float ContactState::*field;
+        float given;
+        float expected;
+        std::uint32_t corrections = 1;
+    };
+    for (const auto& [field, given, expected, corrections] : {Limited{&ContactState::variation, -0.5F, 0.0F},
+                                                              {&ContactState::variation, 1.5F, 1.0F},
+                                                              {&ContactState::variation, infinity, 0.0F},
+                                                              {&ContactState::variation, nan, 0.0F},
+                                                              {&ContactState::variation, 0.25F, 0.25F, 0},
+                                                              {&ContactState::spatialScale, 0.0F, 1.0F, 0},
+                                                              {&ContactState::spatialScale, 0.1F, 0.25F},
+                                                              {&ContactState::spatialScale, -2.0F, 0.25F},
+                                                              {&ContactState::spatialScale, 100.0F, 4.0F},
+                                                              {&ContactState::spatialScale, infinity, 1.0F},
+                                                              {&ContactState::spatialScale, nan, 1.0F},
+                                                              {&ContactState::toneDbPerOctave, -100.0F, -12.0F},
+                                                              {&ContactState::toneDbPerOctave, nan, 0.0F}}) {
+        state.*field = given;
+        EXPECT_EQ(sanitise(state), corrections) << given;
+        EXPECT_EQ(state.*field, expected) << given;
+    }
+}
+
+TEST(ContactStateTest, APlaceOfNoUseIsUnknownAndCounted) {
+    constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+    const auto changesOf = [](auto change) {
+        ContactState state = testing::sliding();
+        state.hasPlace = 1;
+        state.placeMetres = {1.0F, 2.0F, 3.0F};
+        state.firstAxis = {1.0F, 0.0F, 0.0F};
+        state.secondAxis = {0.0F, 1.0F, 0.0F};
+        change(state);
+        const std::uint32_t changes = sanitise(state);
+        EXPECT_EQ(state.hasPlace, changes == 0 ? 1U : 0U);
+        EXPECT_EQ(state.placeMetres[0], changes == 0 ? 1.0F : 0.0F);
+        return changes;
+    };
+    EXPECT_EQ(changesOf([](ContactState&) {}), 0U);
+    EXPECT_EQ(changesOf([](ContactState& state) { state.placeMetres[1] = nan; }), 1U);
+    EXPECT_EQ(changesOf([](ContactState& state) { state.placeMetres[2] = 2e4F; }), 1U);
+    EXPECT_EQ(changesOf([](ContactState& state) { state.firstAxis = {}; }), 1U);
+    EXPECT_EQ(changesOf([](ContactState& state) { state.secondAxis = {0.0F, nan, 0.0F}; }), 1U);
+    EXPECT_EQ(changesOf([](ContactState& state) { state.secondAxis = {5.0F, 0.0F, 0.0F}; }), 1U);
 }
 
 TEST(SeedRetrievalTest, TheSeedRecordedNearestToTheMotionIsChosen) {
@@ -121,17 +168,12 @@ class AddedLabelTest : public ::testing::Test {
 protected:
     static std::vector<float> rendered(const model::ModelFile& model, std::uint32_t first, std::uint32_t second) {
         const auto generator = haptoflow::testing::generatorOf(model, 4, "draft");
-        std::vector<TimedContactState> states;
-        for (int update = 0; update < 72; ++update) {
-            TimedContactState state;
-            state.timeSeconds = update / 72.0;
-            state.touching = true;
-            state.touchCounter = 1;
+        const auto states = testing::statesOf(1.0, [&](double seconds) {
+            ContactState state = testing::sliding();
             state.velocityMps = {0.1F, 0.05F};
-            state.forceNewtons = 1.0F;
-            state.material.add(update < 36 ? first : second, 1.0F);
-            states.push_back(state);
-        }
+            state.material = testing::blendOf({{seconds < 0.5 ? first : second, 1.0F}});
+            return state;
+        });
         return renderOffline(model, *generator, states, {}).samples;
     }
 

@@ -2,10 +2,8 @@
 
 #include "engine/offline_renderer.hpp"
 
-#include "fake_generators.hpp"
 #include "inference/load_limits.hpp"
 #include "simulated_device.hpp"
-#include "test_model.hpp"
 
 #include <gtest/gtest.h>
 
@@ -23,45 +21,23 @@
 namespace haptoflow::engine {
 namespace {
 
-using inference::segmentSamples;
 using testing::FakeGenerator;
 using testing::whiteNoise;
 
-/// Continues a 100 Hz tone, which the last two samples determine.
-void continueTone(const inference::SegmentRequest& request, std::span<float> segment) {
-    const double factor = 2.0 * std::cos(2.0 * std::numbers::pi * 100.0 / 2000.0);
-    double before = request.previous[segmentSamples - 2];
-    double last = request.previous[segmentSamples - 1];
-    for (float& sample : segment) {
-        const double next = factor * last - before;
-        before = last;
-        last = next;
-        sample = static_cast<float>(next);
-    }
+std::vector<TimedContactState> statesOfSlide(double seconds) {
+    return testing::statesOf(seconds, [](double) { return testing::sliding(); });
 }
 
-std::vector<TimedContactState> slide(double seconds, double updatesHz = 72.0) {
-    std::vector<TimedContactState> states;
-    for (double t = 0.0; t < seconds; t += 1.0 / updatesHz) {
-        TimedContactState state;
-        state.timeSeconds = t;
-        state.touching = true;
-        state.touchCounter = 1;
-        state.velocityMps = {0.1F, 0.0F};
-        state.forceNewtons = 1.0F;
-        state.material.add(0, 1.0F);
-        states.push_back(state);
-    }
-    return states;
-}
+class OfflineRendererTest : public testing::DeviceTest {
+protected:
+    FakeGenerator noise_{whiteNoise};
+};
 
-TEST(OfflineRendererTest, TheSamplesDependOnlyOnStatesAndSeed) {
-    const model::ModelFile model = testing::smallModel();
-    FakeGenerator generator(whiteNoise);
-    const std::vector<TimedContactState> states = slide(0.5);
-    const OfflineRender first = renderOffline(model, generator, states, {.seed = 7});
-    const OfflineRender second = renderOffline(model, generator, states, {.seed = 7});
-    const OfflineRender other = renderOffline(model, generator, states, {.seed = 8});
+TEST_F(OfflineRendererTest, TheSamplesDependOnlyOnStatesAndSeed) {
+    const std::vector<TimedContactState> states = statesOfSlide(0.5);
+    const OfflineRender first = renderOffline(model_, noise_, states, {.seed = 7});
+    const OfflineRender second = renderOffline(model_, noise_, states, {.seed = 7});
+    const OfflineRender other = renderOffline(model_, noise_, states, {.seed = 8});
     EXPECT_EQ(first.samples, second.samples);
     EXPECT_NE(first.samples, other.samples);
     EXPECT_EQ(first.samples.size(), static_cast<std::size_t>(std::llround((states.back().timeSeconds + 0.1) * 48000)));
@@ -84,17 +60,15 @@ public:
     std::size_t largestPiece = 0;
 };
 
-TEST(OfflineRendererTest, AStreamedRenderArrivesPerUpdateAndHasTheSameStatistics) {
-    const model::ModelFile model = testing::smallModel();
-    FakeGenerator generator(whiteNoise);
-    const std::vector<TimedContactState> states = slide(5.0);
-    const OfflineRender whole = renderOffline(model, generator, states, {});
+TEST_F(OfflineRendererTest, AStreamedRenderArrivesPerUpdateAndHasTheSameStatistics) {
+    const std::vector<TimedContactState> states = statesOfSlide(5.0);
+    const OfflineRender whole = renderOffline(model_, noise_, states, {});
     CountingSink sink;
     std::size_t next = 0;
     const ContactStateSource source = [&]() -> std::optional<TimedContactState> {
         return next < states.size() ? std::optional(states[next++]) : std::nullopt;
     };
-    const OfflineFigures streamed = renderOffline(model, generator, source, {}, sink);
+    const OfflineFigures streamed = renderOffline(model_, noise_, source, {}, sink);
     EXPECT_EQ(sink.outputSamples, whole.samples.size());
     EXPECT_EQ(sink.waveformSamples, whole.waveformMps2.size());
     // The tail of 0.1 s is the largest piece.
@@ -106,12 +80,8 @@ TEST(OfflineRendererTest, AStreamedRenderArrivesPerUpdateAndHasTheSameStatistics
     EXPECT_EQ(streamed.seamStatistics.jumpRatio, whole.seamStatistics.jumpRatio);
 }
 
-TEST(OfflineRendererTest, EverySegmentContinuesTheCommittedSamples) {
-    const model::ModelFile model = testing::smallModel();
-    FakeGenerator generator(continueTone);
-    // The seed alternates between two values. The first segment continues its last two samples as a tone, which must
-    // then continue without interruption.
-    const OfflineRender render = renderOffline(model, generator, slide(2.0), {});
+TEST_F(OfflineRendererTest, EverySegmentContinuesTheCommittedSamples) {
+    const OfflineRender render = renderOffline(model_, tone_, statesOfSlide(2.0), {});
     ASSERT_GT(render.waveformMps2.size(), 3500U);
     const double factor = 2.0 * std::cos(2.0 * std::numbers::pi * 100.0 / 2000.0);
     for (std::size_t i = 100; i < 3500; ++i) {
@@ -121,43 +91,38 @@ TEST(OfflineRendererTest, EverySegmentContinuesTheCommittedSamples) {
     EXPECT_EQ(render.underruns, 0U);
 }
 
-TEST(OfflineRendererTest, WithoutTouchNothingIsGeneratedAndTheOutputIsZero) {
-    const model::ModelFile model = testing::smallModel();
-    FakeGenerator generator(whiteNoise);
-    std::vector<TimedContactState> states = slide(1.0);
+TEST_F(OfflineRendererTest, WithoutTouchNothingIsGeneratedAndTheOutputIsZero) {
+    std::vector<TimedContactState> states = statesOfSlide(1.0);
     for (ContactState& state : states) {
         state.touching = false;
         state.touchCounter = 0;
     }
-    const OfflineRender render = renderOffline(model, generator, states, {});
-    EXPECT_EQ(generator.generated, 0);
+    const OfflineRender render = renderOffline(model_, noise_, states, {});
+    EXPECT_EQ(noise_.generated, 0);
     EXPECT_EQ(render.peak, 0.0);
     EXPECT_TRUE(render.waveformMps2.empty());
 }
 
-TEST(OfflineRendererTest, AfterAFailedRunTheOutputFadesAndTheFailureIsCounted) {
-    const model::ModelFile model = testing::smallModel();
+TEST_F(OfflineRendererTest, AfterAFailedRunTheOutputFadesAndTheFailureIsCounted) {
     int calls = 0;
     FakeGenerator generator([&calls](const inference::SegmentRequest& request, std::span<float> segment) {
         if (++calls > 20 && calls <= 40) {
             throw inference::InferenceError("refused by the test");
         }
-        continueTone(request, segment);
+        testing::continueTone(request, segment);
     });
-    const OfflineRender render = renderOffline(model, generator, slide(1.0), {});
+    const OfflineRender render = renderOffline(model_, generator, statesOfSlide(1.0), {});
     EXPECT_EQ(render.failures, 20U);
     EXPECT_GT(render.underruns, 0U);
     EXPECT_EQ(render.nonFinite, 0U);
 }
 
-TEST(OfflineRendererTest, MissingUpdatesSilenceTheVoiceUntilSlidingResumes) {
-    const model::ModelFile model = testing::smallModel();
-    FakeGenerator generator(continueTone);
-    std::vector<TimedContactState> states = slide(1.0);
+TEST_F(OfflineRendererTest, MissingUpdatesSilenceTheVoiceUntilSlidingResumes) {
+    std::vector<TimedContactState> states = statesOfSlide(1.0);
     for (std::size_t i = 36; i < states.size(); ++i) {
         states[i].timeSeconds += 0.5;
     }
-    const OfflineRender render = renderOffline(model, generator, states, {});
+    const OfflineRender render = renderOffline(model_, tone_, states, {});
     const auto quietFrom = static_cast<std::size_t>((states[35].timeSeconds + 0.1055) * 48000.0);
     const auto quietTo = static_cast<std::size_t>(states[36].timeSeconds * 48000.0);
     ASSERT_LT(quietFrom, quietTo);
@@ -168,31 +133,26 @@ TEST(OfflineRendererTest, MissingUpdatesSilenceTheVoiceUntilSlidingResumes) {
     EXPECT_NE(render.samples[quietTo + 480], 0.0F);
 }
 
-TEST(OfflineRendererTest, InvalidStatesAreSanitisedAndCountedAndTheOutputIsFinite) {
-    const model::ModelFile model = testing::smallModel();
-    FakeGenerator generator(whiteNoise);
-    std::vector<TimedContactState> states = slide(1.0);
+TEST_F(OfflineRendererTest, InvalidStatesAreSanitisedAndCountedAndTheOutputIsFinite) {
+    std::vector<TimedContactState> states = statesOfSlide(1.0);
     for (std::size_t i = 5; i < states.size(); i += 3) {
         states[i].velocityMps[0] = std::numeric_limits<float>::quiet_NaN();
         states[i].forceNewtons = std::numeric_limits<float>::infinity();
         states[i].material.weights[0] = -std::numeric_limits<float>::infinity();
     }
     states[8].timeSeconds = std::numeric_limits<double>::quiet_NaN();
-    const OfflineRender render = renderOffline(model, generator, states, {});
+    const OfflineRender render = renderOffline(model_, noise_, states, {});
     EXPECT_GT(render.sanitised, 60U);
     EXPECT_TRUE(std::ranges::all_of(render.samples, [](float sample) { return std::abs(sample) < 1.0F; }));
 }
 
-TEST(OfflineRendererTest, SettingsOutOfRangeAreRejected) {
-    const model::ModelFile model = testing::smallModel();
-    FakeGenerator generator(whiteNoise);
-    const std::vector<TimedContactState> states = slide(0.1);
-    EXPECT_THROW((void)renderOffline(model, generator, states, {.leadMs = -1.0}), std::invalid_argument);
-    EXPECT_THROW((void)renderOffline(model, generator, states, {.outputRateHz = 4000.0}), std::invalid_argument);
-    EXPECT_THROW((void)renderOffline(model, generator, states, {.fullScaleMps2 = 0.0F}), std::invalid_argument);
+TEST_F(OfflineRendererTest, SettingsOutOfRangeAreRejected) {
+    const std::vector<TimedContactState> states = statesOfSlide(0.1);
+    EXPECT_THROW((void)renderOffline(model_, noise_, states, {.leadMs = -1.0}), std::invalid_argument);
+    EXPECT_THROW((void)renderOffline(model_, noise_, states, {.outputRateHz = 4000.0}), std::invalid_argument);
+    EXPECT_THROW((void)renderOffline(model_, noise_, states, {.fullScaleMps2 = 0.0F}), std::invalid_argument);
 }
 
-using testing::FakeGenerator;
 using testing::SimulatedDevice;
 
 constexpr double daySeconds = 86'400.0;
@@ -204,7 +164,7 @@ double soundingSeconds() {
     return setting != nullptr ? std::strtod(setting, nullptr) : 60.0;
 }
 
-class LongRunTest : public ::testing::Test {
+class LongRunTest : public testing::DeviceTest {
 protected:
     static testing::DeviceSettings settings() {
         testing::DeviceSettings settings;
@@ -235,33 +195,28 @@ protected:
         EXPECT_GT(testing::peak(output), 0.5F / 60.0F);
         return output;
     }
-
-    model::ModelFile model_ = testing::smallModel();
-    FakeGenerator tone_{testing::continueTone};
 };
 
 TEST_F(LongRunTest, AVoiceWithAClockOneDayAheadSoundsLikeANewVoice) {
     SimulatedDevice device(model_, tone_, settings());
-    // Only reading advances a voice's clock, so this sets it forward by a day and by an odd number of samples, which
-    // changes the position in the ring.
-    auto& timeline = const_cast<WaveformTimeline&>(device.voice().renderer.voice().timeline());
-    constexpr std::int64_t day = 86'400LL * 2000 + 333;
-    TimelineView view;
-    timeline.view(view);
-    view.head += day;
-    view.coveredUntil += day;
-    timeline.restore(view);
+    // Only reading advances a voice's clock.
+    auto& waveform = const_cast<Waveform&>(device.voice().renderer.voice().waveform());
+    constexpr std::int64_t day = 86'400LL * 2000;
+    std::vector<float> unheard(100'000);
+    while (waveform.head() < day) {
+        waveform.read(nullptr, unheard);
+    }
     EXPECT_EQ(touch(device, 1), ofANewVoice());
-    EXPECT_GT(timeline.head(), day + 4000);
+    EXPECT_GT(waveform.head(), day + 4000);
     EXPECT_EQ(device.counters().underruns, 0U);
 }
 
 TEST_F(LongRunTest, AStrokeRenderedOfflineADayLaterGivesTheSameBits) {
     const auto renderFrom = [this](double startSeconds) {
-        std::vector<TimedContactState> states;
-        for (int update = 0; update < 144; ++update) {
-            states.push_back(
-                {testing::sliding(0.1F + 0.001F * static_cast<float>(update)), startSeconds + update / 72.0});
+        const auto faster = [](double t) { return testing::sliding(0.1F + 0.072F * static_cast<float>(t)); };
+        std::vector<TimedContactState> states = testing::statesOf(2.0, faster);
+        for (TimedContactState& state : states) {
+            state.timeSeconds += startSeconds;
         }
         FakeGenerator noise(testing::whiteNoise);
         return renderOffline(model_, noise, states, {}).samples;
@@ -281,7 +236,7 @@ TEST_F(LongRunTest, AVoiceAfterALongTouchSoundsLikeANewVoice) {
         device.waveform.seams.clear();
     }
     // The head advances by four times 2,000 samples a second, except at the beginning.
-    EXPECT_GT(device.voice().renderer.voice().timeline().head(), 7900LL * seconds);
+    EXPECT_GT(device.voice().renderer.voice().waveform().head(), 7900LL * seconds);
     device.run(1.0, [](double) { return testing::lifted(1); });
     EXPECT_EQ(touch(device, 2), ofANewVoice());
     EXPECT_EQ(device.counters().underruns, 0U);

@@ -1,5 +1,4 @@
 #include "simulated_device.hpp"
-#include "test_model.hpp"
 
 #include <gtest/gtest.h>
 
@@ -17,12 +16,11 @@ namespace {
 
 using effects::EffectKind;
 using effects::maskOf;
-using testing::FakeGenerator;
 using testing::lifted;
 using testing::SimulatedDevice;
 using testing::sliding;
 
-class SignalVoiceTest : public ::testing::Test {
+class SignalVoiceTest : public testing::DeviceTest {
 protected:
     static constexpr float fullScaleMps2 = 60.0F;
     static constexpr effects::SignalSettings tone200{.frequencyHz = 200.0F, .amplitudeMps2 = 6.0F};
@@ -53,9 +51,6 @@ protected:
         }
         return std::abs(static_cast<double>(testing::peak(samples)) - amplitude) < 1e-3 * amplitude;
     }
-    [[nodiscard]] const EffectCounters& of(EffectKind kind) const {
-        return device_.counters().effects[static_cast<std::size_t>(kind)];
-    }
     static ContactState everything(float speedMps, std::uint32_t touch = 1) {
         ContactState state = sliding(speedMps);
         state.touchCounter = touch;
@@ -65,9 +60,7 @@ protected:
         return state;
     }
 
-    model::ModelFile model_ = testing::smallModel();
-    FakeGenerator generator_{testing::continueTone};
-    SimulatedDevice device_{model_, generator_};
+    SimulatedDevice device_{model_, tone_};
     std::size_t begin_ = 0;
     inline static double nowSeconds = 0.0;
 };
@@ -98,14 +91,16 @@ TEST_F(SignalVoiceTest, ASignalReplacesTextureImpactEdgeAndToneWithoutInference)
         EXPECT_EQ(testing::peak(played(0.03)), 0.0F);
     }
     for (const EffectKind kind : {EffectKind::texture, EffectKind::impact, EffectKind::edge, EffectKind::tone}) {
-        EXPECT_EQ(of(kind).prepared + of(kind).runs + of(kind).samples + of(kind).events, 0U);
+        EXPECT_EQ(
+            of(device_, kind).prepared + of(device_, kind).runs + of(device_, kind).samples + of(device_, kind).events,
+            0U);
     }
     EXPECT_EQ(device_.counters().inferences, 0U);
     EXPECT_EQ(device_.counters().onsets, 0U);
-    EXPECT_EQ(generator_.generated, 0);
-    EXPECT_EQ(of(EffectKind::signal).prepared, 1U);
-    EXPECT_EQ(of(EffectKind::signal).events, 7U);
-    EXPECT_GT(of(EffectKind::signal).samples, 7U * 4800U / 2U);
+    EXPECT_EQ(tone_.generated, 0);
+    EXPECT_EQ(of(device_, EffectKind::signal).prepared, 1U);
+    EXPECT_EQ(of(device_, EffectKind::signal).events, 7U);
+    EXPECT_GT(of(device_, EffectKind::signal).samples, 7U * 4800U / 2U);
 }
 
 TEST_F(SignalVoiceTest, TheSignalBeginsAndEndsWithin2MsOfItsBlockWithoutAStep) {

@@ -1,8 +1,13 @@
 #pragma once
 
 #include "engine/live_voice.hpp"
+#include "engine/offline_renderer.hpp"
 #include "fake_generators.hpp"
+#include "inference/skeleton_generator.hpp"
 #include "support/wave_measures.hpp"
+#include "test_model.hpp"
+
+#include <gtest/gtest.h>
 
 #include <array>
 #include <atomic>
@@ -152,13 +157,8 @@ private:
     }
 
     bool generate(const inference::SegmentRequest& request) {
-        sketchSize_ = 0;
-        const auto keep = [this](std::size_t, std::span<const float> sketches) {
-            std::ranges::copy(sketches, sketch_.begin());
-            sketchSize_ = sketches.size();
-        };
         try {
-            generator_.generateFromSketches(std::span(&request, 1), segment_, keep);
+            generator_.generate(std::span(&request, 1), segment_);
         } catch (const std::exception&) {
             voice_.planner.fail();
             return false;
@@ -168,7 +168,7 @@ private:
 
     void deliver() {
         pending_ = false;
-        while (voice_.planner.deliver(segment_, std::span(sketch_).first(sketchSize_))) {
+        while (voice_.planner.deliver(segment_)) {
             if (!generate(voice_.planner.request())) {
                 break;
             }
@@ -189,8 +189,6 @@ private:
     bool missedWake_ = false;
     double pendingAt_ = 0.0;
     std::array<float, inference::segmentSamples> segment_{};
-    std::array<float, inference::segmentSamples> sketch_{};
-    std::size_t sketchSize_ = 0;
 };
 
 /// Contact state of a tip that slides over the model's first label.
@@ -212,5 +210,42 @@ inline ContactState lifted(std::uint32_t touchCounter = 1) {
 
 using haptoflow::testing::largestStep;
 using haptoflow::testing::peak;
+
+/// A state for each update of a hand, the first at time 0.
+template <typename Hand>
+std::vector<TimedContactState> statesOf(double seconds, Hand hand, double updateHz = 72.0) {
+    std::vector<TimedContactState> states;
+    for (double t = 0.0; t < seconds; t = static_cast<double>(states.size()) / updateHz) {
+        states.push_back({hand(t), t});
+    }
+    return states;
+}
+
+/// A model with a skeleton, which sounds by itself from the first block on.
+struct SoundingModel {
+    model::ModelFile model = calmSkeletonModel();
+    inference::SkeletonGenerator generator{skeleton::readNativeParts(model), 4};
+};
+
+/// The small model and a network that continues a tone, for the simulated device.
+class DeviceTest : public ::testing::Test {
+protected:
+    static std::optional<ContactState> slide(double) { return sliding(); }
+    /// The output from a frame on.
+    static std::span<const float> from(const SimulatedDevice& device, std::size_t frame) {
+        return std::span<const float>(device.output).subspan(frame);
+    }
+    static void renderBlocks(SimulatedDevice& device, int count) {
+        for (int block = 0; block < count; ++block) {
+            device.renderBlock();
+        }
+    }
+    static const EffectCounters& of(const SimulatedDevice& device, effects::EffectKind kind) {
+        return device.counters().effects[static_cast<std::size_t>(kind)];
+    }
+
+    model::ModelFile model_ = smallModel();
+    FakeGenerator tone_{continueTone};
+};
 
 }  // namespace haptoflow::engine::testing

@@ -1,11 +1,9 @@
 #include "engine/live_engine.hpp"
 #include "engine/offline_renderer.hpp"
 #include "engine/range_law.hpp"
-#include "engine/rib_phase.hpp"
 #include "model/material_builder.hpp"
 #include "simulated_device.hpp"
 #include "small_library.hpp"
-#include "test_model.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +11,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <numbers>
 #include <optional>
 #include <span>
@@ -26,7 +23,6 @@ namespace {
 
 using effects::EffectKind;
 using nlohmann::json;
-using testing::FakeGenerator;
 using testing::lifted;
 using testing::SimulatedDevice;
 using testing::sliding;
@@ -54,29 +50,22 @@ double rms(std::span<const float> samples) {
     return std::sqrt(squares / static_cast<double>(samples.size()));
 }
 
-class ToneVoiceTest : public ::testing::Test {
+class ToneVoiceTest : public testing::DeviceTest {
 protected:
-    SimulatedDevice device() { return SimulatedDevice(model_, generator_); }
-
     std::uint32_t registered(SimulatedDevice& on, double gainDb) {
         return static_cast<std::uint32_t>(
-            on.library.add(materialOf(model_, gainDb), [this]() -> inference::LevelEstimator& { return generator_; }));
+            on.library.add(materialOf(model_, gainDb), [this]() -> inference::LevelEstimator& { return tone_; }));
     }
-    static const EffectCounters& toneOf(const SimulatedDevice& on) {
-        return on.counters().effects[static_cast<std::size_t>(EffectKind::tone)];
-    }
+    static const EffectCounters& toneOf(const SimulatedDevice& on) { return of(on, EffectKind::tone); }
     static ContactState on(std::uint32_t label) {
         ContactState state = sliding();
         state.material.labels[0] = label;
         return state;
     }
-
-    model::ModelFile model_ = testing::smallModel();
-    FakeGenerator generator_{testing::continueTone};
 };
 
 TEST_F(ToneVoiceTest, WithoutAToneTheFilterDoesNotRun) {
-    SimulatedDevice plain(model_, generator_);
+    SimulatedDevice plain(model_, tone_);
     (void)registered(plain, 12.0);
     plain.run(1.0, [](double) { return on(0); });
     const EffectCounters& tone = toneOf(plain);
@@ -84,9 +73,9 @@ TEST_F(ToneVoiceTest, WithoutAToneTheFilterDoesNotRun) {
     EXPECT_EQ(plain.counters().requestedEffects & effects::maskOf(EffectKind::tone), 0U);
 }
 
-TEST_F(ToneVoiceTest, AMaterialsToneAppliesFromTheSeedsFirstSampleAndNotToTheTimeline) {
-    SimulatedDevice plain(model_, generator_);
-    SimulatedDevice toned(model_, generator_);
+TEST_F(ToneVoiceTest, AMaterialsToneAppliesFromTheSeedsFirstSampleAndNotToThePast) {
+    SimulatedDevice plain(model_, tone_);
+    SimulatedDevice toned(model_, tone_);
     const std::uint32_t soft = registered(plain, 0.0);
     const std::uint32_t loud = registered(toned, 12.0);
     plain.run(1.0, [soft](double) { return on(soft); });
@@ -105,8 +94,8 @@ TEST_F(ToneVoiceTest, AMaterialsToneAppliesFromTheSeedsFirstSampleAndNotToTheTim
 }
 
 TEST_F(ToneVoiceTest, ATiltChangesTheGainAtTheSoundingFrequency) {
-    SimulatedDevice plain(model_, generator_);
-    SimulatedDevice dark(model_, generator_);
+    SimulatedDevice plain(model_, tone_);
+    SimulatedDevice dark(model_, tone_);
     plain.run(1.0, [](double) { return sliding(); });
     dark.run(1.0, [](double) {
         ContactState state = sliding();
@@ -120,8 +109,8 @@ TEST_F(ToneVoiceTest, ATiltChangesTheGainAtTheSoundingFrequency) {
 }
 
 TEST_F(ToneVoiceTest, ANewTouchDoesNotUseTheToneOfTheTouchBefore) {
-    SimulatedDevice once(model_, generator_);
-    SimulatedDevice twice(model_, generator_);
+    SimulatedDevice once(model_, tone_);
+    SimulatedDevice twice(model_, tone_);
     const std::uint32_t first = registered(once, 12.0);
     ASSERT_EQ(registered(twice, 12.0), first);
     const auto touch = [first](std::uint32_t counter, std::uint32_t label) {
@@ -156,29 +145,6 @@ namespace {
 using testing::FakeGenerator;
 using testing::SimulatedDevice;
 using testing::sliding;
-
-TEST(SpatialScaleStateTest, ScaleAndTiltAreClampedAndAScaleOfZeroMeansOne) {
-    ContactState state;
-    state.spatialScale = 0.0F;
-    EXPECT_EQ(sanitise(state), 0U);
-    EXPECT_EQ(state.spatialScale, 1.0F);
-    const std::array<std::pair<float, float>, 5> limited{{{0.1F, 0.25F},
-                                                          {-2.0F, 0.25F},
-                                                          {100.0F, 4.0F},
-                                                          {std::numeric_limits<float>::infinity(), 1.0F},
-                                                          {std::numeric_limits<float>::quiet_NaN(), 1.0F}}};
-    for (const auto& [given, expected] : limited) {
-        state.spatialScale = given;
-        EXPECT_EQ(sanitise(state), 1U) << given;
-        EXPECT_EQ(state.spatialScale, expected) << given;
-    }
-    state.toneDbPerOctave = -100.0F;
-    EXPECT_EQ(sanitise(state), 1U);
-    EXPECT_EQ(state.toneDbPerOctave, -12.0F);
-    state.toneDbPerOctave = std::numeric_limits<float>::quiet_NaN();
-    EXPECT_EQ(sanitise(state), 1U);
-    EXPECT_EQ(state.toneDbPerOctave, 0.0F);
-}
 
 TEST(SpatialScaleLawTest, TheNetworkUsesTheScaledSpeedAndTheLevelTheActualSpeed) {
     const testing::SmallLibrary small;

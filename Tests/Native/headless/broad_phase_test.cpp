@@ -1,4 +1,4 @@
-#include "headless/broad_phase.hpp"
+#include "headless/scene.hpp"
 
 #include "headless/bounds_tree.hpp"
 #include "headless/contact_tracker.hpp"

@@ -1,5 +1,5 @@
 #include "headless/contact_tracker.hpp"
-#include "headless/scenes/scene_file.hpp"
+#include "headless/scene_file.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-#include "headless/scenes/near_words.hpp"
+#include "headless/command_files.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

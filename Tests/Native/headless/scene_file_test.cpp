@@ -1,12 +1,11 @@
-#include "headless/scenes/scene_file.hpp"
+#include "headless/scene_file.hpp"
 
-#include "headless/scenes/command_files.hpp"
+#include "headless/command_files.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
@@ -77,7 +76,6 @@ TEST(SceneFileTest, EveryKeyOfASceneIsRead) {
     const SceneSurface& ball = scene.surfaces[1];
     EXPECT_EQ(ball.material, (std::vector<std::pair<std::string, double>>{{"cork", 0.75}, {"wood", 0.25}}));
     ASSERT_TRUE(ball.motion);
-    EXPECT_TRUE(ball.motion->loops());
     EXPECT_DOUBLE_EQ(ball.motion->poseAt(0.5).positionMetres.x, 0.5);
     EXPECT_FALSE(ball.stiffnessNewtonsPerMetre);
     EXPECT_DOUBLE_EQ(std::get<Capsule>(scene.surfaces[2].shape).heightMetres, 0.1);

@@ -1,13 +1,12 @@
-#include "headless/scenes/stroke_file.hpp"
+#include "headless/stroke_file.hpp"
 
-#include "headless/scenes/command_files.hpp"
+#include "headless/command_files.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <clocale>
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <locale>
 #include <numbers>
 #include <sstream>

@@ -1,7 +1,6 @@
 #include "inference/load_limits.hpp"
 
 #include "inference/onnx_segment_generator.hpp"
-#include "inference/onnx_session.hpp"
 #include "model/model_builder.hpp"
 #include "rebuilt_model.hpp"
 #include "tiny_model.hpp"
@@ -10,7 +9,6 @@
 #include <gtest/gtest.h>
 #include <onnxruntime_c_api.h>
 
-#include <atomic>
 #include <chrono>
 #include <thread>
 
@@ -31,7 +29,7 @@ model::ModelFile tinyWithLevel(const Bytes& level) {
 
 OnnxSegmentGenerator loadDraft(const model::ModelFile& model, const LoadLimits& limits = {},
                                const std::shared_ptr<const Runtime>& runtime = testRuntime()) {
-    return {runtime, model, "draft", {SolverKind::euler, 1}, 8, limits};
+    return openNetwork(model, "draft", {SolverKind::euler, 1}, 8, limits, nullptr, runtime);
 }
 
 template <typename Error>
@@ -50,12 +48,6 @@ TEST(LoadLimitsTest, AGraphWithALoopIsRejectedWithoutRunning) {
                 ::testing::StartsWith("tier \"draft\", graph \"level\": uses the operator \"Loop\""));
 }
 
-TEST(LoadLimitsTest, ATierWhoseProbeRunTakesTooLongIsRejectedByName) {
-    const LoadLimits limits{.probeLimitMs = 20.0};
-    EXPECT_THAT(failureOf<TierTooSlow>(tinyWithLevel(model::testing::slowLevel()), limits),
-                ::testing::StartsWith("tier \"draft\", graph \"level\": a run of 256 took longer than 640 ms"));
-}
-
 /// A graph of a few bytes that needs 14 GB.
 Bytes inflatedLevel() {
     return levelGraph()
@@ -71,19 +63,6 @@ TEST(LoadLimitsTest, AConstantThatNeedsTooMuchMemoryIsRejected) {
     const Bytes graph = inflatedLevel();
     EXPECT_THAT(failureOf<model::ModelError>(tinyWithLevel(graph)),
                 ::testing::StartsWith("tier \"draft\", graph \"level\": a run of 256 with at most 1088 MiB failed"));
-}
-
-TEST(LoadLimitsTest, ATensorThatGrowsExponentiallyIsRejected) {
-    auto writer = levelGraph();
-    std::string last = "weighted";
-    for (int step = 0; step < 34; ++step) {
-        const std::string next = "doubled " + std::to_string(step);
-        writer.apply("Concat", {last, last}, {next}, {integerAttribute("axis", 1)});
-        last = next;
-    }
-    const auto axes = model::testing::WireWriter().text(1, "axes").number(8, 1).number(20, 7);
-    const Bytes graph = writer.apply("ReduceMean", {last}, {"log_level"}, {axes}).model().written();
-    EXPECT_THAT(failureOf<model::ModelError>(tinyWithLevel(graph)), ::testing::HasSubstr("MiB failed"));
 }
 
 TEST(LoadLimitsTest, AGraphThatAcceptsOnlyOneRequestIsRejectedWhileLoading) {
@@ -125,14 +104,15 @@ TEST(LoadLimitsTest, ACancellationAfterTheLoadHasNoEffect) {
     EXPECT_NO_THROW(generator.generate(goldenBatch().requests(), segments));
 }
 
-TEST(LoadLimitsTest, TwoConcurrentLoadsHaveSeparateLimits) {
+TEST(LoadLimitsTest, ATierWhoseProbeRunTakesTooLongIsRejectedByNameAndAnotherLoadIsNot) {
     const model::ModelFile slow = tinyWithLevel(model::testing::slowLevel());
     std::thread other([&] {
-        for (int load = 0; load < 5; ++load) {
+        for (int load = 0; load < 2; ++load) {
             EXPECT_NO_THROW((void)loadDraft(tinyModel()));
         }
     });
-    EXPECT_THAT(failureOf<TierTooSlow>(slow, {.probeLimitMs = 2.0}), ::testing::HasSubstr("took longer than 64 ms"));
+    EXPECT_THAT(failureOf<TierTooSlow>(slow, {.probeLimitMs = 2.0}),
+                ::testing::StartsWith("tier \"draft\", graph \"level\": a run of 256 took longer than 64 ms"));
     other.join();
 }
 
@@ -168,21 +148,6 @@ TEST(CancellationTest, ALateActionRunsAtOnceAndADestroyedActionNever) {
     EXPECT_EQ(late, 1);
     const CancellationAction none(nullptr, [&] { ++late; });
     EXPECT_EQ(late, 1);
-}
-
-TEST(TimeLimitTest, TheActionRunsAfterTheTimeHasPassed) {
-    std::atomic<int> runs{0};
-    {
-        const TimeLimit limit(maximumProbeLimitMs, [&] { ++runs; });
-        EXPECT_FALSE(limit.hasPassed());
-    }
-    EXPECT_EQ(runs, 0);
-    const TimeLimit limit(0.001, [&] { ++runs; });
-    while (runs == 0) {
-        std::this_thread::yield();
-    }
-    EXPECT_TRUE(limit.hasPassed());
-    EXPECT_EQ(runs, 1);
 }
 
 /// The test's ONNX Runtime presented as version 1.16, without newer functions.
@@ -226,12 +191,6 @@ TEST(OldRuntimeTest, ATierGivesTheSameResultWithVersion116) {
     EXPECT_EQ(OldRuntime::open()->apiVersion(), 16U);
     EXPECT_EQ(testRuntime()->apiVersion(), 22U);
     EXPECT_EQ(answer(loadDraft(tinyModel(), {}, OldRuntime::open())), answer(loadDraft(tinyModel())));
-}
-
-TEST(OldRuntimeTest, ALoadCanBeCancelledBetweenItsGraphs) {
-    const auto cancellation = std::make_shared<Cancellation>();
-    cancellation->cancel();
-    EXPECT_THROW((void)loadDraft(tinyModel(), {.cancellation = cancellation}, OldRuntime::open()), LoadCancelled);
 }
 
 /// The test's ONNX Runtime with a cancellation during the loading of a graph.
@@ -349,7 +308,7 @@ model::ModelFile modelWith(const std::string& fieldBlob, const std::string& leve
 }
 
 OnnxSegmentGenerator makeGenerator(const model::ModelFile& model) {
-    return {testRuntime(), model, "draft", {SolverKind::euler, 1}, 4};
+    return openNetwork(model, "draft", {SolverKind::euler, 1});
 }
 
 void expectRefused(const std::string& fieldBlob, const std::string& levelBlob, const std::string& part,
@@ -398,20 +357,13 @@ protected:
     }
 };
 
-TEST_F(NotFiniteTest, AFieldThatReturnsNaNIsAnError) {
+TEST_F(NotFiniteTest, AFieldOrALevelThatIsNotFiniteAndAnImpossiblyHighLevelAreErrors) {
     EXPECT_THROW((void)run(modelWith("not_finite_field", "level"), {0.1F, 0.0F, 1.0F}), InferenceError);
-}
-
-TEST_F(NotFiniteTest, ALevelOfMinusInfinityIsAnError) {
-    EXPECT_THROW((void)run(modelWith("flow_field", "not_finite_level"), {0.0F, 0.0F, 1.0F}), InferenceError);
-}
-
-TEST_F(NotFiniteTest, ALevelOfNaNIsAnError) {
-    EXPECT_THROW((void)run(modelWith("flow_field", "not_finite_level"), {-1.0F, 0.0F, 1.0F}), InferenceError);
-}
-
-TEST_F(NotFiniteTest, AnImpossiblyHighLevelIsAnError) {
-    EXPECT_THROW((void)run(modelWith("flow_field", "not_finite_level"), {1e9F, 0.0F, 1.0F}), InferenceError);
+    const model::ModelFile levels = modelWith("flow_field", "not_finite_level");
+    // By its speed the graph's level is minus infinity, NaN, and too high.
+    for (const float speedMps : {0.0F, -1.0F, 1e9F}) {
+        EXPECT_THROW((void)run(levels, {speedMps, 0.0F, 1.0F}), InferenceError) << speedMps;
+    }
 }
 
 TEST_F(NotFiniteTest, AVeryLowLevelGivesSilenceInsteadOfAnError) {

@@ -10,10 +10,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -23,7 +25,7 @@ namespace {
 using ::testing::HasSubstr;
 
 OnnxSegmentGenerator makeGenerator(const std::string& tier, SolverSettings solver, std::size_t maximumBatch = 4) {
-    return {testRuntime(), tinyModel(), tier, solver, maximumBatch};
+    return openNetwork(tinyModel(), tier, solver, maximumBatch);
 }
 
 std::vector<float> generate(OnnxSegmentGenerator& generator, std::span<const SegmentRequest> requests) {
@@ -158,21 +160,14 @@ TEST(OnnxSegmentGeneratorTest, NonFiniteNoiseIsAnErrorThatDoesNotAffectTheNextBa
     EXPECT_EQ(generate(generator, requests), expected);
 }
 
-TEST(OnnxSegmentGeneratorTest, TheErrorForAnUnknownTierListsTheTiers) {
-    try {
-        (void)makeGenerator("ultra", {});
-        FAIL() << "a missing tier was accepted";
-    } catch (const std::invalid_argument& error) {
-        EXPECT_THAT(error.what(), HasSubstr("\"ultra\""));
-        EXPECT_THAT(error.what(), HasSubstr("\"draft\" \"standard\" \"fine\""));
-    }
-}
-
 TEST(OnnxSegmentGeneratorTest, SettingsOutOfRangeAreRejected) {
     EXPECT_THROW((void)makeGenerator("standard", {SolverKind::euler, 0}), std::invalid_argument);
     EXPECT_THROW((void)makeGenerator("standard", {SolverKind::euler, 17}), std::invalid_argument);
-    EXPECT_THROW((void)makeGenerator("standard", {}, 0), std::invalid_argument);
-    EXPECT_THROW((void)makeGenerator("standard", {}, 257), std::invalid_argument);
+    const model::Tier& tier = *tinyModel().findTier("standard");
+    for (const std::size_t batch : {0U, 257U}) {
+        EXPECT_THROW((void)inference::makeGenerator(testRuntime(), tinyModel(), tier, {}, batch),
+                     std::invalid_argument);
+    }
     OnnxSegmentGenerator generator = makeGenerator("standard", {});
     EXPECT_THROW(generator.setSolver({SolverKind::euler, 17}), std::invalid_argument);
     EXPECT_EQ(generator.solver().steps, 2);
@@ -193,18 +188,17 @@ TEST(SharedSessionsTest, TiersOfOneGraphLoadItOnceAndDoNotDisturbEachOther) {
     const std::vector<float> expected = generate(alone, requests);
 
     SharedSessions sessions;
-    OnnxSegmentGenerator fine(testRuntime(), tinyModel(), "fine", {SolverKind::heun, 5}, 4, {}, &sessions);
-    OnnxSegmentGenerator standard(testRuntime(), tinyModel(), "standard", {SolverKind::euler, 1}, 4, {}, &sessions);
+    OnnxSegmentGenerator fine = openNetwork(tinyModel(), "fine", {SolverKind::heun, 5}, 4, {}, &sessions);
+    OnnxSegmentGenerator standard = openNetwork(tinyModel(), "standard", {SolverKind::euler, 1}, 4, {}, &sessions);
     EXPECT_EQ(sessions.loaded(), 1U) << "both have flow_field";
     (void)generate(standard, one);
     EXPECT_EQ(generate(fine, requests), expected);
-    EXPECT_EQ(standard.runCounts().field, 1U) << "a generator counts its own runs";
 
-    const OnnxSegmentGenerator latent(testRuntime(), tinyModel(), "latent", {}, 4, {}, &sessions);
+    const OnnxSegmentGenerator latent = openNetwork(tinyModel(), "latent", {}, 4, {}, &sessions);
     EXPECT_EQ(sessions.loaded(), 4U) << "field, encoder and decoder";
-    const OnnxSegmentGenerator same(testRuntime(), tinyModel(), "latent", {SolverKind::heun, 2}, 4, {}, &sessions);
+    const OnnxSegmentGenerator same = openNetwork(tinyModel(), "latent", {SolverKind::heun, 2}, 4, {}, &sessions);
     EXPECT_EQ(sessions.loaded(), 4U);
-    const OnnxSegmentGenerator larger(testRuntime(), tinyModel(), "latent", {}, 5, {}, &sessions);
+    const OnnxSegmentGenerator larger = openNetwork(tinyModel(), "latent", {}, 5, {}, &sessions);
     EXPECT_EQ(sessions.loaded(), 7U) << "another batch has other buffers";
 }
 
@@ -263,7 +257,7 @@ TEST(RibPhaseInputTest, EveryKindOfTierReceivesThePhaseOfEachRequest) {
     const auto requests = requestsWithPhases();
     for (const char* tier : {"draft", "standard", "direct", "latent"}) {
         for (const std::size_t maximumBatch : {4U, 2U, 1U}) {
-            OnnxSegmentGenerator generator(testRuntime(), model, tier, {SolverKind::euler, 2}, maximumBatch);
+            OnnxSegmentGenerator generator = openNetwork(model, tier, {SolverKind::euler, 2}, maximumBatch);
             const auto effect = effectOfPhase(generator, requests);
             for (std::size_t i = 0; i < effect.size(); ++i) {
                 // The decoder of the latent tier halves every second sample.
@@ -274,27 +268,49 @@ TEST(RibPhaseInputTest, EveryKindOfTierReceivesThePhaseOfEachRequest) {
     }
 }
 
-TEST(RibPhaseInputTest, AGraphWithoutTheInputLoadsAndIgnoresThePhase) {
-    const auto requests = requestsWithPhases();
-    for (const char* tier : {"draft", "standard", "direct", "latent"}) {
-        OnnxSegmentGenerator generator(testRuntime(), tinyModel(), tier, {SolverKind::euler, 2}, 4);
-        EXPECT_THAT(effectOfPhase(generator, requests), ::testing::Each(0.0F)) << tier;
-    }
+}  // namespace
+}  // namespace haptoflow::inference::testing
+
+namespace haptoflow::inference::testing {
+namespace {
+
+/// u = -x, so that x(1) = x(0) / e.
+void decay(std::span<const float> point, float /*time*/, float /*interval*/, std::span<float> velocity) {
+    std::ranges::transform(point, velocity.begin(), [](float value) { return -value; });
 }
 
-TEST(RibPhaseInputTest, TheErrorForAnotherShapeNamesTierGraphAndShape) {
-    for (const auto& [tier, blob, output] :
-         {std::array{"standard", "flow_field", "velocity"}, std::array{"draft", "average_field", "velocity"},
-          std::array{"direct", "direct_field", "segment"}}) {
-        const auto model = model::ModelFile::parse(withGraphs(tinyModel(), {{blob, ribField(output, {1, 200}, 3)}}));
-        try {
-            (void)OnnxSegmentGenerator(testRuntime(), model, tier, {SolverKind::euler, 1}, 1);
-            ADD_FAILURE() << tier << " was accepted";
-        } catch (const model::ModelError& error) {
-            EXPECT_EQ(error.status(), model::ModelStatus::inconsistent);
-            EXPECT_EQ(std::string(error.what()), std::string("tier \"") + tier + "\", graph \"" + blob +
-                                                     "\": input \"phases\" has the shape [?,3]; expected [B,6]");
-        }
+float decayed(SolverSettings settings, float start) {
+    std::array<float, 1> point{start};
+    Solver().integrate(decay, settings, point);
+    return point[0];
+}
+
+/// The order of convergence: the binary logarithm of the error's reduction when the step is halved.
+double convergenceOrder(SolverKind kind) {
+    const auto error = [kind](int steps) {
+        return std::fabs(static_cast<double>(decayed({kind, steps}, 1.0F)) - std::exp(-1.0));
+    };
+    return std::log2(error(8) / error(16));
+}
+
+TEST(SolverTest, EachKindConvergesWithItsPowerOfTheStepByItsFormula) {
+    EXPECT_NEAR(convergenceOrder(SolverKind::euler), 1.0, 0.1);
+    EXPECT_NEAR(convergenceOrder(SolverKind::midpoint), 2.0, 0.1);
+    EXPECT_NEAR(convergenceOrder(SolverKind::heun), 2.0, 0.1);
+    EXPECT_FLOAT_EQ(decayed({SolverKind::euler, 1}, 2.0F), 0.0F);
+    EXPECT_FLOAT_EQ(decayed({SolverKind::midpoint, 1}, 2.0F), 1.0F);
+    EXPECT_FLOAT_EQ(decayed({SolverKind::heun, 1}, 2.0F), 1.0F);
+}
+
+TEST(SolverTest, ASolverAcceptsPointsOfDifferentSizesAndOneToSixteenSteps) {
+    Solver solver;
+    for (const std::size_t size : {1U, 600U, 200U}) {
+        std::vector<float> point(size, 1.0F);
+        solver.integrate(decay, {SolverKind::midpoint, 1}, point);
+        EXPECT_THAT(point, ::testing::Each(0.5F));
+    }
+    for (const int steps : {-1, 0, 17}) {
+        EXPECT_THROW((void)decayed({SolverKind::euler, steps}, 1.0F), std::invalid_argument);
     }
 }
 

@@ -15,9 +15,9 @@ inline constexpr float secondRibWeight = -0.25F;
 
 /// A field graph with the single input `phases`. Every element of its output point has the value first phase *
 /// firstRibWeight + second phase * secondRibWeight.
-inline model::testing::Bytes ribField(std::string_view output, const model::testing::Dimensions& shape,
-                                      std::size_t phases = 6) {
+inline model::testing::Bytes ribField(std::string_view output, const model::testing::Dimensions& shape) {
     using namespace model::testing;
+    constexpr std::size_t phases = 6;
     std::size_t size = 1;
     Dimensions reshaped{-1};
     for (const std::int64_t dimension : shape) {

@@ -47,8 +47,11 @@ protected:
             batch_.add(row.at("embedding"), row.at("motion"), row.at("previous"), row.at("noise"));
         }
         requests_ = batch_.requests();
+        owns_.resize(requests_.size());
         for (std::size_t row = 0; row < requests_.size(); ++row) {
             requests_[row].phases = golden_.at("cases")[row].at("phases").get<skeleton::Phases>();
+            owns_[row] = golden_.at("cases")[row].at("own").get<std::vector<float>>();
+            requests_[row].own = owns_[row];
         }
     }
 
@@ -79,6 +82,7 @@ protected:
     nlohmann::json golden_ = haptoflow::testing::readGolden("model/skeleton.parity.json");
     RequestBatch batch_;
     std::vector<SegmentRequest> requests_;
+    std::vector<std::vector<float>> owns_;
 };
 
 TEST_F(SkeletonGeneratorTest, TheSketchAgreesWithPyTorchAndNeedsNoOnnxRuntime) {
@@ -93,8 +97,8 @@ TEST_F(SkeletonGeneratorTest, TheRefinedSegmentAgreesWithPyTorchInBatchesOfEvery
 }
 
 TEST_F(SkeletonGeneratorTest, ABatchNeedsOneRunOfTheRefiningGraph) {
-    RefinedGenerator generator(testRuntime(), skeletonModel(), skeleton::readNativeParts(skeletonModel()),
-                               tierNamed("standard"), 4);
+    RefinedGenerator generator({testRuntime(), skeletonModel(), tierNamed("standard"), 4},
+                               skeleton::readNativeParts(skeletonModel()));
     EXPECT_EQ(generator.graphRuns(), 0U);
     (void)generate(generator);
     EXPECT_EQ(generator.graphRuns(), 2U) << "seven requests in batches of four";
@@ -103,32 +107,20 @@ TEST_F(SkeletonGeneratorTest, ABatchNeedsOneRunOfTheRefiningGraph) {
     EXPECT_EQ(generator.graphRuns(), 2U) << "levels need no graph";
 }
 
-TEST_F(SkeletonGeneratorTest, ARefinedTierTellsTheSketchOfEachBatchBeforeItsGraphRuns) {
-    RefinedGenerator generator(testRuntime(), skeletonModel(), skeleton::readNativeParts(skeletonModel()),
-                               tierNamed("standard"), 4);
-    std::vector<float> sketches;
-    std::vector<std::uint64_t> runsBefore;
-    std::vector<float> segments(requests_.size() * segmentSamples);
-    generator.generateFromSketches(requests_, segments, [&](std::size_t first, std::span<const float> batch) {
-        EXPECT_EQ(first * segmentSamples, sketches.size());
-        sketches.insert(sketches.end(), batch.begin(), batch.end());
-        runsBefore.push_back(generator.graphRuns());
-    });
-    expectGolden(sketches, "sketch_segment");
-    expectGolden(segments, "standard_segment");
-    EXPECT_EQ(runsBefore, (std::vector<std::uint64_t>{0, 1}));
-}
-
-TEST_F(SkeletonGeneratorTest, ATierWithoutARefinementTellsItsSegmentsAsSketches) {
-    const auto generator = openTier("sketch");
-    std::vector<float> segments(requests_.size() * segmentSamples);
-    std::vector<float> sketches;
-    generator->generateFromSketches(requests_, segments, [&](std::size_t first, std::span<const float> batch) {
-        EXPECT_EQ(first * segmentSamples, sketches.size());
-        sketches.insert(sketches.end(), batch.begin(), batch.end());
-    });
-    EXPECT_EQ(segments, generate(*generator));
-    EXPECT_EQ(sketches, segments);
+TEST_F(SkeletonGeneratorTest, ASegmentThatAStreamHasMadeTakesThePlaceOfTheSketch) {
+    std::vector<skeleton::NetworkInput> made(requests_.size());
+    std::vector<SegmentRequest> withStreams = requests_;
+    for (std::size_t row = 0; row < requests_.size(); ++row) {
+        made[row].values.fill(0.125F);
+        withStreams[row].networkInput = &made[row];
+    }
+    const std::vector<float> refined = generate(*openTier("standard"));
+    requests_ = withStreams;
+    EXPECT_NE(generate(*openTier("standard")), refined);
+    const std::vector<float> segments = generate(*openTier("sketch"));
+    for (std::size_t row = 0; row < requests_.size(); ++row) {
+        EXPECT_NEAR(segments[row * segmentSamples + 7], 0.125 * std::exp(expected(row, "log_level")[0]), 1e-5) << row;
+    }
 }
 
 TEST_F(SkeletonGeneratorTest, LevelsAgreeWithPyTorchAndNeedNoOnnxRuntime) {
@@ -280,7 +272,10 @@ protected:
             batch.add(row.at("embedding"), row.at("motion"), row.at("previous"), row.at("noise"),
                       row.at("phases").get<skeleton::Phases>());
             const auto generator = haptoflow::testing::generatorOf(*model_, 1, tier);
-            compare(row, batch.requests(), *generator);
+            std::vector<SegmentRequest> requests = batch.requests();
+            const auto own = row.value("own", std::vector<float>{});
+            requests.front().own = own;
+            compare(row, requests, *generator);
         }
     }
 

@@ -2,6 +2,7 @@
 
 #include "golden_file.hpp"
 #include "inference/onnx_runtime.hpp"
+#include "inference/onnx_segment_generator.hpp"
 #include "inference/segment_generator.hpp"
 #include "model/model_file.hpp"
 
@@ -22,6 +23,14 @@ inline std::shared_ptr<const Runtime> testRuntime() {
 inline const model::ModelFile& tinyModel() {
     static const model::ModelFile model = model::ModelFile::read(HAPTOFLOW_TEST_GOLDEN_DIR "/model/tiny.haptoflow");
     return model;
+}
+
+/// A tier of networks alone.
+inline OnnxSegmentGenerator openNetwork(const model::ModelFile& model, std::string_view tier, SolverSettings solver,
+                                        std::size_t maximumBatch = 4, const LoadLimits& limits = {},
+                                        SharedSessions* sessions = nullptr,
+                                        const std::shared_ptr<const Runtime>& runtime = testRuntime()) {
+    return OnnxSegmentGenerator({runtime, model, *model.findTier(tier), maximumBatch, limits, sessions}, solver);
 }
 
 inline SolverKind solverNamed(const std::string& name) {

@@ -1,8 +1,8 @@
 #include "learning/filter_likelihood.hpp"
 
-#include "inference/gaussian_noise.hpp"
 #include "model/model_file.hpp"
 #include "skeleton/condition.hpp"
+#include "skeleton/gaussian_noise.hpp"
 #include "skeleton/skeleton_tensors.hpp"
 
 #include <gtest/gtest.h>
@@ -50,7 +50,7 @@ protected:
     /// White noise through the embedding's own filter, which changes with the motion.
     [[nodiscard]] std::vector<float> waveOf(const Embedding& embedding) const {
         std::vector<float> wave(recording_.wave.size());
-        inference::fillStandardNormal({.seed = 3, .voice = 0, .segment = 0}, wave);
+        skeleton::fillStandardNormal({.seed = 3, .voice = 0, .segment = 0}, wave);
         skeleton::ReflectionFilter filter;
         for (std::size_t n = 0; n < wave.size(); ++n) {
             if (n % 50 == 0) {

@@ -1,4 +1,4 @@
-#include "learning/frame_figures.hpp"
+#include "learning/texture_figures.hpp"
 
 #include "learning/comparison.hpp"
 

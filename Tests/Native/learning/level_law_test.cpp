@@ -56,7 +56,7 @@ TEST(LevelLawTest, AJumpOf14DecibelsIsFollowedInsideTheRecordedRange) {
 TEST(LevelLawTest, TheLevelIsThePowerAlsoWhereItComesInBursts) {
     recordings::PreparedRecording recording;
     recording.wave.resize(40'000);
-    inference::fillStandardNormal({.seed = 2, .voice = 0, .segment = 0}, recording.wave);
+    skeleton::fillStandardNormal({.seed = 2, .voice = 0, .segment = 0}, recording.wave);
     double power = 0.0;
     for (std::size_t i = 0; i < recording.wave.size(); ++i) {
         const bool isLoud = i / 100 % 10 == 0;
@@ -110,7 +110,7 @@ TEST(RecordNextTest, TheWidestGapIsNamedAndAFullRecordingNeedsNothing) {
 
 TEST(RecordNextTest, WhatIsAdvisedGainsMoreThanMoreOfTheSame) {
     const model::ModelFile model = model::ModelFile::read(HAPTOFLOW_TEST_DEFAULT_MODEL);
-    const auto generator = haptoflow::testing::generatorOf(model, 64);
+    const auto generator = haptoflow::testing::generatorOf(model, 64, "sketch");
     // Above 120 mm/s the surface is four times as strong, which nobody can guess from slower strokes.
     const testing::MadeSurface surface{.stepMps = 0.12, .stepGain = 4.0};
     const auto learnt = [&](double seconds, double fastestMps) {

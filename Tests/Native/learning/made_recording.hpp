@@ -1,8 +1,8 @@
 #pragma once
 
-#include "inference/gaussian_noise.hpp"
 #include "learning/learning_settings.hpp"
 #include "recordings/recording.hpp"
+#include "skeleton/gaussian_noise.hpp"
 
 #include <array>
 #include <cmath>
@@ -46,7 +46,7 @@ public:
         : rateHz_(rateHz) {
         const auto count = static_cast<std::size_t>(motion.seconds * rateHz);
         std::vector<float> noise(count);
-        inference::fillStandardNormal({.seed = seed, .voice = 0, .segment = 0}, noise);
+        skeleton::fillStandardNormal({.seed = seed, .voice = 0, .segment = 0}, noise);
         const double turn = 2.0 * std::numbers::pi * surface.resonanceHz / rateHz;
         const double radius = std::exp(-0.5 * turn);
         const double first = 2.0 * radius * std::cos(turn);
@@ -118,7 +118,7 @@ inline MadeRecording noisy(const MadeRecording& made, std::size_t axes = 1) {
     MadeRecording noisy = made;
     noisy.axisCount = axes;
     noisy.acceleration.resize(axes * made.acceleration.size());
-    inference::fillStandardNormal({.seed = 12, .voice = 0, .segment = 0}, noisy.acceleration);
+    skeleton::fillStandardNormal({.seed = 12, .voice = 0, .segment = 0}, noisy.acceleration);
     for (std::size_t i = 0; i < made.acceleration.size(); ++i) {
         const bool rests = i < 4000;
         for (std::size_t axis = 0; axis < axes; ++axis) {

@@ -1,6 +1,5 @@
-#include "learning/evolution_strategy.hpp"
+#include "learning/numerics.hpp"
 #include "learning/gamma_regression.hpp"
-#include "learning/linear_algebra.hpp"
 
 #include <gtest/gtest.h>
 
@@ -82,10 +81,6 @@ TEST(EvolutionStrategyTest, TheMinimumOfARotatedEllipsoidIsFound) {
 TEST(EvolutionStrategyTest, EqualSeedsGiveEqualPointsAndOtherSeedsOtherPoints) {
     EXPECT_EQ(minimised(5, 20), minimised(5, 20));
     EXPECT_NE(minimised(5, 20), minimised(6, 20));
-}
-
-TEST(EvolutionStrategyTest, AStartWithoutCoordinatesIsRefused) {
-    EXPECT_THROW(EvolutionStrategy({}, 0.5, 10, 1), std::invalid_argument);
 }
 
 std::vector<SpectrumFrame> framesFrom(double slowest, double fastest, double force) {

@@ -187,7 +187,7 @@ TEST(PreparationTest, ThreeAxesKeepTheirEnergyEvenWhereTheyCancel) {
     std::vector<float> noise(8000);
     double energy = 0.0;
     for (std::size_t axis = 0; axis < 2; ++axis) {
-        inference::fillStandardNormal({.seed = 3, .voice = static_cast<std::uint32_t>(axis), .segment = 0}, noise);
+        skeleton::fillStandardNormal({.seed = 3, .voice = static_cast<std::uint32_t>(axis), .segment = 0}, noise);
         axes[axis] = recordings::bandPassed(std::vector<double>(noise.begin(), noise.end()));
         for (const double value : axes[axis]) {
             energy += value * value;

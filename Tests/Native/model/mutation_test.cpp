@@ -192,7 +192,7 @@ TEST_P(MutationTest, EveryChangedByteIsDetected) {
     const Bytes valid = builder().build();
     Random random(1);
     Outcome outcome;
-    constexpr int mutants = 8000;
+    constexpr int mutants = 1500;
     for (int index = 0; index < mutants; ++index) {
         Bytes file = valid;
         file[random.below(file.size())] ^= static_cast<std::byte>(1 + random.below(255));
@@ -207,7 +207,7 @@ TEST_P(MutationTest, ChangedHeaderBytesWithCorrectChecksumsAreRefusedOrReadable)
     const std::size_t textBytes = ModelFile::parse(valid).headerText().size();
     Random random(2);
     Outcome outcome;
-    for (int index = 0; index < 12'000; ++index) {
+    for (int index = 0; index < 2000; ++index) {
         Bytes file = valid;
         for (std::size_t change = 0; change <= random.below(4); ++change) {
             file[prefixBytes + random.below(textBytes)] = static_cast<std::byte>(random.below(256));
@@ -229,7 +229,7 @@ TEST_P(MutationTest, ChangedHeaderValuesWithCorrectChecksumsAreRefusedOrReadable
         }
     };
     int built = 0;
-    for (int index = 0; index < 12'000; ++index) {
+    for (int index = 0; index < 2000; ++index) {
         try {
             tryMutant(mutated.build(), outcome);
             ++built;
@@ -237,7 +237,7 @@ TEST_P(MutationTest, ChangedHeaderValuesWithCorrectChecksumsAreRefusedOrReadable
             // The mutant's header does not fit into the space that the builder leaves: skip it.
         }
     }
-    EXPECT_GT(built, 9'000);
+    EXPECT_GT(built, 1500);
     EXPECT_GT(outcome.accepted, 0);
     EXPECT_GT(outcome.refused[ModelStatus::inconsistent], 0);
     EXPECT_GT(outcome.refused[ModelStatus::oversized], 0);
@@ -247,7 +247,7 @@ TEST_P(MutationTest, ChangedLengthsAndOffsetsWithCorrectChecksumsAreRefusedOrRea
     const Bytes valid = builder().build();
     Random random(4);
     Outcome outcome;
-    for (int index = 0; index < 8000; ++index) {
+    for (int index = 0; index < 1500; ++index) {
         Bytes file = valid;
         if (random.below(2) == 0) {
             file.resize(random.below(2 * file.size()));
@@ -268,7 +268,7 @@ TEST_P(MutationTest, ChangedLengthsAndOffsetsWithCorrectChecksumsAreRefusedOrRea
 TEST_P(MutationTest, ChangedTensorsWithCorrectChecksumsAreRefusedOrReadable) {
     Random random(5);
     Outcome outcome;
-    for (int index = 0; index < 4000; ++index) {
+    for (int index = 0; index < 600; ++index) {
         ModelBuilder mutated = builder();
         Bytes& bytes = skeleton::testing::blobOf(mutated, GetParam().tensors[random.below(2)]).bytes;
         writeUnsigned(bytes, 4 * random.below(bytes.size() / 4), 4, random.next());

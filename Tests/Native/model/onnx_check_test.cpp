@@ -1,7 +1,6 @@
 #include "model/onnx_check.hpp"
 #include "model/model_error.hpp"
 #include "model/model_file.hpp"
-#include "model/onnx_operators.hpp"
 #include "model/onnx_tensor.hpp"
 #include "onnx_writer.hpp"
 #include "random.hpp"
@@ -76,7 +75,6 @@ TEST(OnnxCheckTest, OperatorsThatContainGraphsOrDeriveSizesFromValuesAreNotInThe
     for (const char* type :
          {"Loop", "Scan", "If", "SequenceMap", "Tile", "Range", "Resize", "Upsample", "OneHot", "NonZero", "EyeLike",
           "RandomNormal", "StringNormalizer", "Optional", "", "loop", "Loop "}) {
-        EXPECT_FALSE(isAllowedOperator(type)) << type;
         expectGraphRefusal(levelGraph().apply(type, {"weighted"}, {"log_level"}).model(), "uses the operator");
     }
 }
@@ -220,10 +218,11 @@ TEST(OnnxCheckTest, TheDocumentationListsTheOperatorsAndNoOthers) {
     const std::size_t begin = text.find(head);
     ASSERT_NE(begin, std::string::npos);
     const std::size_t first = text.find("```\n", begin) + 4;
-    std::istringstream words(text.substr(first, text.find("```", first) - first));
-    std::set<std::string> listed{std::istream_iterator<std::string>(words), {}};
-    const std::span<const std::string_view> allowed = allowedOperators();
-    EXPECT_EQ(listed, std::set<std::string>(allowed.begin(), allowed.end()));
+    const auto wordsOf = [](const std::string& words) {
+        std::istringstream each(words);
+        return std::set<std::string>{std::istream_iterator<std::string>(each), {}};
+    };
+    EXPECT_EQ(wordsOf(text.substr(first, text.find("```", first) - first)), wordsOf(std::string(allowedOperators)));
 }
 
 TEST(WireReaderTest, EveryEncodingIsRead) {
@@ -293,7 +292,7 @@ TEST(OnnxMutationTest, ChangedBytesAreRefusedOrReadToTheEnd) {
     Random random(6);
     for (const Bytes& valid : seedGraphs()) {
         GraphOutcome outcome;
-        for (int index = 0; index < 6000; ++index) {
+        for (int index = 0; index < 1000; ++index) {
             Bytes bytes = valid;
             for (std::size_t change = 0; change <= random.below(4); ++change) {
                 // The first bytes hold the structure, the rest mostly weights.

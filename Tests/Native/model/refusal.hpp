@@ -32,6 +32,13 @@ inline void expectHeaderRefusal(const std::function<void(nlohmann::json&)>& chan
     expectRefusal(builder.build(), status, part);
 }
 
+/// Expects the same for the valid model with this value at a place of the header.
+inline void expectHeaderRefusal(const std::string& pointer, const nlohmann::json& value, const std::string& part,
+                                ModelStatus status = ModelStatus::inconsistent) {
+    expectHeaderRefusal([&](nlohmann::json& header) { header[nlohmann::json::json_pointer(pointer)] = value; }, part,
+                        status);
+}
+
 /// Expects the same for a change of the header's list of blobs.
 inline void expectBlobRefusal(const std::function<void(nlohmann::json& blobs)>& change, const std::string& part,
                               ModelStatus status = ModelStatus::inconsistent) {

@@ -25,7 +25,7 @@ using capi::testing::OpenEngine;
 /// Number of callbacks, from HAPTOFLOW_TEST_CALLBACKS; the soak test sets a million.
 std::uint64_t callbackCount() {
     const char* asked = std::getenv("HAPTOFLOW_TEST_CALLBACKS");
-    return asked != nullptr ? std::strtoull(asked, nullptr, 10) : 30'000;
+    return asked != nullptr ? std::strtoull(asked, nullptr, 10) : 12'000;
 }
 
 /// Synchronises device and hand, so that a contact state is published every 13 ms of output, independent of the

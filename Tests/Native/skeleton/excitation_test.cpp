@@ -37,11 +37,13 @@ double theta(const FamilyPhase& phase, std::size_t harmonic, double n) {
 
 void expectDefinition(const FamilyPhase& phase) {
     const FamilyGains gains = randomGains(11);
-    SurfaceWaves waves;
-    SurfaceWaves::Pulses cosines{};
-    SurfaceWaves::Pulses sines{};
-    waves.add(phase, gains, &cosines, &sines);
+    NetworkInput input;
     for (std::size_t n = 0; n < segmentSamples; ++n) {
+        // Pieces of 32 samples, and one of 8.
+        const std::size_t first = n - n % pieceSamples;
+        SurfaceWaves waves(std::min(pieceSamples, segmentSamples - first));
+        waves.add({.cycles = phase.cycles + phase.rateHz * static_cast<double>(first) / 2000.0, .rateHz = phase.rateHz},
+                  gains, {.input = n == first ? &input : nullptr, .first = first});
         double line = 0.0;
         double swing = 0.0;
         for (std::size_t h = 1; h <= lineHarmonics; ++h) {
@@ -55,12 +57,12 @@ void expectDefinition(const FamilyPhase& phase) {
                 const bool isHeard = harmonicHz < 700.0;
                 swing += isHeard ? gains.swingCosine[h - 1] * std::cos(angle) + gains.swingSine[h - 1] * std::sin(angle)
                                  : 0.0;
-                ASSERT_NEAR(cosines[h - 1][n], isHeard ? std::cos(angle) : 0.0, 3e-6) << h << ' ' << n;
-                ASSERT_NEAR(sines[h - 1][n], isHeard ? std::sin(angle) : 0.0, 3e-6) << h << ' ' << n;
+                ASSERT_NEAR(input.piece(h + 1, n, 1)[0], isHeard ? std::cos(angle) : 0.0, 3e-6) << h << ' ' << n;
+                ASSERT_NEAR(input.piece(h + 6, n, 1)[0], isHeard ? std::sin(angle) : 0.0, 3e-6) << h << ' ' << n;
             }
         }
-        ASSERT_NEAR(waves.lines()[n], line, 2e-5) << n;
-        ASSERT_NEAR(waves.swing()[n], swing, 2e-5) << n;
+        ASSERT_NEAR(waves.lines()[n - first], line, 2e-5) << n;
+        ASSERT_NEAR(waves.swing()[n - first], swing, 2e-5) << n;
     }
 }
 
@@ -80,35 +82,33 @@ TEST(SurfaceWavesTest, PhasesOfManyTurnsLoseNoPrecision) {
 }
 
 TEST(SurfaceWavesTest, OnlyRatesBetweenHalfAHertzAndTheHighestLineAreHeard) {
-    EXPECT_FALSE((FamilyPhase{.cycles = 0.5, .rateHz = 0.0}.isHeard()));
-    EXPECT_FALSE((FamilyPhase{.cycles = 0.5, .rateHz = -0.5}.isHeard()));
-    EXPECT_TRUE((FamilyPhase{.cycles = 0.5, .rateHz = -0.51}.isHeard()));
-    EXPECT_TRUE((FamilyPhase{.cycles = 0.5, .rateHz = 959.9}.isHeard()));
-    EXPECT_FALSE((FamilyPhase{.cycles = 0.5, .rateHz = 960.0}.isHeard()));
-    const double nan = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_FALSE((FamilyPhase{.cycles = nan, .rateHz = 50.0}.isHeard()));
-    EXPECT_FALSE((FamilyPhase{.cycles = 0.5, .rateHz = nan}.isHeard()));
+    EXPECT_FALSE(isHeardHz(0.0));
+    EXPECT_FALSE(isHeardHz(-0.5));
+    EXPECT_TRUE(isHeardHz(-0.51));
+    EXPECT_TRUE(isHeardHz(959.9));
+    EXPECT_FALSE(isHeardHz(960.0));
+    EXPECT_FALSE(isHeardHz(std::numeric_limits<double>::quiet_NaN()));
 }
 
 TEST(SurfaceWavesTest, FamiliesAddUp) {
     const FamilyPhase one{.cycles = 0.1, .rateHz = 60.0};
     const FamilyPhase other{.cycles = 0.7, .rateHz = -140.0};
-    SurfaceWaves both;
+    SurfaceWaves both(pieceSamples);
     both.add(one, randomGains(1));
     both.add(other, randomGains(2));
-    SurfaceWaves first;
+    SurfaceWaves first(pieceSamples);
     first.add(one, randomGains(1));
-    SurfaceWaves second;
+    SurfaceWaves second(pieceSamples);
     second.add(other, randomGains(2));
-    for (std::size_t n = 0; n < segmentSamples; ++n) {
+    for (std::size_t n = 0; n < pieceSamples; ++n) {
         EXPECT_NEAR(both.lines()[n], first.lines()[n] + second.lines()[n], 1e-5);
     }
-    EXPECT_FALSE(SurfaceWaves().isHeard());
+    EXPECT_FALSE(SurfaceWaves(pieceSamples).isHeard());
     EXPECT_TRUE(both.isHeard());
 }
 
 using Gains = std::array<float, TailImpulses::gainCount>;
-using Wave = std::array<float, segmentSamples>;
+using Ringing = TailImpulses::Ringing;
 
 /// 1 over the deviation of max(n - 2, 0) - max(-n - 2, 0): E = 2 [(1 + 4) Q(2) - 2 p(2)].
 const double scaleOfFirstThreshold = 1.0 / std::sqrt(2.0 * (5.0 * 0.022750131948179 - 2.0 * 0.053990966513188));
@@ -119,43 +119,42 @@ Gains withGain(bool isNegative, std::size_t threshold, std::size_t atom, float g
     return gains;
 }
 
-Wave impulsesOf(const Wave& noise, const Gains& gains) {
-    Wave impulses{};
-    impulses.fill(9.0F);
-    TailImpulses().add(noise, gains, impulses);
-    return impulses;
+Ringing impulsesOf(const Piece& noise, const Gains& gains) {
+    Ringing ringing{};
+    TailImpulses().add(noise, gains, ringing);
+    return ringing;
 }
 
 TEST(TailImpulsesTest, NoiseBelowTheFirstThresholdMakesNoImpulse) {
-    Wave noise{};
+    Piece noise{};
     noise[10] = 2.0F;
     noise[20] = -1.99F;
     Gains gains{};
     gains.fill(1.0F);
-    EXPECT_EQ(impulsesOf(noise, gains), Wave{});
+    EXPECT_EQ(impulsesOf(noise, gains), Ringing{});
 }
 
 TEST(TailImpulsesTest, AStrikeOfTheDeltaIsTheScaledExcess) {
-    Wave noise{};
+    Piece noise{};
     noise[10] = 2.5F;
-    const Wave impulses = impulsesOf(noise, withGain(false, 0, 0, 3.0F));
+    const Ringing impulses = impulsesOf(noise, withGain(false, 0, 0, 3.0F));
     EXPECT_NEAR(impulses[10], 0.5 * scaleOfFirstThreshold * 8.0 * std::tanh(3.0 / 8.0), 1e-4);
-    EXPECT_EQ(std::ranges::count(impulses, 0.0F), 199);
+    EXPECT_EQ(std::ranges::count(impulses, 0.0F), pieceSamples + TailImpulses::taps - 1);
 }
 
 TEST(TailImpulsesTest, TheNegativeTailStrikesDownwardsWithKernelsOfItsOwn) {
-    Wave noise{};
+    Piece noise{};
     noise[10] = -2.5F;
-    EXPECT_EQ(impulsesOf(noise, withGain(false, 0, 0, 3.0F)), Wave{});
-    const Wave impulses = impulsesOf(noise, withGain(true, 0, 0, 3.0F));
+    EXPECT_EQ(impulsesOf(noise, withGain(false, 0, 0, 3.0F)), Ringing{});
+    const Ringing impulses = impulsesOf(noise, withGain(true, 0, 0, 3.0F));
     EXPECT_NEAR(impulses[10], -0.5 * scaleOfFirstThreshold * 8.0 * std::tanh(3.0 / 8.0), 1e-4);
 }
 
 TEST(TailImpulsesTest, ARingDecaysWithItsFrequencyFor64Samples) {
-    Wave noise{};
+    Piece noise{};
     noise[10] = 2.0F + static_cast<float>(1.0 / scaleOfFirstThreshold);
     // The sine of 280 Hz.
-    const Wave impulses = impulsesOf(noise, withGain(false, 0, 8, 0.01F));
+    const Ringing impulses = impulsesOf(noise, withGain(false, 0, 8, 0.01F));
     const auto ring = [](std::size_t n) {
         const double turn = 2.0 * std::numbers::pi * 280.0 * static_cast<double>(n) / 2000.0;
         return std::exp(-0.4 * turn) * std::sin(turn);
@@ -172,21 +171,22 @@ TEST(TailImpulsesTest, ARingDecaysWithItsFrequencyFor64Samples) {
 }
 
 TEST(TailImpulsesTest, AHighSampleExceedsEveryThresholdBelowIt) {
-    Wave noise{};
+    Piece noise{};
     noise[10] = 3.3F;
     for (std::size_t threshold = 0; threshold < thresholdCount; ++threshold) {
         EXPECT_EQ(impulsesOf(noise, withGain(false, threshold, 0, 1.0F))[10] > 0.0F, threshold < 3) << threshold;
     }
 }
 
-TEST(TailImpulsesTest, AStrikeNearTheEndIsCutAtTheSegmentsEnd) {
-    Wave noise{};
-    noise[199] = 5.0F;
-    Gains gains{};
-    gains.fill(1.0F);
-    const Wave impulses = impulsesOf(noise, gains);
-    EXPECT_NE(impulses[199], 0.0F);
-    EXPECT_EQ(impulses[198], 0.0F);
+TEST(TailImpulsesTest, AStrikeAtAPiecesEndRingsOnAndAddsToWhatRings) {
+    Piece noise{};
+    noise.back() = 2.5F;
+    Ringing ringing{};
+    ringing.fill(1.0F);
+    TailImpulses().add(noise, withGain(false, 0, 8, 3.0F), ringing);
+    EXPECT_EQ(ringing[pieceSamples - 2], 1.0F);
+    EXPECT_NE(ringing[pieceSamples + 10], 1.0F);
+    EXPECT_EQ(ringing.back(), 1.0F);
 }
 
 }  // namespace

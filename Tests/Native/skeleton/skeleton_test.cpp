@@ -3,8 +3,8 @@
 #include "inference/golden_file.hpp"
 #include "skeleton/skeleton_layout.hpp"
 #include "skeleton/skeleton_tensors.hpp"
+#include "skeleton/synthesis.hpp"
 #include "skeleton_model.hpp"
-#include "support/counting_new.hpp"
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,6 @@ namespace haptoflow::skeleton::testing {
 namespace {
 
 using Wave = std::array<float, segmentSamples>;
-using NetworkInput = std::array<float, Skeleton::networkInputChannels * segmentSamples>;
 
 Wave randomWave(std::uint32_t seed) {
     std::mt19937 random(seed);
@@ -29,12 +28,15 @@ Wave randomWave(std::uint32_t seed) {
 
 class SkeletonTest : public ::testing::Test {
 protected:
-    [[nodiscard]] Wave sketchOf(const Phases& phases, const Wave& previous, const Wave& noise) const {
-        Wave segment{};
-        skeleton_->sketch(
-            {.embedding = embedding_, .motion = motion_, .phases = phases, .previous = previous, .noise = noise},
-            conditionOf(embedding_, motion_, phases), segment);
-        return segment;
+    [[nodiscard]] SkeletonParameters parametersFor(const Phases& phases, float impulseGain = 1.0F) const {
+        return skeleton_->parametersFor(
+            conditionOf(embedding_, motion_, phases),
+            {static_cast<double>(phases[3]), static_cast<double>(phases[4]), static_cast<double>(phases[5])},
+            impulseGain);
+    }
+    [[nodiscard]] NetworkInput segmentOf(const Phases& phases, const Wave& noise) const {
+        return synthesiseSegment(*skeleton_, parametersFor(phases),
+                                 {.phases = phases, .previous = previous_, .noise = noise});
     }
 
     std::shared_ptr<const Skeleton> skeleton_ = readSkeleton(read(skeletonModel()));
@@ -46,77 +48,63 @@ protected:
 };
 
 TEST_F(SkeletonTest, AGainOnTheImpulsesChangesThemAlone) {
-    const Condition condition = conditionOf(embedding_, motion_, ruled_);
-    const auto phases = Skeleton::familiesOf(ruled_);
-    SegmentParameters expected = skeleton_->parametersFor(condition, phases);
-    for (float& threshold : expected.impulseGains) {
-        threshold *= 2.5F;
+    const SkeletonParameters plain = parametersFor(ruled_);
+    const SkeletonParameters stronger = parametersFor(ruled_, 2.5F);
+    EXPECT_EQ(stronger.filter.coefficients, plain.filter.coefficients);
+    EXPECT_EQ(stronger.families[1].lineSine, plain.families[1].lineSine);
+    for (std::size_t i = 0; i < plain.impulseGains.size(); ++i) {
+        EXPECT_EQ(stronger.impulseGains[i], 2.5F * plain.impulseGains[i]);
     }
-    Moment moment{.embedding = embedding_, .motion = motion_, .phases = ruled_, .previous = previous_, .noise = noise_};
-    Wave wanted{};
-    skeleton_->sketch(moment, expected, wanted);
-    moment.impulseGain = 2.5F;
-    Wave segment{};
-    skeleton_->sketch(moment, condition, segment);
-    EXPECT_EQ(segment, wanted);
-    std::array<float, Skeleton::networkInputChannels * segmentSamples> networkInput{};
-    skeleton_->enter(moment, condition, networkInput);
-    EXPECT_TRUE(std::ranges::equal(std::span(networkInput).first<segmentSamples>(), wanted));
-    EXPECT_NE(segment, sketchOf(ruled_, previous_, noise_));
 }
 
-TEST_F(SkeletonTest, NoiseLinesAndImpulsesAllPassThroughTheFilter) {
-    const Condition condition = conditionOf(embedding_, motion_, ruled_);
-    const auto phases = Skeleton::familiesOf(ruled_);
-    const SegmentParameters parameters = skeleton_->parametersFor(condition, phases);
-    SurfaceWaves waves;
-    waves.add(phases[0], parameters.families[0]);
-    waves.add(phases[1], parameters.families[1]);
-    Wave impulses{};
-    TailImpulses().add(noise_, parameters.impulseGains, impulses);
-    Wave drive{};
-    for (std::size_t n = 0; n < segmentSamples; ++n) {
+TEST_F(SkeletonTest, NoiseLinesAndImpulsesAllPassThroughTheFilterAndTheGraphSeesThem) {
+    const SkeletonParameters parameters = parametersFor(ruled_);
+    SurfaceWaves waves(pieceSamples);
+    waves.add({.cycles = 0.25, .rateHz = 60.0}, parameters.families[0]);
+    waves.add({.cycles = 0.5, .rateHz = -130.0}, parameters.families[1]);
+    TailImpulses::Ringing impulses{};
+    TailImpulses().add(std::span(noise_).first(pieceSamples), parameters.impulseGains, impulses);
+    const double gain = std::exp(parameters.filter.logGain);
+    Piece drive{};
+    for (std::size_t n = 0; n < pieceSamples; ++n) {
         const double swing = 2.0 * std::tanh(0.5 * static_cast<double>(waves.swing()[n]));
         const double drawn = static_cast<double>(noise_[n]) * std::exp(swing) + static_cast<double>(waves.lines()[n]) +
                              static_cast<double>(impulses[n]);
-        drive[n] = static_cast<float>(std::exp(parameters.filter.logGain) * drawn);
+        drive[n] = static_cast<float>(gain * drawn);
     }
-    Wave filtered{};
-    parameters.filter.run(std::span(previous_).last<filterOrder>(), drive, filtered);
-    const Wave segment = sketchOf(ruled_, previous_, noise_);
-    for (std::size_t n = 0; n < segmentSamples; ++n) {
-        EXPECT_NEAR(segment[n], filtered[n], 1e-5) << n;
+    std::array<double, filterOrder> past{};
+    std::copy(previous_.end() - filterOrder, previous_.end(), past.begin());
+    Piece filtered{};
+    parameters.filter.run(past, drive, filtered);
+    NetworkInput input = segmentOf(ruled_, noise_);
+    for (std::size_t n = 0; n < pieceSamples; ++n) {
+        EXPECT_NEAR(input.segment()[n], filtered[n], 1e-5) << n;
+        EXPECT_NEAR(input.piece(1, n, 1)[0], gain * static_cast<double>(impulses[n]), 1e-5) << n;
     }
-}
-
-TEST_F(SkeletonTest, WhatTheRefiningGraphSeesBeginsWithTheSketch) {
-    NetworkInput networkInput{};
-    const Moment moment{
-        .embedding = embedding_, .motion = motion_, .phases = ruled_, .previous = previous_, .noise = noise_};
-    skeleton_->enter(moment, conditionOf(embedding_, motion_, ruled_), networkInput);
-    const Wave segment = sketchOf(ruled_, previous_, noise_);
-    EXPECT_TRUE(std::ranges::equal(std::span(networkInput).first<segmentSamples>(), segment));
     // Cosines of the first harmonic of both families at the first sample, .25 ms into the segment.
     const auto angle = [](double cycles, double rateHz) {
         return 2.0 * std::numbers::pi * (cycles + rateHz * 0.5 / 2000.0);
     };
-    EXPECT_NEAR(networkInput[2 * segmentSamples], std::cos(angle(0.25, 60.0)) + std::cos(angle(-0.5, 130.0)), 1e-5);
-    EXPECT_NEAR(networkInput[7 * segmentSamples], std::sin(angle(0.25, 60.0)) + std::sin(angle(-0.5, 130.0)), 1e-5);
+    EXPECT_NEAR(input.piece(2, 0, 1)[0], std::cos(angle(0.25, 60.0)) + std::cos(angle(-0.5, 130.0)), 1e-5);
+    EXPECT_NEAR(input.piece(7, 0, 1)[0], std::sin(angle(0.25, 60.0)) + std::sin(angle(-0.5, 130.0)), 1e-5);
 }
 
 TEST_F(SkeletonTest, AnUnruledSurfaceHasNoWavesAndItsTurnsDoNotMatter) {
     const Phases still{0.7F, 0.2F, 0.9F, 0.0F, 0.4F, -0.5F};
     const Phases other{0.0F, 0.0F, 0.0F, 0.0F, 0.4F, -0.5F};
-    EXPECT_EQ(sketchOf(still, previous_, noise_), sketchOf(other, previous_, noise_));
+    EXPECT_EQ(segmentOf(still, noise_).values, segmentOf(other, noise_).values);
 }
 
-TEST_F(SkeletonTest, SamplesThatAreNotNumbersCountAsZero) {
+TEST_F(SkeletonTest, SamplesAndTurnsThatAreNotNumbersCountAsNothing) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     Wave noise = noise_;
     noise[7] = nan;
     Wave clean = noise_;
     clean[7] = 0.0F;
-    EXPECT_EQ(sketchOf(ruled_, previous_, noise), sketchOf(ruled_, previous_, clean));
+    EXPECT_EQ(segmentOf(ruled_, noise).values, segmentOf(ruled_, clean).values);
+    Phases unknown = ruled_;
+    unknown[0] = nan;
+    EXPECT_TRUE(std::ranges::all_of(segmentOf(unknown, noise_).values, [](float each) { return std::isfinite(each); }));
     Wave previous = previous_;
     previous.back() = nan;
     Wave unit{};
@@ -132,13 +120,6 @@ TEST_F(SkeletonTest, ThePreviousWaveformIsLimitedInUnitScale) {
     toUnitScale(loud, 0.5F, loud);
     EXPECT_EQ(loud[0], 16.0F);
     EXPECT_EQ(loud[1], -16.0F);
-}
-
-TEST_F(SkeletonTest, ASegmentAllocatesNothing) {
-    const std::size_t before = haptoflow::testing::allocationCount();
-    const Wave segment = sketchOf(ruled_, previous_, noise_);
-    EXPECT_EQ(haptoflow::testing::allocationCount(), before);
-    EXPECT_TRUE(std::isfinite(segment[0]));
 }
 
 TEST(LevelModelTest, TheLawIsLinearInTheLogarithmsAndTheCorrectionIsLimited) {
@@ -215,15 +196,16 @@ protected:
             ++place;
             const auto embedding = row.at("embedding").get<std::array<float, embeddingSize>>();
             const auto motion = row.at("motion").get<Motion>();
-            const auto previous = row.at("previous").get<Wave>();
+            const auto previous = row.at("own").get<Wave>();
             const auto noise = row.at("noise").get<Wave>();
             Wave unit{};
             toUnitScale(previous, static_cast<float>(std::exp(number(row, "log_level"))), unit);
-            compare(row, Moment{.embedding = embedding,
-                                .motion = motion,
-                                .phases = row.at("phases").get<Phases>(),
-                                .previous = unit,
-                                .noise = noise});
+            const auto phases = row.at("phases").get<Phases>();
+            const Condition condition = conditionOf(embedding, motion, phases);
+            std::array<double, familyCount> ratesHz{};
+            std::copy(phases.begin() + familyCount, phases.end(), ratesHz.begin());
+            compare(row, condition, skeleton_->parametersFor(condition, ratesHz),
+                    SegmentStart{.phases = phases, .previous = unit, .noise = noise});
         }
     }
 
@@ -238,17 +220,8 @@ protected:
     std::shared_ptr<const Skeleton> skeleton_ = readSkeleton(model_);
 };
 
-TEST_F(SkeletonGoldenTest, LevelsAgree) {
-    const auto level = readLevelModel(model_);
-    forEveryCase([&](const nlohmann::json& row, const Moment& moment) {
-        EXPECT_NEAR(level->logLevel(moment.embedding, moment.motion), number(row, "log_level"), tolerance);
-    });
-}
-
 TEST_F(SkeletonGoldenTest, FiltersAgree) {
-    forEveryCase([&](const nlohmann::json& row, const Moment& moment) {
-        const auto parameters = skeleton_->parametersFor(conditionOf(moment.embedding, moment.motion, moment.phases),
-                                                         Skeleton::familiesOf(moment.phases));
+    forEveryCase([&](const nlohmann::json& row, const auto&, const SkeletonParameters& parameters, const auto&) {
         const auto expected = numbers(row, "coefficients");
         expectNear(parameters.filter.coefficients, expected, rmsOf(expected), "coefficients");
         EXPECT_NEAR(parameters.filter.logGain, number(row, "log_gain"), tolerance);
@@ -256,25 +229,24 @@ TEST_F(SkeletonGoldenTest, FiltersAgree) {
 }
 
 TEST_F(SkeletonGoldenTest, WhatTheRefiningGraphSeesAgrees) {
-    forEveryCase([&](const nlohmann::json& row, const Moment& moment) {
-        std::array<float, Skeleton::networkInputChannels * segmentSamples> networkInput{};
-        skeleton_->enter(moment, conditionOf(moment.embedding, moment.motion, moment.phases), networkInput);
-        const auto segment = numbers(row, "begun");
-        const double scale = rmsOf(segment);
-        expectNear(std::span(networkInput).first<segmentSamples>(), segment, scale, "begun");
-        expectNear(std::span(networkInput).subspan<segmentSamples, segmentSamples>(), numbers(row, "struck"), scale,
-                   "struck");
-        expectNear(networkInput, numbers(row, "entering"), scale, "entering");
-    });
+    forEveryCase(
+        [&](const nlohmann::json& row, const auto&, const SkeletonParameters& parameters, const SegmentStart& start) {
+            NetworkInput input = synthesiseSegment(*skeleton_, parameters, start);
+            const auto segment = numbers(row, "begun");
+            const double scale = rmsOf(segment);
+            expectNear(input.segment(), segment, scale, "begun");
+            expectNear(input.piece(1, 0, segmentSamples), numbers(row, "struck"), scale, "struck");
+            expectNear(input.values, numbers(row, "entering"), scale, "entering");
+        });
 }
 
 TEST_F(SkeletonGoldenTest, TheConditioningOfTheRefinementAgrees) {
     const auto refining = std::ranges::find(model_.header().tiers, model::TierKind::refine, &model::Tier::kind);
     ASSERT_NE(refining, model_.header().tiers.end());
     const Perceptron conditioning = readConditioning(model_, refining->name);
-    forEveryCase([&](const nlohmann::json& row, const Moment& moment) {
+    forEveryCase([&](const nlohmann::json& row, const Condition& condition, const auto&, const auto&) {
         std::vector<float> film(conditioning.outputs());
-        conditioning.run(conditionOf(moment.embedding, moment.motion, moment.phases), film);
+        conditioning.run(condition, film);
         const auto expected = numbers(row, "film");
         expectNear(film, expected, rmsOf(expected), "film");
     });

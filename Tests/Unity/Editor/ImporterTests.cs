@@ -162,7 +162,7 @@ namespace HaptoFlow.EditorTests
             Assert.That(summary.Tiers[0].Accuracy,
                 Is.EqualTo("level error -0.25 dB; spectral fit 0.971 of 1; spectral distance 3.1 dB"));
             Assert.That(summary.Tiers[0].Time,
-                Is.EqualTo("0.23 ms a segment; 0.30 ms live, one in a hundred above 0.52; on a desk"));
+                Is.EqualTo("0.23 ms a segment; 0.30 ms live; one in a hundred above 0.52 ms live; on a desk"));
         }
 
         [Test]

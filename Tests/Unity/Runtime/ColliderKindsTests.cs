@@ -24,6 +24,18 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
+        public IEnumerator DeepBelowTheRimOfAStepWithoutAnUndersideTheWallBesideIsTouched()
+        {
+            Tagged<MeshCollider>("wood", mesh => mesh.sharedMesh = TestMeshes.Step());
+            HapticStylus stylus = StylusAlong(seconds =>
+                new Vector3(-0.002f, Mathf.Max(-0.008f, 0.01f - 0.1f * (float)seconds), 0f));
+            yield return Frames(60);
+            Assert.That(stylus.IsTouching, Is.True);
+            Assert.That(stylus.Contact.Normal.x, Is.EqualTo(1f).Within(1e-3f));
+            Assert.That(stylus.Contact.TouchCounter, Is.EqualTo(1u));
+        }
+
+        [UnityTest]
         public IEnumerator ASphereHasTheRadiusOfItsLargestScale()
         {
             HapticSurface surface = Tagged<SphereCollider>("wood", sphere => sphere.radius = 0.05f);

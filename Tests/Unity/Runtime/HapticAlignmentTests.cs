@@ -43,7 +43,7 @@ namespace HaptoFlow.Tests
         }
 
         [TearDown]
-        public void LeaveNoFile() => new AlignmentFile(name).Delete(board);
+        public void LeaveNoFile() => new AlignmentFile(name).Save(null, board);
 
         [UnityTest]
         public IEnumerator ThreeRestsOfAPressingPenAlignTheBoardWithTheDesk()

@@ -167,7 +167,8 @@ namespace HaptoFlow.Tests
             Assert.That(floor.Raycast(ray, out RaycastHit hit, 1f), Is.True);
             var place = new TouchedPlace(floor, default, hit);
             bool isFelt = mask.TryFeel(
-                place, Map.Rules[0].Material, HapticSession.Current, floor, out ResolvedMaterial felt);
+                place, ResolvedMaterial.Of(Map.Rules[0].Material, HapticSession.Current, floor), HapticSession.Current, floor,
+                out ResolvedMaterial felt);
             Assert.That(isFelt, Is.True);
             return felt;
         }

@@ -133,7 +133,7 @@ namespace HaptoFlow.Tests
         [SetUp]
         public void TakeAPen()
         {
-            touch = new ForceTouch(new ForceTouchSettings());
+            touch = new ForceTouch();
             now = 100.0;
         }
 

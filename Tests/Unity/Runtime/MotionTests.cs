@@ -133,6 +133,17 @@ namespace HaptoFlow.Tests
             Assert.That(stylus.Contact.TangentialVelocity.magnitude, Is.EqualTo(0.05f).Within(1e-3f));
         }
 
+        [UnityTest]
+        public IEnumerator AMeshOnAnInterpolatedBodyHasItsSpeed()
+        {
+            HapticSurface block = Tagged<MeshCollider>("wood", mesh => mesh.sharedMesh = TestMeshes.Box(0.4f));
+            PlatformMover.On(block.gameObject, RigidbodyInterpolation.Interpolate, seconds =>
+                new Vector3(-0.1f + 0.2f * (float)seconds, -0.2f, 0f));
+            HapticStylus stylus = StylusAlong(_ => new Vector3(0f, 0.001f, 0f));
+            yield return Frames(45);
+            Assert.That(stylus.Contact.TangentialVelocity.magnitude, Is.EqualTo(0.2f).Within(0.01f));
+        }
+
         private sealed class Turner : MonoBehaviour
         {
             public float DegreesPerSecond { get; set; }

@@ -95,14 +95,13 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator TheTierOfANewQualityIsLoadedOnAnotherThread()
+        public IEnumerator TheLastOfSeveralQualitiesIsPlayedFromTheNextSegmentOn()
         {
             FinishLoading();
             HapticEngine engine = HapticSession.Current.Engine!;
             uint draft = engine.Statistics().Tier;
             Haptics.SetQuality(HapticQuality.Sketch);
             Haptics.SetQuality(HapticQuality.Standard);
-            HapticSession.Current.FinishQualityChange();
             engine.Step();
             yield return null;
             int place = HaptoFlowSettings.Active.Model!.Header.Tiers.ToList().FindIndex(tier => tier.Name == "standard");
@@ -116,11 +115,12 @@ namespace HaptoFlow.Tests
         {
             HaptoFlowSettings.Active.Quality = HapticQuality.Standard;
             HapticSession loading = HapticSession.Current;
+            Assert.That((Haptics.LearntMaterials, Haptics.RefusedMaterials), Is.EqualTo((0, 0)));
             HapticSession.ShutDown();
             loading.FinishLoading();
             Assert.That(loading.Engine, Is.Null);
             Assert.That(loading.Problem, Is.Null);
-            Assert.That(HapticSession.Existing, Is.Null);
+            Assert.That((HapticSession.Existing, Haptics.LearntMaterials), Is.EqualTo(((HapticSession?)null, 0)));
             FinishLoading();
             Assert.That(Haptics.IsReady, Is.True, "the next engine loads");
             Haptics.SetQuality(HapticQuality.Draft);

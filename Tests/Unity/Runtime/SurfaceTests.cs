@@ -214,7 +214,7 @@ namespace HaptoFlow.Tests
         {
             HapticSurface board = Board();
             board.Seed = 7;
-            var contacts = new TipContacts(new ContactSettings(), 0.002, Make("Stylus").transform);
+            var contacts = new TipContacts(0.002, Make("Stylus").transform);
             yield return null;
             ContactReading before = Touch(contacts, board, 1.0);
             board.transform.position = new Vector3(0.4f, 0.2f, -0.1f);

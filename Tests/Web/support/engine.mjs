@@ -2,10 +2,15 @@ import { execFileSync } from 'node:child_process';
 import { existsSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { LabelIndices } from '../../../Web/engine/js/contact-fields.mjs';
 import { Core, createMemory } from '../../../Web/engine/js/module.mjs';
 import { offlineCore } from '../../../Web/engine/js/offline.mjs';
 import { startRuntimeFrom } from '../../../Web/engine/js/runtime.mjs';
-import { engineFolder, repository } from './places.mjs';
+import { Scene } from '../../../Web/engine/js/scene.mjs';
+
+export const repository = path.resolve(path.dirname(fileURLToPath(import.meta.url)), '..', '..', '..');
+export const engineFolder = path.join(repository, 'Web', 'dist', 'engine');
 
 const bytesOf = (/** @type {string} */ name) => readFileSync(path.join(engineFolder, name));
 
@@ -50,4 +55,31 @@ export function wavSamples(file) {
   while (bytes.toString('latin1', at, at + 4) !== 'data') at += 8 + bytes.readUInt32LE(at + 4);
   const count = bytes.readUInt32LE(at + 4) / 4;
   return Float32Array.from({ length: count }, (_, index) => bytes.readFloatLE(at + 8 + 4 * index));
+}
+
+/** Opens scenes with the shipped model's labels, as a page does. */
+export async function sceneOpener() {
+  const { labels } = (await coreWithModel()).json('hapto_model_json');
+  const indices = new LabelIndices();
+  indices.set(labels);
+  const core = pageCore();
+  return { labels, open: (/** @type {string | object} */ scene) => new Scene(core, indices, labels, scene) };
+}
+
+/** A made recording: noise whose level follows the speed, along a turning path. */
+export function recording(seconds) {
+  const rateHz = 2000;
+  let state = 1;
+  const random = () => {
+    state = (Math.imul(state, 1664525) + 1013904223) >>> 0;
+    return state / 4294967296 - 0.5;
+  };
+  let noise = 0;
+  const rows = Array.from({ length: seconds * rateHz }, (_, index) => {
+    const time = index / rateHz;
+    const speed = 0.12 + 0.09 * Math.sin((2 * Math.PI * time) / 1.7);
+    noise = 0.6 * noise + random();
+    return [time, 20 * speed ** 0.7 * noise, speed * Math.cos(time / 2), speed * Math.sin(time / 2), 1].map((number) => number.toFixed(5)).join(',');
+  });
+  return `time_s,acceleration_mps2,velocity_x_mps,velocity_y_mps,force_newtons\n${rows.join('\n')}\n`;
 }

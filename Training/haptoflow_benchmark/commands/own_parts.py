@@ -13,7 +13,7 @@ from typing import Any
 from haptoflow_benchmark.own_accuracy import HeldOutPart
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.model_file import read_model_file
-from haptoflow_training.preprocessing.preparation import prepare_cut_where_needed, prepare_store
+from haptoflow_training.preprocessing.preparation import prepare_store
 from haptoflow_training.preprocessing.split import Split
 from haptoflow_training.preprocessing.store import SegmentStore, StoredRecording
 from haptoflow_training.recordings.dataset import Dataset
@@ -106,9 +106,7 @@ def _prepared(
     labels = [name for name in known if name in found]
     data = header.get("provenance", {}).get("configuration", {}).get("data", {})
     seed = int(data.get("recordings_seed", 1))
-    if everything:
-        return prepare_store(entries, labels, out, seed=seed)
-    return prepare_cut_where_needed(entries, labels, out, seed=seed)
+    return prepare_store(entries, labels, out, seed=seed, is_cut=not everything)
 
 
 def _parts(store: SegmentStore, split: Split | None) -> list[HeldOutPart]:

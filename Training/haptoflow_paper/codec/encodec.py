@@ -274,8 +274,3 @@ class ResampledEnCodec(nn.Module):
         """[B, 128, 8] normalised to [B, 1, 200] in unit scale."""
         decoded = self.codec.decode(self.normaliser.inverse(latent), _SAMPLES_24_KHZ)
         return self.resampler.downsample(decoded) / self.waveform_scale
-
-    @torch.no_grad()
-    def fit_normaliser(self, waveforms: Tensor, batch: int = 64) -> None:
-        """Fit the latent statistics to waveforms [K, 1, 200] in unit scale; `normaliser.save` keeps them."""
-        self.normaliser.fit(torch.cat([self.encode_unnormalised(part) for part in waveforms.split(batch)]))

@@ -14,7 +14,7 @@ from torch import Tensor, nn
 from haptoflow_paper.codec.encodec import DEFAULT_WAVEFORM_SCALE, EnCodec, ResampledEnCodec, fold_weight_norm
 from haptoflow_paper.codec.small_codec import SmallCodec
 from haptoflow_training.errors import InputError
-from haptoflow_training.export.onnx_graphs import trace_graph
+from haptoflow_training.export.trained_tier import trace_graph
 from haptoflow_training.extensions import located
 from haptoflow_training.waveform import SEGMENT_SAMPLES
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tomllib
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 from typing import Any, TypeVar
@@ -13,6 +12,7 @@ from torch import Tensor, nn
 from haptoflow_paper.codec.checkpoint_file import load_state, read_tensors
 from haptoflow_training.errors import InputError
 from haptoflow_training.waveform import SEGMENT_SAMPLES
+from haptoflow_training.whole_file import read_toml
 
 # A channel that the codec does not use must not be amplified to unit variance: only its noise would remain.
 _MINIMUM_RELATIVE_DEVIATION = 1e-3
@@ -211,12 +211,7 @@ def read_small_codec_config(path: Path | str) -> SmallCodecConfig:
     A relative output_folder refers to the current folder, a relative held_out_as to the file's own.
     """
     path = Path(path)
-    try:
-        content = tomllib.loads(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read ({error.strerror})") from error
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise InputError(f"{path}: not a TOML file ({error})") from error
+    content = read_toml(path, "a codec's TOML file")
     unknown = sorted(content.keys() - {"codec", "training"})
     if unknown:
         raise InputError(f"{path}: '{unknown[0]}' is unknown, expected the tables [codec] and [training]")

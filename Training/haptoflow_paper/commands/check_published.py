@@ -10,9 +10,9 @@ from pathlib import Path
 from tqdm import tqdm
 
 from haptoflow_benchmark.engine_library import default_engine
-from haptoflow_paper.published.check.lines import FAIL
-from haptoflow_paper.published.check.parity import parity_lines
-from haptoflow_paper.published.check.report import (
+from haptoflow_paper.published.check_lines import FAIL
+from haptoflow_paper.published.check_parity import parity_lines
+from haptoflow_paper.published.check_report import (
     CHART,
     FIGURES,
     PAGE,
@@ -23,8 +23,8 @@ from haptoflow_paper.published.check.report import (
     summary,
     write_report,
 )
-from haptoflow_paper.published.check.points import blocks_to_measure, idle_line, measure_points, time_lines
-from haptoflow_paper.published.check.signals import count_of_labels, render_labels, signal_lines
+from haptoflow_paper.published.check_points import blocks_to_measure, idle_line, measure_points, time_lines
+from haptoflow_paper.published.check_signals import count_of_labels, render_labels, signal_lines
 from haptoflow_paper.published.level_measurement import reference_motions, render_waves, segments_a_wave
 from haptoflow_paper.rows.engine_generator import EngineGenerator
 from haptoflow_training.errors import InputError

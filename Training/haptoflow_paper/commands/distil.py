@@ -10,7 +10,7 @@ from pathlib import Path
 from tqdm import tqdm
 
 from haptoflow_benchmark.engine_library import default_engine
-from haptoflow_paper.distil.comparison import (
+from haptoflow_paper.runs.distil_comparison import (
     PAGE,
     SPECTRA,
     compare,
@@ -19,11 +19,11 @@ from haptoflow_paper.distil.comparison import (
     steps_of_comparison,
     write_report,
 )
-from haptoflow_paper.distil.rendering import Rendering, complete, render_all, seconds_of_a_stroke, write_labels
-from haptoflow_paper.distil.teacher import STROKE_SECONDS, Teacher, checked_solver
+from haptoflow_paper.runs.distil_rendering import Rendering, complete, render_all, seconds_of_a_stroke, write_labels
+from haptoflow_paper.runs.distil_teacher import STROKE_SECONDS, Teacher, checked_solver
 from haptoflow_paper.report.accuracy_time import machine_words
 from haptoflow_paper.rows.engine_generator import SOLVERS
-from haptoflow_training.closed_loop.render import UPDATE_RATE_HZ
+from haptoflow_training.training.closed_loop import UPDATE_RATE_HZ
 from haptoflow_training.commands import train_tiers
 from haptoflow_training.commands.train import add_minutes_option
 from haptoflow_training.errors import InputError

@@ -12,9 +12,8 @@ from typing import Any
 
 from tqdm import tqdm
 
-from haptoflow_paper.reference.reference_conditions import conditions
-from haptoflow_paper.reference.reference_rows import CODEC_ROW
-from haptoflow_paper.reference.reference_set import ReferencePair, reference_set
+from haptoflow_paper.rows.reference_conditions import conditions
+from haptoflow_paper.rows.reference_set import CODEC_ROW, ReferencePair, reference_set
 from haptoflow_paper.report.accuracy_time import annotate_model, machine_words, table, timed_rows, with_times
 from haptoflow_paper.report.accuracy_time_chart import draw_chart, draw_spectra
 from haptoflow_paper.report.accuracy_time_report import write_document
@@ -22,14 +21,15 @@ from haptoflow_paper.rows import accuracy
 from haptoflow_paper.rows.accuracy import Yardstick
 from haptoflow_paper.rows.row_plan import PlannedRow, load_plan
 from haptoflow_paper.rows.row_runner import UPDATE_RATE_HZ, generator_of, made_from, measure_rows
-from haptoflow_paper.rows.row_store import stored_row
-from haptoflow_paper.rows.workplace import Workplace, train_models
+from haptoflow_paper.rows.workplace import Workplace, stored_row, train_models
+from haptoflow_paper.rows.untrained import make_untrained
 from haptoflow_paper.rows.timing import TimedSource, append_run, published_run, time_sources, timing_run
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.model_stamp import SHIPPED_MODEL, sha256_of
 from haptoflow_training.recordings.synthetic import load_materials
-from haptoflow_training.training.run_log import source_commit, write_json
+from haptoflow_training.training.run_log import source_commit
+from haptoflow_training.whole_file import write_json
 
 _PACKAGE = Path(__file__).resolve().parents[1]
 _ROOT = _PACKAGE.parents[1]
@@ -42,7 +42,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "Measures every row of the plan on held-out recordings: accuracy in open and closed loop, and milliseconds"
         " for a segment in the engine. Trains the models that rows need (about eight minutes of one core each), "
         "stores measured rows, and resumes after an interruption. A stored row is measured again only if its "
-        "configuration or its model has changed. Every timing run is added to timing-history.json; the first "
+        "configuration or its model has changed; a network that is not on this machine is timed untrained. Every timing run is added to timing-history.json; the first "
         "complete one of the shipped model is published. `haptoflow-benchmark evaluate` compares a model of your "
         "own with its recordings."
     )
@@ -90,14 +90,17 @@ def run(options: argparse.Namespace) -> int:
         wanted = [(row, seed) for row in chosen for seed in place.seeds_of(row)]
         train_models(place, [entry for entry in wanted if not _is_stored(place, yardstick, *entry)], options.lanes)
     measured = _measured(place, yardstick, chosen, options.workers)
-    timed = [row for row in chosen if not row.is_reference and _is_there(place.model_file(row, row.seeds[0]), row.tier)]
+    if not options.quick:
+        for row in plan:
+            if row.name not in measured and (kept := _stored(place, yardstick, row)):
+                measured[row.name] = kept
+    timed = [row for row in chosen if not row.is_reference and row.name in measured]
+    with tqdm(desc="untrained networks, to time them", unit="network") as bar:
+        make_untrained(place, timed, options.lanes, lambda finished: bar.update(finished - bar.n))
     run = _time_rows(place, timed, options.quick, is_complete=not (options.rows or options.quick))
     if options.quick:
         _print(with_times(table(plan, measured), run))
         return 0
-    for row in plan:
-        if row.name not in measured and (kept := _stored(place, yardstick, row)):
-            measured[row.name] = kept
     _write(options, place, yardstick.pairs, plan, table(plan, measured), run)
     return 0
 
@@ -154,7 +157,8 @@ def _pairs(options: argparse.Namespace) -> list[ReferencePair]:
 def _time_rows(place: Workplace, rows: list[PlannedRow], quick: bool, is_complete: bool) -> dict[str, Any]:
     """Time the rows; returns a run of the timing history."""
     before = os.getloadavg()
-    generators = [generator_of(place, row, row.seeds[0]) for row in rows]
+    untrained = [row.name for row in rows if place.timed_file(row) != place.model_file(row, row.seeds[0])]
+    generators = [generator_of(place, row, place.timed_file(row)) for row in rows]
     sources = [TimedSource(row.name, generator) for row, generator in zip(rows, generators, strict=True)]
     blocks = 4 if quick else 10
     with tqdm(total=2 * blocks * len(rows), desc="times", unit="block") as bar:
@@ -167,7 +171,7 @@ def _time_rows(place: Workplace, rows: list[PlannedRow], quick: bool, is_complet
     return timing_run(
         hot, paced, date=datetime.datetime.now(datetime.UTC).isoformat(timespec="seconds"),
         commit=source_commit(place.root), graphs_sha256=graphs_sha256(place.root / SHIPPED_MODEL),
-        is_complete=is_complete, machine=machine_words(), load_before=before, load_after=os.getloadavg(),
+        is_complete=is_complete, untrained=untrained, machine=machine_words(), load_before=before, load_after=os.getloadavg(),
     )  # fmt: skip
 
 
@@ -221,11 +225,8 @@ def _write(
     if standard is not None:
         model = place.model_file(standard, standard.seeds[0])
         steady = [pair for pair in pairs if pair.condition.is_steady]
-        with generator_of(place, standard, standard.seeds[0]) as generator:
-            made = accuracy.generate_set(
-                generator, generator.embeddings, generator.statistics, steady,
-                update_rate_hz=UPDATE_RATE_HZ, seed=31, open_loop=False,
-            )  # fmt: skip
+        with generator_of(place, standard, model) as generator:
+            made = accuracy.generate_set(generator, steady, update_rate_hz=UPDATE_RATE_HZ, seed=31, open_loop=False)
         draw_spectra(steady, made.closed, spectra, sha256_of(model))
     write_document(result, options.document, chart, None if standard is None else spectra)
     print(f"evaluate: {out} and {options.document}")

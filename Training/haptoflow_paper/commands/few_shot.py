@@ -9,8 +9,8 @@ from pathlib import Path
 
 from tqdm import tqdm
 
-from haptoflow_paper.few_shot.few_shot_cases import SECONDS, filtered_surfaces, study_materials
-from haptoflow_paper.few_shot.few_shot_report import (
+from haptoflow_paper.studies.few_shot_cases import SECONDS, filtered_surfaces, study_materials
+from haptoflow_paper.studies.few_shot_report import (
     assembled,
     curve_table,
     page_words,
@@ -19,7 +19,7 @@ from haptoflow_paper.few_shot.few_shot_report import (
     write_chart,
     write_results,
 )
-from haptoflow_paper.few_shot.few_shot_study import StudyPlan, cells_of, with_trained
+from haptoflow_paper.studies.few_shot_study import StudyPlan, cells_of, with_trained
 from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.model_stamp import read_measured_page, sha256_of, with_measured_words
 from haptoflow_training.whole_file import check_writable, write_whole

@@ -9,22 +9,16 @@ from pathlib import Path
 from tqdm import tqdm
 
 from haptoflow_benchmark.engine_render import model_labels, read_recorded_strokes
-from haptoflow_paper.place.creeping import (
-    CREEPING_LABELS,
-    HOP_SAMPLES,
-    creeping,
-    hand_overs,
-    held_silent,
-    holds,
-    recorder_without_noise,
+from haptoflow_paper.studies.creeping import (
+    CREEPING_LABELS, HOP_SAMPLES, creeping, hand_overs, held_silent, holds, recorder_without_noise
 )
-from haptoflow_paper.place.place_study import Renderer, measure_likeness, steps_of
-from haptoflow_paper.place.place_report import accuracy_report, measure_cells, page_words, steady_pairs
-from haptoflow_paper.reference.reference_set import reference_set
+from haptoflow_paper.studies.place_study import Renderer, measure_likeness, steps_of
+from haptoflow_paper.studies.place_report import accuracy_report, measure_cells, page_words, steady_pairs
+from haptoflow_paper.rows.reference_set import reference_set
 from haptoflow_training.model_stamp import read_measured_page, sha256_of, with_measured_words
-from haptoflow_training.training.run_log import source_commit, write_json
+from haptoflow_training.training.run_log import source_commit
 from haptoflow_training.waveform import SAMPLE_RATE_HZ
-from haptoflow_training.whole_file import check_writable, write_whole
+from haptoflow_training.whole_file import check_writable, write_json, write_whole
 
 _EXAMPLES = """examples:
   haptoflow-paper place --engine build/native/haptoflow \\

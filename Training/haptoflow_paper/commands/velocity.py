@@ -9,13 +9,12 @@ from pathlib import Path
 from tqdm import tqdm
 
 from haptoflow_benchmark.engine_render import read_recorded_strokes
-from haptoflow_paper.velocity.velocity_cases import person_of
-from haptoflow_paper.velocity.velocity_report import page_words
-from haptoflow_paper.velocity.velocity_study import VelocityPlan, run_study, steps_of
+from haptoflow_paper.studies.velocity_cases import person_of
+from haptoflow_paper.studies.velocity_study import VelocityPlan, page_words, run_study, steps_of
 from haptoflow_training.errors import InputError
 from haptoflow_training.model_stamp import read_measured_page, with_measured_words
-from haptoflow_training.training.run_log import source_commit, write_json
-from haptoflow_training.whole_file import check_writable, write_whole
+from haptoflow_training.training.run_log import source_commit
+from haptoflow_training.whole_file import check_writable, write_json, write_whole
 
 _EXAMPLES = """examples:
   haptoflow-paper velocity --engine build/native/haptoflow \\

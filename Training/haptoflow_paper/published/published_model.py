@@ -12,7 +12,7 @@ from haptoflow_paper.codec.encodec import ENCODEC_RATE_HZ, FRAME_SAMPLES, EnCode
 from haptoflow_paper.published.labels import EmbeddingRows
 from haptoflow_paper.published.meta_file import CONTROLS, PublishedMeta
 from haptoflow_paper.published.network import NetworkSizes, PublishedNetwork, ResidualQuantiser, SincResampler, TimeCode
-from haptoflow_training.export.onnx_graphs import export_graph
+from haptoflow_training.export.trained_tier import export_graph
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE
 from haptoflow_training.waveform import SAMPLE_RATE_HZ, SEGMENT_SAMPLES
 

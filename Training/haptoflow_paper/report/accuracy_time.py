@@ -11,12 +11,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from haptoflow_paper.metrics.cell_figures import IDENTITY
-from haptoflow_paper.metrics.judged_figures import BY_KEY, JUDGED, JudgedFigure, spread
+from haptoflow_paper.report.cell_figures import BY_KEY, IDENTITY, JUDGED, JudgedFigure, spread
 from haptoflow_paper.rows.row_plan import OURS, PlannedRow
 from haptoflow_paper.rows.row_summary import label_table, level_error_p90_db, mean_interval, over_labels, summary
 from haptoflow_training.export.model_file import read_model_file, write_model_file
-from haptoflow_training.training.run_log import write_json
+from haptoflow_training.whole_file import write_json
 
 _Cell = Mapping[str, Any]
 

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from haptoflow_benchmark.waveform_metrics import power_spectrum
-from haptoflow_paper.reference.reference_set import ReferencePair
+from haptoflow_paper.rows.reference_set import ReferencePair
 from haptoflow_paper.rows.row_plan import ABLATION, AS_PUBLISHED, OURS, REFERENCE
 from haptoflow_training.model_stamp import picture_metadata
 from haptoflow_training.waveform import SAMPLE_RATE_HZ

@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from haptoflow_paper.metrics.judged_figures import BY_KEY, JUDGED
+from haptoflow_paper.report.cell_figures import BY_KEY, JUDGED
 from haptoflow_paper.report.accuracy_time import AHEAD, BEHIND, EVEN, RivalVerdict, rivals
 from haptoflow_paper.report.goals import judge
 from haptoflow_paper.rows.row_plan import BLOCKS, OURS, RIVAL_BLOCKS
@@ -201,10 +201,12 @@ def _timing_line(run: Mapping[str, Any] | None) -> str:
     if run is None:
         return "Not timed yet."
     loads = " and ".join(" / ".join(f"{value:.2f}" for value in run[key]) for key in ("load_before", "load_after"))
+    untrained = ", ".join(f"`{name}`" for name in run.get("untrained", []))
+    stood_in = f" Untrained networks of the same sizes were timed for {untrained}." if untrained else ""
     return (
         f"Times are those of the first complete run with this model: {run['date']}, {run['machine']}, commit "
         f"`{run['commit'][:12]}`, load averages before and after {loads}. All runs are in "
-        "`Training/haptoflow_paper/results/timing-history.json`."
+        f"`Training/haptoflow_paper/results/timing-history.json`.{stood_in}"
     )
 
 

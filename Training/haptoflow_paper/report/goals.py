@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from haptoflow_paper.metrics.judged_figures import BY_KEY
+from haptoflow_paper.report.cell_figures import BY_KEY
 from haptoflow_paper.report.accuracy_time import AHEAD, BEHIND, EVEN, rivals
 from haptoflow_paper.rows.row_plan import RIVAL_BLOCKS
 

@@ -31,7 +31,7 @@ class SegmentNetwork(nn.Module):
 
     def forward(self, noisy: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor, phases: Tensor) -> Tensor:
         """Segment [B, 1, 200] from standard normal noise and previous waveform [B, 1, 200], embedding [B, 64],
-        motion [B, 3] (vx, vy in m/s, force in N) and phases [B, 6] (models/surface_waves.py)."""
+        motion [B, 3] (vx, vy in m/s, force in N) and phases [B, 6] (models/label_embedding.py)."""
         raise NotImplementedError
 
     def loss(

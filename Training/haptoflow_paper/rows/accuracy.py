@@ -11,12 +11,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from haptoflow_benchmark.label_discrimination import LabelClassifier, concatenate, window_features
-from haptoflow_paper.metrics import row_metrics
-from haptoflow_paper.metrics.cell_figures import SETTLING_SAMPLES, measure_cell
-from haptoflow_paper.metrics.told_apart import told_apart_percent
-from haptoflow_paper.reference.reference_conditions import is_on_other_label
-from haptoflow_paper.reference.reference_set import ReferencePair, known_phases
-from haptoflow_training.closed_loop.render import SegmentSource, SurfaceStatistics, hop_positions, run_closed_loop
+from haptoflow_benchmark.waveform_metrics import level_error_db
+from haptoflow_paper.report import row_metrics
+from haptoflow_paper.report.cell_figures import SETTLING_SAMPLES, measure_cell
+from haptoflow_paper.report.told_apart import told_apart_percent
+from haptoflow_paper.rows.closed_loop import closed_loop
+from haptoflow_paper.rows.engine_generator import EngineGenerator
+from haptoflow_paper.rows.reference_conditions import is_on_other_label
+from haptoflow_paper.rows.reference_set import ReferencePair, known_phases
+from haptoflow_training.training.closed_loop import hop_positions
 from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
 _Floats = NDArray[np.float32]
@@ -36,19 +39,14 @@ class GeneratedSet:
 
 
 def generate_set(
-    source: SegmentSource,
-    embeddings: _Floats,
-    statistics: SurfaceStatistics,
+    generator: EngineGenerator,
     pairs: Sequence[ReferencePair],
     *,
     update_rate_hz: float,
     seed: int,
     open_loop: bool = True,
 ) -> GeneratedSet:
-    """Run every pair's motion through `source`; embeddings [labels, 64] and statistics of the surfaces by label index.
-
-    Pairs of similar length share a batch.
-    """
+    """Run every pair's motion through the generator. Pairs of similar length share a batch."""
     closed: list[_Floats] = [np.zeros(0, dtype=np.float32)] * len(pairs)
     opened: list[_Floats] = [np.zeros(0, dtype=np.float32)] * len(pairs)
     starts: list[NDArray[np.int64]] = [np.zeros(0, dtype=np.int64)] * len(pairs)
@@ -65,15 +63,13 @@ def generate_set(
         elsewhere = np.array([pairs[row].condition.kind == "change" for row in rows])
         is_other = elsewhere[:, None] & is_on_other_label(longest)[hops][None, :]
         labels = np.where(is_other, others[:, None], chosen[:, None])
-        run = run_closed_loop(
-            source, embeddings, motions, labels, statistics, update_rate_hz=update_rate_hz, seed=seed + first
-        )
+        run = closed_loop(generator, motions, labels, update_rate_hz=update_rate_hz, seed=seed + first)
         for place, row in enumerate(rows):
             length = len(pairs[row].recorded)
             closed[row] = run.waves[place, :length]
             starts[row] = run.hop_starts[run.hop_starts < length]
             if open_loop and not elsewhere[place]:
-                opened[row] = open_loop_wave(source, embeddings[chosen[place]], pairs[row], seed=seed + row)
+                opened[row] = open_loop_wave(generator, int(chosen[place]), pairs[row], seed=seed + row)
     return GeneratedSet(closed, opened, starts)
 
 
@@ -83,16 +79,17 @@ def _other_label(pair: ReferencePair) -> int:
     return other if other >= 0 else pair.condition.label_index
 
 
-def open_loop_wave(source: SegmentSource, embedding: _Floats, pair: ReferencePair, *, seed: int) -> _Floats:
+def open_loop_wave(generator: EngineGenerator, label: int, pair: ReferencePair, *, seed: int) -> _Floats:
     """Segments end to end, each generated from the true waveform before it (the paper's protocol); the first 200
     samples, which have none, are left out."""
+    embedding = generator.embeddings[label]
     count = len(pair.recorded) // 200 - 1
     previous = pair.recorded[: count * 200].reshape(count, 200)
     motion = pair.motion[: count * 200].reshape(count, 200, 3)[:, -28:].mean(axis=1)
     noise = np.random.default_rng(seed).standard_normal((count, 200)).astype(np.float32)
     phases = known_phases(pair, embedding, 200 * np.arange(1, count + 1))
     condition_embeddings = np.tile(embedding, (count, 1))
-    return source.generate(condition_embeddings, motion.astype(np.float32), previous, noise, phases).reshape(-1)
+    return generator.generate(condition_embeddings, motion.astype(np.float32), previous, noise, phases).reshape(-1)
 
 
 def measure(pairs: Sequence[ReferencePair], made: GeneratedSet) -> list[dict[str, Any]]:
@@ -123,7 +120,9 @@ def make_yardstick(pairs: list[ReferencePair]) -> Yardstick:
         if pair.condition.kind != "change":
             training.setdefault(pair.condition.label, []).append(window_features(pair.independent, pair.motion))
     classifier = LabelClassifier({label: concatenate(parts) for label, parts in training.items()})
-    return Yardstick(pairs, classifier, zlib.crc32(b"".join(pair.recorded.tobytes() for pair in pairs)))
+    # Of levels to a tenth of a decibel: the last bits of a recording differ from processor to processor.
+    levels = [level_error_db(pair.recorded, np.ones(1)) for pair in pairs]
+    return Yardstick(pairs, classifier, zlib.crc32(np.round(10.0 * np.array(levels)).astype(np.int32).tobytes()))
 
 
 def every_fourth(pairs: Sequence[ReferencePair]) -> list[ReferencePair]:
@@ -153,9 +152,7 @@ def label_discrimination(classifier: LabelClassifier, pairs: Sequence[ReferenceP
 
 
 def drift_db_per_minute(
-    source: SegmentSource,
-    embeddings: _Floats,
-    statistics: SurfaceStatistics,
+    generator: EngineGenerator,
     labels: NDArray[np.int64],
     *,
     seconds: float,
@@ -166,6 +163,6 @@ def drift_db_per_minute(
     samples = int(seconds * SAMPLE_RATE_HZ)
     motion = np.array([0.15, 0.0, 1.0], dtype=np.float32)
     motions = np.broadcast_to(motion, (len(labels), samples, 3))
-    run = run_closed_loop(source, embeddings, motions, labels, statistics, update_rate_hz=update_rate_hz, seed=seed)
+    run = closed_loop(generator, motions, labels, update_rate_hz=update_rate_hz, seed=seed)
     drifts = [abs(row_metrics.drift_db_per_minute(wave[SETTLING_SAMPLES:])) for wave in run.waves]
     return float(np.median(drifts)), float(np.max(drifts))

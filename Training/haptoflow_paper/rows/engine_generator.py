@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from haptoflow_benchmark.engine_library import EngineLibrary
-from haptoflow_training.closed_loop.render import SurfaceStatistics
+from haptoflow_training.training.closed_loop import SurfaceStatistics
 from haptoflow_training.native_library import NativeModel, options_of
 from haptoflow_training.waveform import SEGMENT_SAMPLES
 
@@ -52,6 +52,8 @@ class _Batch(ctypes.Structure):
 class EngineGenerator:
     """Generates batches of segments with one tier of a model file, through the C interface; close it after use."""
 
+    pasts, noise_before = 1, 0
+
     def __init__(
         self,
         engine: EngineLibrary,
@@ -61,12 +63,13 @@ class EngineGenerator:
         steps: int = 0,
         maximum_batch: int = MAXIMUM_BATCH,
     ) -> None:
-        self._engine = engine
+        self.engine, self.file = engine, model
         self._handle = ctypes.c_void_p()
         self._model = NativeModel(engine, model)
         self.header = engine.header(self._model.handle)
         self.embeddings = self._read_embeddings()
         self.statistics = SurfaceStatistics.of_entries(self.header["labels"])
+        self.tier = tier or str(self.header["default_tier"])
         options = options_of(
             _GeneratorOptions,
             runtime=engine.runtime,
@@ -87,12 +90,23 @@ class EngineGenerator:
 
     def close(self) -> None:
         """Free the generator; does nothing if it is closed already."""
-        self._engine.call("haptoflow_generator_close", ctypes.byref(self._handle))
+        self.engine.call("haptoflow_generator_close", ctypes.byref(self._handle))
         self._model.close()
+
+    @property
+    def model(self) -> ctypes.c_void_p:
+        """The open model's handle."""
+        return self._model.handle
+
+    @property
+    def corrects_a_stream(self) -> bool:
+        """Whether the tier plays the skeleton's stream, alone or with a network's corrections. Other tiers start from noise."""
+        kinds = {entry["name"]: entry["kind"] for entry in self.header["tiers"]}
+        return kinds[self.tier] in ("skeleton", "refine")
 
     def set_solver(self, solver: str, steps: int) -> None:
         """From the next batch on; solver: of SOLVERS, 1 to 16 steps, or "tier" with 0."""
-        self._engine.call(
+        self.engine.call(
             "haptoflow_generator_set_solver", self._handle, ctypes.c_int32(SOLVERS[solver]), ctypes.c_int32(steps)
         )
 
@@ -101,7 +115,7 @@ class EngineGenerator:
         rows = np.empty((count, 64), dtype=np.float32)
         for index in range(count):
             row = rows[index].ctypes.data_as(_pointer)
-            self._engine.call("haptoflow_model_embedding", self._model.handle, ctypes.c_uint32(index), row)
+            self.engine.call("haptoflow_model_embedding", self._model.handle, ctypes.c_uint32(index), row)
         return rows
 
     def generate(
@@ -113,9 +127,10 @@ class EngineGenerator:
         phases: _Floats | None = None,
         latent_noise: _Floats | None = None,
     ) -> _Floats:
-        """Segments [n, 200] in m/s^2 from embeddings [n, 64], motions [n, 3], previous and noise [n, 200].
+        """Segments [n, 200] in m/s^2 from embeddings [n, 64], motions [n, 3], previous [n, 200] or [n, 1, 200] and
+        noise [n, 200].
 
-        phases: [n, 6] (models/surface_waves.py) at each segment's first sample; None for phases of zero, at the rates
+        phases: [n, 6] (models/label_embedding.py) at each segment's first sample; None for phases of zero, at the rates
         at which the motions cross the embeddings' wave vectors. latent_noise: for a latent tier [n, size of the
         latent]; None to derive it from `noise`.
         """
@@ -125,7 +140,7 @@ class EngineGenerator:
         pointers = [None if array is None else array.ctypes.data_as(_pointer) for array in arrays]
         batch = _Batch(ctypes.sizeof(_Batch), count, *pointers)
         segments = np.empty((count, SEGMENT_SAMPLES), dtype=np.float32)
-        self._engine.call(
+        self.engine.call(
             "haptoflow_generator_generate", self._handle, ctypes.byref(batch), segments.ctypes.data_as(_pointer)
         )
         return segments

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
-from haptoflow_paper.reference.reference_rows import CODEC_ROW, REFERENCE_ROWS
+from haptoflow_paper.rows.reference_set import CODEC_ROW, REFERENCE_ROWS
 from haptoflow_training.errors import InputError
+from haptoflow_training.whole_file import read_toml
 
 AS_PUBLISHED, GIVEN_THE_SAME, OURS, ABLATION, REFERENCE = (
     "as-published", "given-the-same", "ours", "ablation", "reference",
@@ -73,10 +73,7 @@ class PlannedRow:
 
 def load_plan(path: Path) -> list[PlannedRow]:
     """The rows of a plan; InputError names file, row and key."""
-    try:
-        table = tomllib.loads(path.read_text(encoding="utf-8"))
-    except (OSError, tomllib.TOMLDecodeError) as error:
-        raise InputError(f"{path}: cannot be read as a plan ({error})") from error
+    table = read_toml(path, "a plan")
     known = {field.name for field in fields(PlannedRow)}
     rows: list[PlannedRow] = []
     for number, entry in enumerate(table.get("row", [])):

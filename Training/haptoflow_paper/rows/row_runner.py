@@ -17,17 +17,16 @@ import torch
 from haptoflow_benchmark.engine_library import EngineLibrary, default_engine
 from haptoflow_benchmark.waveform_metrics import rms
 from haptoflow_paper.codec.trainer import codec_reconstruction
-from haptoflow_paper.metrics.row_metrics import kink_db
-from haptoflow_paper.reference.reference_rows import CODEC_ROW, reference_waves
-from haptoflow_paper.reference.reference_set import ReferencePair
+from haptoflow_paper.report.row_metrics import kink_db
+from haptoflow_paper.rows.reference_set import CODEC_ROW, ReferencePair, reference_waves
 from haptoflow_paper.rows import accuracy
 from haptoflow_paper.rows.accuracy import Yardstick
+from haptoflow_paper.rows.closed_loop import closed_loop
 from haptoflow_paper.rows.engine_generator import EngineGenerator
 from haptoflow_paper.rows.row_plan import PlannedRow
-from haptoflow_paper.rows.row_store import read_row, stored_row, write_row
+from haptoflow_paper.rows.workplace import Workplace, read_row, stored_row, write_row
 from haptoflow_paper.rows.row_summary import over_labels
-from haptoflow_paper.rows.workplace import Workplace
-from haptoflow_training.closed_loop.render import UPDATE_RATE_HZ, hop_positions, run_closed_loop
+from haptoflow_training.training.closed_loop import UPDATE_RATE_HZ, hop_positions
 from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
@@ -82,7 +81,7 @@ def measure_row(place: Workplace, yardstick: Yardstick, row: PlannedRow, seed: i
     if row.is_reference:
         figures = _reference_figures(place, yardstick, row, seed)
     elif row.time_only:
-        with generator_of(place, row, seed) as generator:
+        with generator_of(place, row, place.model_file(row, seed)) as generator:
             figures = {"discrimination": None, "drift_db_per_min": None, **_sizes(generator, row)}
     else:
         figures = _engine_figures(place, yardstick, row, seed)
@@ -111,8 +110,13 @@ def _graphs_crc32(place: Workplace, row: PlannedRow, seed: int) -> str | None:
     model = place.model_file(row, seed)
     if not model.exists():
         return None
-    # Without the header, which contains figures that this evaluation writes.
-    return f"{zlib.crc32(b''.join(read_model_file(model).graphs.values())):08x}"
+    return weights_crc32(model)
+
+
+def weights_crc32(model: Path) -> str:
+    """Of a file's graphs and tensors, without the header, which contains figures that this evaluation writes."""
+    file = read_model_file(model)
+    return f"{zlib.crc32(b''.join([*file.graphs.values(), *(tensor.tobytes() for tensor in file.tensors.values())])):08x}"
 
 
 def _is_reduced(place: Workplace, row: PlannedRow, seed: int) -> bool:
@@ -146,9 +150,8 @@ def _engine(root: Path) -> EngineLibrary:
     return default_engine(root)
 
 
-def generator_of(place: Workplace, row: PlannedRow, seed: int) -> EngineGenerator:
-    """The row's model in this process's engine; close it after use."""
-    model = place.model_file(row, seed)
+def generator_of(place: Workplace, row: PlannedRow, model: Path) -> EngineGenerator:
+    """The row's tier of the file in this process's engine; close it after use."""
     return EngineGenerator(_engine(place.root), model, row.tier or None, row.solver, row.steps)
 
 
@@ -156,15 +159,12 @@ def _engine_figures(place: Workplace, yardstick: Yardstick, row: PlannedRow, see
     pairs = _pairs(place, yardstick, row, seed)
     extended = row.extended and not place.quick
     drift_seconds = _LONG_DRIFT_SECONDS if extended else _SHORT_DRIFT_SECONDS
-    with generator_of(place, row, seed) as generator:
-        made = accuracy.generate_set(
-            generator, generator.embeddings, generator.statistics, pairs, update_rate_hz=UPDATE_RATE_HZ, seed=_SEED
-        )
+    with generator_of(place, row, place.model_file(row, seed)) as generator:
+        made = accuracy.generate_set(generator, pairs, update_rate_hz=UPDATE_RATE_HZ, seed=_SEED)
         labels = np.arange(0, len(generator.embeddings), 4 if _is_reduced(place, row, seed) else 1)
         drift = accuracy.drift_db_per_minute(
-            generator, generator.embeddings, generator.statistics, labels,
-            seconds=drift_seconds, update_rate_hz=UPDATE_RATE_HZ, seed=_SEED,
-        )  # fmt: skip
+            generator, labels, seconds=drift_seconds, update_rate_hz=UPDATE_RATE_HZ, seed=_SEED
+        )
         rows = accuracy.measure(pairs, made)
         result: dict[str, Any] = {
             "discrimination": accuracy.label_discrimination(yardstick.classifier, pairs, made.closed),
@@ -198,10 +198,7 @@ def _fast_speeds(generator: EngineGenerator, pairs: list[ReferencePair]) -> list
     table = []
     fast = [pair for pair in pairs if _is_fast(pair)]
     for rate in UPDATE_RATES_HZ:
-        made = accuracy.generate_set(
-            generator, generator.embeddings, generator.statistics, fast,
-            update_rate_hz=rate, seed=_SEED, open_loop=False,
-        )  # fmt: skip
+        made = accuracy.generate_set(generator, fast, update_rate_hz=rate, seed=_SEED, open_loop=False)
         rows = accuracy.measure(fast, made)
         for speed in FAST_SPEEDS_MPS:
             chosen = [entry for entry in rows if entry["speed_mps"] == speed]
@@ -222,9 +219,8 @@ def _level_kinks(generator: EngineGenerator) -> dict[str, float]:
     for label in range(len(generator.embeddings)):
         motions = np.zeros((_SWEEP_SPEEDS, samples, 3), dtype=np.float32)
         motions[:, :, 0], motions[:, :, 2] = speeds[:, None], 1.0
-        run = run_closed_loop(
-            generator, generator.embeddings, motions, np.full(_SWEEP_SPEEDS, label), generator.statistics,
-            update_rate_hz=UPDATE_RATE_HZ, seed=_SEED,
-        )  # fmt: skip
+        run = closed_loop(
+            generator, motions, np.full(_SWEEP_SPEEDS, label), update_rate_hz=UPDATE_RATE_HZ, seed=_SEED
+        )
         kinks.append(kink_db(20.0 * np.log10([rms(wave[400:]) + 1e-9 for wave in run.waves])))
     return {"median": float(np.median(kinks)), "worst": float(np.max(kinks))}

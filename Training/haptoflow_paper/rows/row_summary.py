@@ -8,9 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from haptoflow_paper.metrics.cell_figures import IDENTITY
-from haptoflow_paper.metrics.judged_figures import BY_KEY, JUDGED, JudgedFigure, by_label, spread
-from haptoflow_paper.reference.reference_conditions import STEADY_KINDS
+from haptoflow_paper.report.cell_figures import BY_KEY, IDENTITY, JUDGED, JudgedFigure, by_label, spread
+from haptoflow_paper.rows.reference_conditions import STEADY_KINDS
 
 _Cell = Mapping[str, Any]
 

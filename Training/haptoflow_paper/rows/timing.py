@@ -15,9 +15,9 @@ from typing import Any
 
 import numpy as np
 
-from haptoflow_training.closed_loop.render import SegmentSource
-from haptoflow_training.models.surface_waves import PHASES
-from haptoflow_training.training.run_log import write_text
+from haptoflow_training.training.closed_loop import SegmentSource
+from haptoflow_training.models.label_embedding import PHASES
+from haptoflow_training.whole_file import write_text
 
 _WARM_UP_RUNS = 20
 
@@ -90,17 +90,19 @@ def timing_run(
     commit: str,
     graphs_sha256: str,
     is_complete: bool,
+    untrained: Sequence[str],
     machine: str,
     load_before: Sequence[float],
     load_after: Sequence[float],
 ) -> dict[str, Any]:
-    """A run as stored in the history. graphs_sha256: of the shipped model. is_complete: every row whose model exists
-    was timed. load_*: the machine's load averages over 1, 5 and 15 minutes."""
+    """A run as stored in the history. graphs_sha256: of the shipped model. is_complete: every measured row
+    was timed. untrained: rows that were timed with untrained networks of the same sizes. load_*: the machine's load
+    averages over 1, 5 and 15 minutes."""
     rows = {name: {"ms_per_segment": _shown(hot[name]), "ms_paced": _shown(paced[name])} for name in hot}
     loads = [[round(value, 2) for value in load] for load in (load_before, load_after)]
     return {
-        "date": date, "commit": commit, "graphs_sha256": graphs_sha256, "is_complete": is_complete, "machine": machine,
-        "load_before": loads[0], "load_after": loads[1], "rows": rows,
+        "date": date, "commit": commit, "graphs_sha256": graphs_sha256, "is_complete": is_complete,
+        "untrained": list(untrained), "machine": machine, "load_before": loads[0], "load_after": loads[1], "rows": rows,
     }  # fmt: skip
 
 

@@ -13,11 +13,13 @@ from typing import Any
 
 from tqdm import tqdm
 
+from haptoflow_paper.report.cell_figures import IDENTITY, JUDGED
 from haptoflow_paper.rows.row_plan import PlannedRow
 from haptoflow_training.extensions import configuration_class
 from haptoflow_training.training.config import load_config
 from haptoflow_training.training.processes import Job, run_jobs
 from haptoflow_training.training.recordings_source import open_source
+from haptoflow_training.whole_file import write_text
 
 _CODEC_CONFIGURATION = "paper-codec"
 
@@ -45,6 +47,11 @@ class Workplace:
         if is_of_repository(row, seed):
             return self.root / row.model
         return self.work / "models" / f"{row.model_of(seed)}-{seed}.haptoflow"
+
+    def timed_file(self, row: PlannedRow) -> Path:
+        """What the row's time is measured with: its model or, where that is not here, an untrained network of its sizes."""
+        model = self.model_file(row, row.seeds[0])
+        return model if model.exists() else self.work / "untrained" / f"{row.model_of(row.seeds[0])}.haptoflow"
 
     def seeds_of(self, row: PlannedRow) -> list[int]:
         """The row's seeds, without those of a training whose configuration is missing."""
@@ -150,10 +157,15 @@ def _is_as_configured(place: Workplace, model: str, seed: int) -> bool:
 
 
 def _training(place: Workplace, model: str, seed: int, out: Path) -> Job:
-    folder = place.run_folder(model, seed)
-    words = ["train", "--config", str(place.config_file(model)), "--seed", str(seed)]
+    name = f"{model}, seed {seed}"
+    return training_job(place, name, place.config_file(model), seed, place.run_folder(model, seed), out)
+
+
+def training_job(place: Workplace, name: str, config: Path, seed: int, folder: Path, out: Path) -> Job:
+    """The training of a configuration in `folder`, which exports the model file `out`."""
+    words = ["train", "--config", str(config), "--seed", str(seed)]
     words += ["--out", str(folder), "--store", str(place.store), "--export", str(out)]
-    return Job(f"{model}, seed {seed}", words, folder / "train.log", out, place.root, _PROGRAM)
+    return Job(name, words, folder / "train.log", out, place.root, _PROGRAM)
 
 
 def _codec_training(place: Workplace, model: str) -> list[Job]:
@@ -167,3 +179,45 @@ def _codec_training(place: Workplace, model: str) -> list[Job]:
     codec = Path(__file__).parents[1] / "configs" / "codec-small.toml"
     words = ["train-codec", "--config", str(codec), "--store", str(place.store), "--out", str(checkpoint.parent)]
     return [Job("the small codec", words, checkpoint.parent / "train.log", checkpoint, place.root, _PROGRAM)]
+
+
+_UNJUDGED = (
+    "gfc_segment", "rmse", "band_error_db", "continuity", "recorded_kurtosis", "change_level_error_db",
+    "change_crest_error_db",
+)  # fmt: skip
+_COLUMNS = (*IDENTITY, *(figure.key for figure in JUDGED), *_UNJUDGED)
+_DIGITS = 4
+
+
+def write_row(path: Path, result: dict[str, Any]) -> None:
+    """Write a row, with its recordings as a table: columns, then a line for each."""
+    recordings = [[_rounded(entry.get(column)) for column in _COLUMNS] for entry in result.get("conditions", [])]
+    head = {key: value for key, value in result.items() if key != "conditions"}
+    text = json.dumps({**head, "columns": _COLUMNS, "conditions": []}, indent=2, ensure_ascii=False)
+    lines = ",\n".join(f"    {json.dumps(line, ensure_ascii=False)}" for line in recordings)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    write_text(path, text.replace('"conditions": []', f'"conditions": [\n{lines}\n  ]') + "\n")
+
+
+def read_row(path: Path) -> dict[str, Any]:
+    """Read a row, which is stored to four digits."""
+    stored: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
+    columns = stored.pop("columns")
+    cells = [dict(zip(columns, line, strict=True)) for line in stored["conditions"]]
+    stored["conditions"] = [{key: value for key, value in cell.items() if value is not None} for cell in cells]
+    return stored
+
+
+def stored_row(place: Workplace, row: PlannedRow, seed: int, made_from: dict[str, Any]) -> dict[str, Any] | None:
+    """The row's file if it was measured from exactly this; a value None in `made_from` (a missing model) matches
+    any."""
+    path = place.row_file(row, seed)
+    if not path.exists():
+        return None
+    stored = read_row(path)
+    agrees = all(value is None or stored["made_from"].get(key) == value for key, value in made_from.items())
+    return stored if agrees else None
+
+
+def _rounded(value: Any) -> Any:
+    return round(value, _DIGITS) if isinstance(value, float) else value

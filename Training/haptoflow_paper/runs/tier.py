@@ -19,11 +19,10 @@ from haptoflow_paper.runs.networks import EvaluatedModel
 from haptoflow_paper.runs.velocity_field import FieldModel
 from haptoflow_training.export.exponents import RecordedWindows, draw_windows
 from haptoflow_training.export.model_file import ModelFile
-from haptoflow_training.export.onnx_graphs import export_graph
-from haptoflow_training.export.trained_tier import TrainedTier
+from haptoflow_training.export.trained_tier import TrainedTier, export_graph
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE
 from haptoflow_training.models.haptoflow_model import Condition, HaptoFlowModel, parameter_count
-from haptoflow_training.models.surface_waves import PHASES
+from haptoflow_training.models.label_embedding import PHASES
 from haptoflow_training.preprocessing.store import SegmentStore
 from haptoflow_training.training.batches import HeldOut
 

@@ -18,26 +18,20 @@ from haptoflow_paper.rivals import build_rival
 from haptoflow_paper.rivals.autoregressive import AutoregressiveRival
 from haptoflow_paper.runs.configuration import EvaluatedConfig, SolverConfig
 from haptoflow_paper.runs.flow_matching import (
-    AverageField,
-    Field,
-    ReflowPairs,
-    flow_matching_loss,
-    mean_flow_loss,
-    own_pairs,
-    solve,
+    AverageField, Field, ReflowPairs, flow_matching_loss, mean_flow_loss, own_pairs, solve
 )
 from haptoflow_paper.runs.networks import AverageVelocityField, EvaluatedModel
 from haptoflow_paper.runs.velocity_field import VelocityField
 from haptoflow_training.errors import InputError
 from haptoflow_training.models.haptoflow_model import Condition, HaptoFlowModel
-from haptoflow_training.models.label_embedding import WAVE_VECTORS
+from haptoflow_training.models.label_embedding import FAMILIES, WAVE_VECTORS
 from haptoflow_training.models.level_model import LevelModel
-from haptoflow_training.models.surface_waves import FAMILIES
 from haptoflow_training.training.batches import SegmentBatch
 from haptoflow_training.training.budget import Budget
-from haptoflow_training.training.losses import Losses, ScaledBatch
+from haptoflow_training.training.losses import (
+    Losses, ScaledBatch, audible, motion_at, weighted_mean, with_floor, without_waves
+)
 from haptoflow_training.training.processes import Processes
-from haptoflow_training.training.skeleton_losses import audible, motion_at, weighted_mean, with_floor, without_waves
 from haptoflow_training.training.trainer import Phase, TimeLimit, Trainer, WaveVectors
 from haptoflow_training.waveform import SEGMENT_SAMPLES
 
@@ -60,13 +54,16 @@ class EvaluatedLosses(Losses):
 
     def field_loss(self, given: ScaledBatch, objective: str, generator: torch.Generator) -> Tensor:
         field, motion = self.model.field, given.batch.motion
+        # Bursts that the level cannot predict (an impact, the first motion after a rest) are learnt, but must not outweigh a
+        # hundred ordinary segments.
+        power = given.segment.square().mean(dim=(1, 2)).clamp(min=1.0)
         if isinstance(field, AutoregressiveRival) and objective in ("filter", "own"):
             return self._filter_loss(field, given, objective, generator)
         if objective == "own":
             own = field.loss(given.segment, given.previous, given.embedding, motion, given.phases, generator)
             # A likelihood weighs all segments alike: weighting down unpredictable ones would bias it towards too little
             # variance.
-            weight = torch.ones_like(given.power) if field.is_sampled else given.power.reciprocal()
+            weight = torch.ones_like(power) if field.is_sampled else power.reciprocal()
             return (weight * own).sum() / weight.sum()
         if objective == "average-velocity":
 
@@ -79,16 +76,16 @@ class EvaluatedLosses(Losses):
 
                 return average
 
-            return mean_flow_loss(bound, given.segment, generator, 1.0 / given.power)
+            return mean_flow_loss(bound, given.segment, generator, 1.0 / power)
         if objective == "flow":
-            return flow_matching_loss(self._field(given.condition), given.segment, generator, 1.0 / given.power)
+            return flow_matching_loss(self._field(given.condition), given.segment, generator, 1.0 / power)
         return super().field_loss(given, objective, generator)
 
     @staticmethod
     def _filter_loss(
         field: AutoregressiveRival, given: ScaledBatch, objective: str, generator: torch.Generator
     ) -> Tensor:
-        """As of the product's skeleton (training/skeleton_losses.py)."""
+        """As of the product's skeleton (training/losses.py)."""
         segment, weight = with_floor(given.segment, given.log_level, generator), audible(given.log_level)
         if objective == "own":
             motion = motion_at(given.batch.motion_path, field.middle)

@@ -21,7 +21,7 @@ from haptoflow_training.models.conditioning import EMBEDDING_SIZE, MotionFeature
 from haptoflow_training.models.haptoflow_model import HaptoFlowModel
 from haptoflow_training.models.refiner import PatchUnet
 from haptoflow_training.models.rib_comb import RibComb
-from haptoflow_training.models.tail_impulses import ATOMS, THRESHOLDS, TailImpulses
+from haptoflow_training.models.skeleton import ATOMS, NOISE_BEFORE, THRESHOLDS, TailImpulses
 from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
 TAPS = 129
@@ -130,10 +130,14 @@ def _silent(outputs: int) -> nn.Linear:
 
 
 class ContinuousImpulses(TailImpulses):
-    """Impulses of a network: gains [B, 52], the same kernel for both tails."""
+    """Impulses of a network: gains [B, 52], the same kernel for both tails; the noise [B, 1, N] begins with the
+    segment."""
 
     thresholds: ClassVar[tuple[float, ...]] = THRESHOLDS
     tails: ClassVar[int] = 1
+
+    def forward(self, noise: Tensor, gains: Tensor) -> Tensor:
+        return super().forward(nn.functional.pad(noise, (NOISE_BEFORE, 0)), gains)
 
     def _excess(self, gathered: Tensor) -> Tensor:
         return gathered - torch.maximum(torch.minimum(gathered, self.heights), -self.heights)
@@ -145,7 +149,7 @@ class VelocityField(PatchUnet):
     noisy and previous: [B, C, N] with C channels of the representation (1 for raw samples) and N positions (200); time:
     [B, 1], or [1, 1] for all; embedding: [B, 64]; motion: [B, 3]. Returns [B, C, N]. N must be a multiple of `patch`.
     With `ribs` (raw samples only), the rib comb predicts the partials of a ruled surface from the past and from
-    phases [B, 6] (surface_waves.py). With `impulses` (raw samples only), rare events come from the tails of the noise.
+    phases [B, 6] (label_embedding.py). With `impulses` (raw samples only), rare events come from the tails of the noise.
     levels: 2 for a U-Net whose second level has half the positions; 1 for its first block alone, in less than half the
     time.
     """

@@ -15,13 +15,12 @@ from typing import Any
 from tqdm import tqdm
 
 from haptoflow_training.errors import InputError
-from haptoflow_training.export.model_file import read_model_file, write_model_file
-from haptoflow_training.fewshot.add_label import require_new_name, with_label
-from haptoflow_training.fewshot.learning import DEFAULT_SECONDS_LIMIT, MaterialWords, joined, learn_material
+from haptoflow_training.export.model_file import read_model_file, require_new_name, with_label, write_model_file
+from haptoflow_training.export.learning import DEFAULT_SECONDS_LIMIT, MaterialWords, joined, learn_material
 from haptoflow_training.recordings.dataset import UNKNOWN
 from haptoflow_training.recordings.material_recording import material_files, read_material_recordings
 from haptoflow_training.recordings.open_recordings import RecordingFile
-from haptoflow_training.recordings.own_files import read_own
+from haptoflow_training.recordings.own_files import open_own, read_own
 from haptoflow_training.whole_file import check_writable, write_whole
 
 SUFFIX = ".haptomaterial"
@@ -89,13 +88,13 @@ def run(options: argparse.Namespace) -> int:
     check_writable(out)
     for note in read.notes if read else ():
         _tell(note)
-    recording = read.even if read else joined(read_material_recordings(files, _tell))
-    assert recording is not None
+    licence, origin = _origin(options.recording, files)
+    recording = open_own(options.recording[0]) if read else joined(read_material_recordings(files, _tell), origin)
     with tqdm(total=100, desc=name, unit="%", disable=None) as progress:
         learnt = learn_material(
             options.model,
             recording,
-            MaterialWords(name, options.category, options.description, *_origin(options.recording, files)),
+            MaterialWords(name, options.category, options.description, licence),
             seed=options.seed,
             seconds_limit=options.seconds_limit,
             wave_vectors_per_mm=wave_vectors,

@@ -9,14 +9,14 @@ from typing import Any
 
 from tqdm import tqdm
 
-from haptoflow_training.closed_loop.measured_levels import by_label, measured_levels
+from haptoflow_training.training.level_calibration import by_label, measured_levels
 from haptoflow_training.export.exporter import export_run
 from haptoflow_training.export.grown_model import export_grown_model
 from haptoflow_training.export.level_table import MeasuredLevels
 from haptoflow_training.model_stamp import SHIPPED_MODEL
 from haptoflow_training.training.recordings_source import Source, open_source
-from haptoflow_training.training.run_log import write_json
 from haptoflow_training.training.trainer import load_trained
+from haptoflow_training.whole_file import write_json
 
 SHIPPED = Path(__file__).resolve().parents[3] / SHIPPED_MODEL
 

@@ -5,9 +5,8 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from haptoflow_training.recordings.cluster_dataset import read_texture_list
+from haptoflow_training.recordings.cluster_dataset import as_toml, labels_of_textures, read_texture_list
 from haptoflow_training.recordings.labels import load_labels
-from haptoflow_training.recordings.texture_labels import as_toml, labels_of_textures
 from haptoflow_training.whole_file import write_whole
 
 _DESCRIPTION = """\

@@ -8,7 +8,7 @@ from collections.abc import Collection
 from pathlib import Path
 
 from haptoflow_training.errors import InputError
-from haptoflow_training.preprocessing.preparation import prepare_cut_where_needed, prepare_store
+from haptoflow_training.preprocessing.preparation import prepare_store
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.preprocessing.split import SPLITS
 from haptoflow_training.preprocessing.store import SegmentStore, store_lock
@@ -53,21 +53,14 @@ def run(options: argparse.Namespace) -> int:
     if not entries:
         first = next((f"; the first problem: {problem}" for dataset in datasets for problem in dataset.problems), "")
         raise InputError(f"{', '.join(map(str, options.recordings))}: no recording with a label{first}")
-    for dataset in datasets:
-        for problem in dataset.problems:
-            print(f"skipped: {problem}")
-        for note in dataset.notes:
-            print(note)
-        if dataset.left_out:
-            print(dataset.left_out)
+    for line in (line for dataset in datasets for line in dataset.said):
+        print(line)
     settings = PreprocessingSettings(
         held_out_directions=tuple(options.hold_out_direction), held_out_speeds_mmps=tuple(options.hold_out_speed)
     )
     begun = time.perf_counter()
-    # Synthetic recordings are split by their names alone.
-    prepare = prepare_store if all(dataset.synthetic for dataset in datasets) else prepare_cut_where_needed
     with store_lock(options.out):
-        store = prepare(
+        store = prepare_store(
             entries,
             _labels(datasets, options.labels),
             options.out,
@@ -75,6 +68,8 @@ def run(options: argparse.Namespace) -> int:
             options.seed,
             provenance={"recordings": [dataset.provenance for dataset in datasets]},
             workers=options.workers,
+            # Synthetic recordings are split by their names alone.
+            is_cut=not all(dataset.synthetic for dataset in datasets),
         )
     _report(store, time.perf_counter() - begun, [note for dataset in datasets for note in dataset.notes])
     return 0

@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 
 from haptoflow_training.export.model_file import read_model_file
-from haptoflow_training.fewshot.sliders import find_sliders, write_sliders
+from haptoflow_training.export.sliders import find_sliders, write_sliders
 from haptoflow_training.recordings.synthetic.materials import load_materials
 
 _EXAMPLES = """examples:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import argparse
-import tomllib
+import io
 from pathlib import Path
+
+import numpy as np
 
 from haptoflow_training.errors import InputError
 from haptoflow_training.hand_stroke import DEFAULT_TREMOR_METRES, SpatialStroke, scripted_stroke
-from haptoflow_training.whole_file import write_whole
+from haptoflow_training.whole_file import read_toml, write_whole
 
 _KEYS = ("waypoints_metres", "segment_seconds", "rate_hz", "seed", "tremor_metres", "force_newtons",
          "smoothing_seconds")  # fmt: skip
@@ -36,12 +38,7 @@ def run(options: argparse.Namespace) -> int:
 
 def stroke_from_script(path: Path, *, seed: int | None = None) -> SpatialStroke:
     """The stroke of a TOML script. InputError names the file, the key and what was expected."""
-    try:
-        script = tomllib.loads(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read ({error.strerror}); expected a TOML script") from error
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise InputError(f"{path}: not valid TOML: {error}") from error
+    script = read_toml(path, "a TOML script")
     for key in script:
         if key not in _KEYS:
             raise InputError(f"{path}: unknown key '{key}'; expected {', '.join(_KEYS)}")
@@ -65,10 +62,9 @@ def stroke_from_script(path: Path, *, seed: int | None = None) -> SpatialStroke:
 def write_stroke(path: Path, stroke: SpatialStroke) -> None:
     """Write columns `t,x,y,z[,force]`, seconds to the microsecond and metres to the nanometre. The file is written
     atomically."""
-    lines = ["t,x,y,z" if stroke.force_newtons is None else "t,x,y,z,force"]
-    for index, time in enumerate(stroke.time_seconds):
-        row = f"{time:.6f}," + ",".join(f"{value:.9f}" for value in stroke.position_metres[index])
-        if stroke.force_newtons is not None:
-            row += f",{stroke.force_newtons[index]:.6f}"
-        lines.append(row)
-    write_whole(path, ("\n".join(lines) + "\n").encode())
+    columns, forms, names = [stroke.time_seconds, stroke.position_metres], ["%.6f", *["%.9f"] * 3], "t,x,y,z"
+    if stroke.force_newtons is not None:
+        columns, forms, names = [*columns, stroke.force_newtons], [*forms, "%.6f"], f"{names},force"
+    table = io.BytesIO()
+    np.savetxt(table, np.column_stack(columns), fmt=forms, delimiter=",", header=names, comments="")
+    write_whole(path, table.getvalue())

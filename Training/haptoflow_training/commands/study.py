@@ -17,15 +17,13 @@ from haptoflow_training.errors import InputError
 from haptoflow_training.model_stamp import read_measured_page, with_measured_words
 from haptoflow_training.studies.plans import golden_text
 from haptoflow_training.studies.log_table import LATENCY, SIMILARITY, STUDIES
-from haptoflow_training.studies.session_file import merged_csv
+from haptoflow_training.studies.session_file import merged_csv, read_faultless, read_folder
 from haptoflow_training.studies.simulation import (
     MATERIALS, METHODS, PLANNED_DZ, planted, simulate_latency, simulate_similarity
 )
-from haptoflow_training.studies.study_folder import read_faultless, read_folder
 from haptoflow_training.whole_file import write_whole
 
 _PUBLISHED = Path("Training") / "results" / "benchmarks.md"
-_PUBLISHED_LAGS = Path("Training") / "results" / "default" / "stylus-lag.json"
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -206,7 +204,7 @@ def _power(options: argparse.Namespace) -> int:
 
 
 def _rating_power(options: argparse.Namespace) -> int:
-    from haptoflow_training.studies.power import planned_signed_rank_power, rating_power
+    from haptoflow_training.studies.simulation import planned_signed_rank_power, rating_power
 
     with tqdm(total=options.simulations, unit="study", disable=None) as progress:
         found = rating_power(
@@ -229,7 +227,7 @@ def _rating_power(options: argparse.Namespace) -> int:
 
 
 def _latency_power(options: argparse.Namespace) -> int:
-    from haptoflow_training.studies.power import latency_power
+    from haptoflow_training.studies.simulation import latency_power
 
     with tqdm(total=options.simulations, unit="study", disable=None) as progress:
         found = latency_power(
@@ -256,7 +254,6 @@ The first reads the tables of Training/results/benchmarks.md, the second those o
 device delay that you measured. The third writes the page anew after `npm run bench -- --publish`.
 """
     parser.add_argument("--bench", type=Path, default=_PUBLISHED, help="bench.json, or the page that publishes it")
-    parser.add_argument("--lags", type=Path, default=_PUBLISHED_LAGS, help="what haptoflow-benchmark measure-lag wrote")
     parser.add_argument("--device-ms", type=float, help="from the audio callback to the hand, as you measured it")
     parser.add_argument("--page", type=Path, help="page whose measured part is written anew")
     parser.add_argument("--chart", type=Path, help="PNG file to write")
@@ -264,8 +261,7 @@ device delay that you measured. The third writes the page anew after `npm run be
 
 
 def _budget(options: argparse.Namespace) -> int:
-    from haptoflow_training.studies.delay_budget import read_bench
-    from haptoflow_training.studies.delay_budget import page_words, read_lags, write_chart
+    from haptoflow_training.studies.delay_budget import page_words, read_bench, write_chart
 
     if options.device_ms is not None:
         _require_range("--device-ms", options.device_ms, 0, 1000)
@@ -276,7 +272,7 @@ def _budget(options: argparse.Namespace) -> int:
     if options.page is not None and chart is None:
         chart = options.page.parent / "images" / "delay-budget.png"
     address = "" if chart is None else Path(os.path.relpath(chart, (options.page or chart).parent)).as_posix()
-    words = page_words(bench, address, options.device_ms, read_lags(options.lags))
+    words = page_words(bench, address, options.device_ms)
     _write_measured(options.page, words)
     if chart is not None:
         write_chart(chart, bench, options.device_ms)

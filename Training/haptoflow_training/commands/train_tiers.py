@@ -9,11 +9,12 @@ from pathlib import Path
 
 from tqdm import tqdm
 
-from haptoflow_training.closed_loop.level_calibration import Extent
-from haptoflow_training.closed_loop.measured_levels import measured_levels
+from haptoflow_training.training.level_calibration import Extent, measured_levels
 from haptoflow_training.commands.export import write_model
-from haptoflow_training.commands.minutes import MINIMUM_MINUTES, TiersMinutes, affordable_extent
-from haptoflow_training.commands.train import add_minutes_option, add_recordings_options, report_left_out, with_recordings
+from haptoflow_training.commands.train import (
+    MINIMUM_MINUTES, TiersMinutes, add_minutes_option, add_recordings_options, affordable_extent, report_left_out,
+    with_recordings
+)
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.trained_tier import load_tiers
 from haptoflow_training.training.config import load_config

@@ -1,7 +1,10 @@
-"""Writes a trained run as a `.haptoflow` file: header, embeddings, skeleton, graphs."""
+"""Writes a trained run as a `.haptoflow` file: header, embeddings, skeleton, graphs; and golden vectors of it, which are
+what PyTorch makes and the C++ engine must reproduce."""
 
 from __future__ import annotations
 
+import copy
+import dataclasses
 import json
 import math
 from collections.abc import Mapping, Sequence
@@ -11,22 +14,74 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import torch
+from torch import Tensor
 
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.exponents import fit_exponents
-from haptoflow_training.export.label_info import LabelInfo
 from haptoflow_training.export.level_table import LevelTable, MeasuredLevels
 from haptoflow_training.export.model_file import ModelFile, write_model_file
-from haptoflow_training.export.parity import write_parity
 from haptoflow_training.export.trained_tier import TrainedTier, load_tiers
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE
-from haptoflow_training.models.level_model import shift_level
+from haptoflow_training.models.label_embedding import surface_phases
+from haptoflow_training.models.level_model import scaled_previous, shift_level
 from haptoflow_training.preprocessing.store import SegmentStore
-from haptoflow_training.recordings.landing import Landing
-from haptoflow_training.training.batches import HeldOut, SegmentBatches
+from haptoflow_training.recordings.landing import LabelInfo, Landing
+from haptoflow_training.training.batches import HeldOut, SegmentBatch, SegmentBatches
 from haptoflow_training.training.config import TrainingConfig
 from haptoflow_training.training.run_log import source_commit
 from haptoflow_training.waveform import SAMPLE_RATE_HZ, SEGMENT_SAMPLES
+from haptoflow_training.whole_file import write_json
+
+def _in_double(batch: SegmentBatch) -> SegmentBatch:
+    parts = {field.name: getattr(batch, field.name) for field in dataclasses.fields(batch)}
+    return dataclasses.replace(
+        batch, **{name: part.double() for name, part in parts.items() if isinstance(part, Tensor) and part.is_floating_point()}
+    )
+
+
+@torch.no_grad()
+def write_parity(path: Path, tiers: list[TrainedTier], batch: SegmentBatch, *, model_crc32: int, seed: int) -> None:
+    """Write one case for each row of `batch`, cycling through tiers and solvers; the previous waveforms, and what goes
+    on beneath them in a tier with a skeleton, are recorded ones. Computed in double precision: an all-pole filter at
+    single precision is no reference."""
+    generator = torch.Generator().manual_seed(seed)
+    tiers = [copy.deepcopy(tier) for tier in tiers]
+    for tier in tiers:
+        tier.model.double()
+    batch = _in_double(batch)
+    cases: list[dict[str, Any]] = []
+    for row in range(batch.label.shape[0]):
+        tier = tiers[row % len(tiers)]
+        kind, steps = tier.golden_solvers[row // len(tiers) % len(tier.golden_solvers)]
+        embedding = tier.model.embedding(batch.label[row : row + 1])
+        # What was played, and another recording for what goes on beneath it.
+        pasts = [batch.previous[(row + past) % len(batch.label)] for past in range(tier.model.pasts)]
+        motion, previous = batch.motion[row : row + 1], torch.stack(pasts, dim=1)
+        where = batch.position_mm[row : row + 1], batch.wander[row : row + 1]
+        phases = surface_phases(embedding, motion, *where)
+        log_level = tier.model.level(embedding, motion)
+        condition = scaled_previous(previous, log_level), embedding, motion, phases
+        noise = torch.randn(1, 1, SEGMENT_SAMPLES, generator=generator).double()
+        # Nothing rings on from before.
+        after_silence = torch.nn.functional.pad(noise, (tier.model.noise_before, 0))
+        segment = tier.generate(after_silence, condition, kind, steps)[:, :1] * torch.exp(log_level).unsqueeze(-1)
+        cases.append(
+            {
+                "tier": tier.name,
+                "solver": kind,
+                "steps": steps,
+                "embedding": embedding.flatten().tolist(),
+                "motion": motion.flatten().tolist(),
+                "phases": phases.flatten().tolist(),
+                "previous": previous[:, 0].flatten().tolist(),
+                **({"own": previous[:, 1].flatten().tolist()} if tier.model.pasts > 1 else {}),
+                "noise": noise.flatten().tolist(),
+                "log_level": log_level.item(),
+                "segment": segment.flatten().tolist(),
+            }
+        )
+    write_json(path, {"model_crc32": f"{model_crc32:08x}", "cases": cases})
+
 
 if TYPE_CHECKING:
     from haptoflow_training.training.recordings_source import Source

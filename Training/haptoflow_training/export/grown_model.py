@@ -14,10 +14,9 @@ from numpy.typing import NDArray
 
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.exporter import described_configuration
-from haptoflow_training.export.label_info import LabelInfo
-from haptoflow_training.export.model_file import ModelFile, model_space, read_model_file, write_model_file
-from haptoflow_training.fewshot.add_label import with_label
-from haptoflow_training.fewshot.learning import MaterialWords, joined, learn_material
+from haptoflow_training.recordings.landing import LabelInfo
+from haptoflow_training.export.model_file import ModelFile, model_space, read_model_file, with_label, write_model_file
+from haptoflow_training.export.learning import MaterialWords, joined, learn_material
 from haptoflow_training.models.label_embedding import WAVE_NUMBERS
 from haptoflow_training.training.found_wave_vectors import stored_recordings
 from haptoflow_training.training.recordings_source import Source

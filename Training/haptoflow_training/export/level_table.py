@@ -55,7 +55,7 @@ class LevelTable:
 
 @dataclass(frozen=True)
 class MeasuredLevels:
-    """What closed_loop/measured_levels.py found. offsets_db: the level error of each label, None where nothing was
+    """What training/level_calibration.py found. offsets_db: the level error of each label, None where nothing was
     measured. tables: by label index."""
 
     offsets_db: list[float] | None = None

@@ -1,24 +1,94 @@
-"""A finished run as a tier of a model file."""
+"""A finished run as a tier of a model file, and the ONNX graph of its network, opset 16, dynamic batch."""
 
 from __future__ import annotations
 
+import inspect
+import io
+import warnings
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import onnx
 import torch
-from torch import Tensor
+from torch import Tensor, nn
 
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.model_file import ModelFile
-from haptoflow_training.export.onnx_graphs import export_refinement
 from haptoflow_training.export.skeleton_tensors import Tensors, condition_tensors, skeleton_header, skeleton_tensors
 from haptoflow_training.extensions import located
 from haptoflow_training.models.haptoflow_model import Condition, HaptoFlowModel, SkeletonModel, parameter_count
+from haptoflow_training.models.refiner import ENTERING, Refiner
 from haptoflow_training.models.skeleton import Skeleton
 from haptoflow_training.preprocessing.store import SegmentStore
 from haptoflow_training.training.config import TIER_NAMES, TrainingConfig
 from haptoflow_training.training.trainer import load_trained
+from haptoflow_training.waveform import SEGMENT_SAMPLES
+
+OPSET = 16
+
+
+def trace_graph(
+    module: nn.Module, examples: tuple[Tensor, ...], file: Any, inputs: Sequence[str], outputs: Sequence[str]
+) -> None:
+    """Write the graph of a module into a file by tracing, with a free batch; `file` as of torch.onnx.export.
+
+    From PyTorch 2.9 on the exporter is another one by default, which writes other graphs and needs the package
+    onnxscript.
+    """
+    is_told = "dynamo" in inspect.signature(torch.onnx.export).parameters
+    torch.onnx.export(
+        module.eval(),
+        examples,
+        file,
+        opset_version=OPSET,
+        input_names=list(inputs),
+        output_names=list(outputs),
+        dynamic_axes={name: {0: "batch"} for name in (*inputs, *outputs)},
+        do_constant_folding=True,
+        **({"dynamo": False} if is_told else {}),
+    )
+
+
+def export_graph(module: nn.Module, inputs: dict[str, Tensor], output: str) -> bytes:
+    """The checked graph of a module; inputs: examples by name, in order."""
+    buffer = io.BytesIO()
+    with warnings.catch_warnings():
+        # Tracing warns about Python integers that are constants of the architecture, and the exporter about shapes that
+        # it does not infer. The checker below finds the errors that matter.
+        warnings.simplefilter("ignore")
+        trace_graph(module, tuple(inputs.values()), buffer, list(inputs), [output])
+    graph = onnx.load_from_string(buffer.getvalue())
+    onnx.checker.check_model(graph, full_check=True)
+    # The exporter stores source locations, which would contain paths of this machine.
+    for node in graph.graph.node:
+        node.doc_string = ""
+    return graph.SerializeToString()
+
+
+class _Refinement(nn.Module):
+    """The refinement without what native code computes: the skeleton's segment and the FiLM parameters are inputs."""
+
+    def __init__(self, refiner: Refiner) -> None:
+        super().__init__()
+        self.refiner = refiner
+
+    def forward(self, entering: Tensor, past: Tensor, own: Tensor, film: Tensor) -> Tensor:
+        return self.refiner.through(entering, torch.cat([past, own], dim=1), film)
+
+
+def export_refinement(refiner: Refiner) -> bytes:
+    """The graph of a tier of kind "refine": inputs entering, past (what was played), own (the skeleton's own past),
+    film; output correction."""
+    batch, sizes = 2, sum(refiner.film_sizes)
+    inputs = {
+        "entering": torch.zeros(batch, ENTERING, 1, SEGMENT_SAMPLES),
+        "past": torch.zeros(batch, 1, 1, SEGMENT_SAMPLES),
+        "own": torch.zeros(batch, 1, 1, SEGMENT_SAMPLES),
+        "film": torch.zeros(batch, sizes),
+    }
+    return export_graph(_Refinement(refiner), inputs, "correction")
 
 
 @dataclass(frozen=True)
@@ -52,7 +122,8 @@ class TrainedTier:
         return ((self.solver, self.steps),)
 
     def generate(self, noise: Tensor, condition: Condition, solver: str, steps: int) -> Tensor:
-        """A segment in unit scale [B, 1, 200] from noise, computed as in the engine."""
+        """A segment in unit scale from noise, computed as in the engine, and what goes on beneath it, [B, pasts,
+        200]."""
         return self.model.one_step(noise, *condition)
 
     @property

@@ -95,6 +95,11 @@ def log_cosh(argument: Tensor) -> Tensor:
     return size + torch.log1p(torch.exp(-2.0 * size)) - math.log(2.0)
 
 
+def log_level(raw: Tensor) -> Tensor:
+    """The log RMS of a waveform in unit scale, limited, of a raw prediction."""
+    return LOG_LEVEL_LIMIT * torch.tanh(raw / LOG_LEVEL_LIMIT)
+
+
 class PredictedFilter(nn.Module):
     """From raw predictions [B, M + 1] to coefficients a_1..a_M [B, M] of A(z) and the log RMS [B, 1] of the noise that
     drives it.
@@ -118,8 +123,7 @@ class PredictedFilter(nn.Module):
         resonance = log_cosh(argument).sum(dim=1, keepdim=True)
         argument = argument * (LOG_RESONANCE_LIMIT / resonance.clamp(min=LOG_RESONANCE_LIMIT))
         # For k = tanh(u), log sqrt(1 - k^2) = -log cosh(u), which avoids the difference of nearly equal numbers.
-        log_level = LOG_LEVEL_LIMIT * torch.tanh(raw[:, self.order :] / LOG_LEVEL_LIMIT)
-        log_gain = log_level - log_cosh(argument).sum(dim=1, keepdim=True)
+        log_gain = log_level(raw[:, self.order :]) - log_cosh(argument).sum(dim=1, keepdim=True)
         return step_up(torch.tanh(argument)) * self.damping, log_gain
 
 

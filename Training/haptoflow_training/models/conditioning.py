@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import torch
 from torch import Tensor, nn
@@ -81,21 +82,52 @@ class MotionFeatures(nn.Module):
         return torch.cat([logarithms * 0.5, direction, axial, waves, speed_force * self.scale], dim=1)
 
 
+class MaskedLinear(nn.Linear):
+    """A linear layer that has only the weights where `mask` [outputs, inputs] is 1; all others are and stay zero."""
+
+    mask: Tensor
+
+    def __init__(self, mask: Tensor) -> None:
+        outputs, inputs = mask.shape
+        super().__init__(inputs, outputs)
+        self.register_buffer("mask", mask, persistent=False)
+        with torch.no_grad():
+            # An output begins as one of a layer that has no other inputs.
+            self.weight *= mask * (inputs / mask.sum(dim=1, keepdim=True)).sqrt()
+            self.bias *= (inputs / mask.sum(dim=1)).sqrt()
+
+    def forward(self, values: Tensor) -> Tensor:
+        return nn.functional.linear(values, self.weight * self.mask, self.bias)
+
+
 class ConditionPerceptron(nn.Module):
     """Embedding [B, 64] and motion features, and `further` numbers [B, F] if any, through two hidden layers to
-    [B, outputs]."""
+    [B, outputs].
 
-    def __init__(self, outputs: int, hidden: int = 256, further: int = 0) -> None:
+    hidden: the width of both layers. Several widths are several perceptrons side by side, which share nothing;
+    `reads` [outputs, perceptrons] says which of them each output is of.
+    """
+
+    def __init__(
+        self, outputs: int, hidden: int | Sequence[int] = 256, further: int = 0, reads: Tensor | None = None
+    ) -> None:
         super().__init__()
         self.features = MotionFeatures()
+        widths = (hidden,) if isinstance(hidden, int) else tuple(hidden)
+        sums = torch.block_diag(*(torch.ones(1, width) for width in widths))
+        reads = torch.ones(outputs, len(widths)) if reads is None else reads
         self.layers = nn.Sequential(
-            nn.Linear(EMBEDDING_SIZE + self.features.size + further, hidden),
+            nn.Linear(EMBEDDING_SIZE + self.features.size + further, sum(widths)),
             nn.SiLU(),
-            nn.Linear(hidden, hidden),
+            MaskedLinear(sums.t() @ sums),
             nn.SiLU(),
-            nn.Linear(hidden, outputs),
+            MaskedLinear(reads @ sums),
         )
 
-    def forward(self, embedding: Tensor, motion: Tensor, further: Tensor | None = None) -> Tensor:
+    def hidden(self, embedding: Tensor, motion: Tensor, further: Tensor | None = None) -> Tensor:
+        """What the last layer sees, [B, hidden]."""
         given = [embedding, self.features(motion)] + ([] if further is None else [further])
-        return self.layers(torch.cat(given, dim=1))
+        return self.layers[:-1](torch.cat(given, dim=1))
+
+    def forward(self, embedding: Tensor, motion: Tensor, further: Tensor | None = None) -> Tensor:
+        return self.layers[-1](self.hidden(embedding, motion, further))

@@ -4,17 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import torch
 from torch import Tensor, nn
 
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE
 from haptoflow_training.models.label_embedding import LabelEmbedding
 from haptoflow_training.models.refiner import Refiner
 from haptoflow_training.models.rib_comb import RibComb
-from haptoflow_training.models.skeleton import Skeleton
+from haptoflow_training.models.skeleton import NOISE_BEFORE, Skeleton
 from haptoflow_training.waveform import SEGMENT_SAMPLES
 
-# What a segment is generated under: previous waveform [B, *shape] in unit scale, embedding [B, 64], motion [B, 3] and
-# phases [B, 6] (models/surface_waves.py).
+# What a segment is generated under: what it continues in unit scale, [B, pasts, 200] or, encoded, [B, *shape];
+# embedding [B, 64], motion [B, 3] and phases [B, 6] (models/label_embedding.py).
 Condition = tuple[Tensor, Tensor, Tensor, Tensor]
 
 
@@ -22,10 +23,13 @@ class HaptoFlowModel(nn.Module):
     """The trainable model behind one tier of a `.haptoflow` file: embedding, level and what makes the waveform.
 
     shape: (channels, positions) of what the network works on. Here that is the samples of a segment; a derived model
-    may encode them.
+    may encode them. pasts: waveforms that a segment continues: the one that was played, and any that goes on beneath
+    it. noise_before: positions of the noise before a segment that still sound in it.
     """
 
     shape: tuple[int, int] = (1, SEGMENT_SAMPLES)
+    pasts: int = 1
+    noise_before: int = 0
 
     def __init__(
         self, *, wave_vectors: Sequence[Sequence[tuple[float, float]]], level: nn.Module, specimens: int = 0
@@ -57,8 +61,9 @@ class HaptoFlowModel(nn.Module):
         return noise
 
     def one_step(self, noise: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor, phases: Tensor) -> Tensor:
-        """The segment [B, 1, 200] of a network trained to produce it in one step; all waveforms in unit scale. phases
-        [B, 6] at the segment's first sample."""
+        """What a network trained for one step makes, [B, pasts, 200]: the segment, and what goes on beneath it; all
+        waveforms in unit scale. noise [B, channels, noise_before + positions]; phases [B, 6] at the segment's first
+        sample."""
         raise NotImplementedError
 
 
@@ -68,7 +73,10 @@ def parameter_count(module: nn.Module) -> int:
 
 
 class SkeletonModel(HaptoFlowModel):
-    """The skeleton alone, or refined."""
+    """The skeleton alone, or refined: it continues its own past, the second one, whatever was played."""
+
+    pasts = 2
+    noise_before = NOISE_BEFORE
 
     def __init__(
         self,
@@ -93,7 +101,8 @@ class SkeletonModel(HaptoFlowModel):
         return self.skeleton if self.refiner is None else self.refiner
 
     def one_step(self, noise: Tensor, previous: Tensor, embedding: Tensor, motion: Tensor, phases: Tensor) -> Tensor:
-        parts = self.skeleton.parts(noise, previous, self.skeleton.gains(embedding, motion, phases), phases)
-        if self.refiner is None:
-            return parts.segment
-        return parts.segment + self.refiner(parts, previous, embedding, motion, phases)
+        parts = self.skeleton.parts(noise, previous[:, 1:], self.skeleton.gains(embedding, motion, phases), phases)
+        played = parts.segment
+        if self.refiner is not None:
+            played = played + self.refiner(parts, previous, embedding, motion, phases)
+        return torch.cat([played, parts.segment], dim=1)

@@ -12,8 +12,7 @@ from torch import Tensor, nn
 from haptoflow_training.models.conditioning import (
     EMBEDDING_SIZE, SMOOTH_LOG_SPEED_HARMONICS, MotionFeatures, speed_and_force
 )
-from haptoflow_training.models.label_embedding import WAVE_VECTORS, rib_frequencies_hz
-from haptoflow_training.models.surface_waves import rate_sizes
+from haptoflow_training.models.label_embedding import WAVE_VECTORS, rate_sizes, rib_frequencies_hz
 
 _CORRECTION_LIMIT = 0.9
 # Vibration below 0.01 m/s^2 cannot be felt. Without a floor, digital silence at rest would pull the law towards minus

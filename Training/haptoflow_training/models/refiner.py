@@ -13,7 +13,7 @@ from torch import Tensor, nn
 
 from haptoflow_training.models.conditioning import ConditionPerceptron
 from haptoflow_training.models.skeleton import SWING_HARMONICS, SkeletonParts
-from haptoflow_training.models.surface_waves import RATE_FEATURES, rate_features
+from haptoflow_training.models.label_embedding import RATE_FEATURES, rate_features
 
 def _unit_length(features: Tensor) -> Tensor:
     """Channels [B, C, 1, P] divided by their length: RMS normalisation up to a factor that the following layer
@@ -60,9 +60,10 @@ class FilmBlock(nn.Module):
 
 
 class PatchUnet(nn.Module):
-    """A U-Net over patches of the segment, with FiLM at every level, and the previous waveform concatenated at each.
+    """A U-Net over patches of the segment, with FiLM at every level, and what the segment continues concatenated at
+    each.
 
-    entering: channels that go in; channels: that come out, and of the previous waveform. levels: 2 for a U-Net whose
+    entering: channels that go in; channels: that come out, and of each of the `pasts`. levels: 2 for a U-Net whose
     second level has half the positions; 1 for its first block alone, in less than half the time.
     """
 
@@ -73,6 +74,7 @@ class PatchUnet(nn.Module):
         *,
         entering: int,
         channels: int = 1,
+        pasts: int = 1,
         positions: int = 200,
         patch: int = 8,
         width: int = 64,
@@ -93,7 +95,9 @@ class PatchUnet(nn.Module):
         self.register_buffer("newest_first", newest_first, persistent=False)
 
         self.enter = nn.Conv2d(entering, width, (1, patch), stride=(1, patch))
-        self.previous_fine = nn.Conv2d(channels, previous_width, (1, 3 * patch), stride=(1, patch), padding=(0, patch))
+        self.previous_fine = nn.Conv2d(
+            pasts * channels, previous_width, (1, 3 * patch), stride=(1, patch), padding=(0, patch)
+        )
         self.fine_down = FilmBlock(width + previous_width, width, self.patches)
         blocks = [self.fine_down]
         if levels == 2:
@@ -119,8 +123,8 @@ class PatchUnet(nn.Module):
         return torch.tensor(roots).repeat_interleave(repeats), torch.tensor(starts).repeat_interleave(repeats)
 
     def through(self, entering: Tensor, mirrored: Tensor, film: Tensor) -> Tensor:
-        """[B, C, N], from entering [B, E, 1, N], the previous waveform newest sample first [B, C, 1, N] and FiLM
-        parameters [B, F]."""
+        """[B, C, N], from entering [B, E, 1, N], the pasts newest sample first [B, pasts * C, 1, N] and FiLM parameters
+        [B, F]."""
         parts = film.reshape(-1, sum(self.film_sizes), 1, 1).split(self.film_sizes, dim=1)
         past = self.previous_fine(mirrored)
         entered = self.enter(entering)
@@ -141,16 +145,19 @@ class PatchUnet(nn.Module):
 
 
 ENTERING = 2 + 2 * SWING_HARMONICS
+# What was played, with all corrections, and the skeleton's own past.
+PASTS = 2
 _HIDDEN = 128
 
 
 class Refiner(PatchUnet):
-    """Corrections [B, 1, 200] of skeletons, in unit scale."""
+    """Corrections [B, 1, 200] of skeletons, in unit scale, after what was played and the skeleton's own past, previous
+    [B, 2, 200]."""
 
     film_factors: Tensor
 
     def __init__(self, *, width: int = 48, previous_width: int = 16, levels: int = 2) -> None:
-        super().__init__(entering=ENTERING, width=width, previous_width=previous_width, levels=levels)
+        super().__init__(entering=ENTERING, pasts=PASTS, width=width, previous_width=previous_width, levels=levels)
         factors, starts = self.film_scales()
         self.condition = ConditionPerceptron(len(factors), _HIDDEN, RATE_FEATURES)
         self.register_buffer("film_factors", factors, persistent=False)

@@ -76,7 +76,7 @@ class RibComb(nn.Module):
         self.register_buffer("swap", torch.arange(PAIRS).reshape(-1, 2).flip(1).flatten(), persistent=False)
 
     def ribs(self, phases: Tensor) -> Ribs:
-        """The ribs for phases [B, 6] (models/surface_waves.py)."""
+        """The ribs for phases [B, 6] (models/label_embedding.py)."""
         rib_phase, signed = phases[:, :WAVE_VECTORS], phases[:, WAVE_VECTORS + 1 : 2 * WAVE_VECTORS + 1]
         # Count the phase in the direction of motion.
         place = torch.cat([signed.abs(), torch.sign(signed) * rib_phase], dim=1)
@@ -108,7 +108,6 @@ class RibComb(nn.Module):
 
     def _swapped(self, pairs: Tensor) -> Tensor:
         return torch.index_select(pairs, 3, self.swap)
-
 
 
 def _angles_and_limits(order: Tensor, strides: int) -> tuple[Tensor, Tensor]:

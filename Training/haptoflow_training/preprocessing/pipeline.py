@@ -12,11 +12,52 @@ from scipy.interpolate import CubicSpline
 from haptoflow_training.errors import InputError
 from haptoflow_training.preprocessing import filters, motion
 from haptoflow_training.preprocessing.dft321 import dft321
-from haptoflow_training.preprocessing.gaps import parts_between_gaps
 from haptoflow_training.preprocessing.plausibility import implausible
-from haptoflow_training.preprocessing.sensor_noise import NO_NOISE, SensorNoise, remove_sensor_noise
+from haptoflow_training.recordings.native_recording import NO_NOISE, SensorNoise, remove_sensor_noise
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.recordings.recording import STANDARD_GRAVITY_MPS2, Recording
+
+# A cubic spline through the samples needs this many.
+_MINIMUM_SAMPLES = 4
+
+
+def parts_between_gaps(recording: Recording, longest_gap_seconds: float) -> list[Recording]:
+    """The stretches between gaps longer than `longest_gap_seconds`, in order. Stretches with too few samples to
+    interpolate are left out; a recording without a gap is returned unchanged."""
+    time = np.asarray(recording.acceleration_time_seconds)
+    gaps = np.flatnonzero(np.diff(time) > longest_gap_seconds) + 1
+    if len(gaps) == 0:
+        return [recording]
+    parts = (_cut(recording, first, last) for first, last in zip([0, *gaps], [*gaps, len(time)], strict=True))
+    return [part for part in parts if part is not None]
+
+
+def _cut(recording: Recording, first: int, last: int) -> Recording | None:
+    if last - first < _MINIMUM_SAMPLES:
+        return None
+    time = recording.acceleration_time_seconds[first:last]
+    force = _around(recording.force_time_seconds, float(time[0]), float(time[-1]))
+    position = _around(recording.position_time_seconds, float(time[0]), float(time[-1]))
+    if min(force.stop - force.start, position.stop - position.start) < _MINIMUM_SAMPLES:
+        return None
+    return dataclasses.replace(
+        recording,
+        acceleration_time_seconds=time,
+        acceleration_g=recording.acceleration_g[first:last],
+        force_time_seconds=recording.force_time_seconds[force],
+        force_newtons=recording.force_newtons[force],
+        position_time_seconds=recording.position_time_seconds[position],
+        position_mm=recording.position_mm[position],
+        velocity_mps=None if recording.velocity_mps is None else recording.velocity_mps[position],
+    )
+
+
+def _around(time: NDArray[np.float64], start: float, stop: float) -> slice:
+    """The samples of another sensor's clock from the last one before `start` to the first one after `stop`."""
+    first = max(0, int(np.searchsorted(time, start, side="right")) - 1)
+    last = min(len(time), int(np.searchsorted(time, stop, side="left")) + 1)
+    return slice(first, last)
+
 
 _CONTEXT_SECONDS = 0.2
 # Limit for recordings shorter than 1.5 s, so that trimming does not remove most of them.

@@ -10,7 +10,7 @@ import shutil
 import signal
 import threading
 from collections import deque
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator
 from concurrent.futures import Future, ProcessPoolExecutor
 from contextlib import ExitStack
 from dataclasses import dataclass
@@ -82,16 +82,16 @@ def prepare_store(
     out: Path,
     settings: PreprocessingSettings | None = None,
     seed: int = 0,
-    progress: bool = True,
     *,
     provenance: dict[str, Any] | None = None,
     workers: int = 1,
-    cut_labels: Collection[str] = (),
+    is_cut: bool = False,
 ) -> SegmentStore:
     """Prepare every recording, in order, into the folder `out`; an older store there is replaced at the end.
 
-    cut_labels: labels whose recordings are cut by time into training, validation and test (split.py); a recording
-    that is too short for that stays whole, in the split of its name.
+    is_cut: recordings of labels with too few for every split are cut by time into training, validation and test
+    (split.py), also if there are too few because others could not be prepared; one that is too short for that stays
+    whole, in the split of its name. Without it, recordings are split by their names alone.
 
     A recording that cannot be prepared is skipped and listed in the store; one with gaps becomes one for each stretch
     between them. InputError: none was usable, a name occurred twice, a label is not in `labels`, or the disk is full;
@@ -100,6 +100,29 @@ def prepare_store(
     """
     settings = settings or PreprocessingSettings()
     out = Path(out).absolute()
+    cut_labels: list[str] = []
+    if is_cut:
+        recordings = list(recordings)
+        cut_labels = labels_to_cut(((item.label, item.identity) for item in recordings), settings, seed)
+    while True:
+        store = _prepared_store(recordings, labels, out, settings, seed, provenance or {}, workers, cut_labels)
+        lacking = labels_without_a_split(((one.label, one.split) for one in store.recordings), settings) if is_cut else []
+        further = [label for label in lacking if label not in cut_labels]
+        if not further:
+            return store
+        cut_labels += further
+
+
+def _prepared_store(
+    recordings: Iterable[Recording | LoadableRecording],
+    labels: list[str],
+    out: Path,
+    settings: PreprocessingSettings,
+    seed: int,
+    provenance: dict[str, Any],
+    workers: int,
+    cut_labels: Collection[str],
+) -> SegmentStore:
     if out.exists() and not _is_store_or_empty(out):
         raise InputError(f"{out}: holds files that are not a store; choose another folder for --out")
     unfinished = out.with_name(out.name + ".unfinished")
@@ -108,7 +131,7 @@ def prepare_store(
         unfinished.mkdir(parents=True)
         prepared = _prepare_each(recordings, labels, settings, seed, workers, cut_labels)
         with deferred():
-            bar = tqdm(prepared, disable=not progress, unit=" recordings", desc="prepare")
+            bar = tqdm(prepared, unit=" recordings", desc="prepare")
             stored, skipped, notes = _append_all(bar, labels, unfinished, settings, seed)
         peak_mps2 = _peak(stored, skipped)
         _rescale(unfinished / store_module.WAVEFORM_FILE, peak_mps2)
@@ -121,7 +144,7 @@ def prepare_store(
             peak_mps2=peak_mps2,
             seed=seed,
             settings=settings,
-            provenance=provenance or {},
+            provenance=provenance,
         )
         end_if_stopped()
         _replace(unfinished, out)
@@ -133,31 +156,6 @@ def prepare_store(
     finally:
         shutil.rmtree(unfinished, ignore_errors=True)
     return SegmentStore.open(out)
-
-
-def prepare_cut_where_needed(
-    recordings: Sequence[LoadableRecording],
-    labels: list[str],
-    out: Path,
-    settings: PreprocessingSettings | None = None,
-    seed: int = 0,
-    *,
-    provenance: dict[str, Any] | None = None,
-    workers: int = 1,
-) -> SegmentStore:
-    """As `prepare_store`; recordings of labels with too few for every split are cut by time, also if there are too
-    few because others could not be prepared."""
-    chosen = settings or PreprocessingSettings()
-    cut_labels = labels_to_cut(((item.label, item.identity) for item in recordings), chosen, seed)
-    while True:
-        store = prepare_store(
-            recordings, labels, out, chosen, seed, provenance=provenance, workers=workers, cut_labels=cut_labels
-        )
-        lacking = labels_without_a_split(((one.label, one.split) for one in store.recordings), chosen)
-        further = [label for label in lacking if label not in cut_labels]
-        if not further:
-            return store
-        cut_labels = [*cut_labels, *further]
 
 
 def _prepare_each(

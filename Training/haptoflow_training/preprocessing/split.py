@@ -9,7 +9,7 @@ they are numbered by repeat.
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Collection, Iterable
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Literal
 
@@ -121,7 +121,7 @@ def labels_without_a_split(
 
 def labels_to_cut(
     identities: Iterable[tuple[str, RecordingIdentity]], settings: PreprocessingSettings, seed: int
-) -> Collection[str]:
+) -> list[str]:
     """Labels for which the recordings' names alone leave a split empty."""
     splits = ((label, split_of(identity, settings, seed)) for label, identity in identities)
     return labels_without_a_split(splits, settings)

@@ -85,7 +85,7 @@ class SegmentStore:
     """waveform: [total] float32, unit scale (not clipped: a fifth of the recordings peaks above 1). motion: [total,
     3] float32: vx, vy in m/s, force in N. position_mm: [total, 2] float32: the place on the surface. wander_turns:
     [total, 3] float32: as of Wander (recording.py), the last column modulo 1. All are read-only memory maps, which
-    processes can share. ribs_followed: the wander is that of the vibration's fundamental (rib_phases.py), which the filter
+    processes can share. ribs_followed: the wander is that of the vibration's fundamental (found_wave_vectors.py), which the filter
     of a surface delays, instead of the surface's own. notes: what the reader of the recordings ignored or corrected, one
     sentence each."""
 

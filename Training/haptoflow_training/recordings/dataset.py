@@ -48,6 +48,12 @@ class Dataset:
         """The labels that occur, in the order of the recordings."""
         return list(dict.fromkeys(entry.label for entry in self.recordings))
 
+    @property
+    def said(self) -> list[str]:
+        """A printable line for each file and recording that is not used, and for each thing that was ignored."""
+        left_out = [self.left_out] if self.left_out else []
+        return [*(f"skipped: {problem}" for problem in self.problems), *self.notes, *left_out]
+
     def __iter__(self) -> Iterator[RecordingFile]:
         return iter(self.recordings)
 

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import json
-import os
-from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+import io
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -14,15 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from haptoflow_training.recordings.dataset_layout import (
-    ACCELERATION,
-    FORCE,
-    POSITION,
-    PROVENANCE_FILE,
-    SENSOR_FOLDER,
-    TEXTURE_LIST_FILE,
-    SensorKind,
+    ACCELERATION, FORCE, POSITION, PROVENANCE_FILE, SENSOR_FOLDER, TEXTURE_LIST_FILE, SensorKind
 )
 from haptoflow_training.recordings.recording import Recording
+from haptoflow_training.whole_file import write_json, write_whole
 
 _TIME_DECIMALS = 6
 _SIGNIFICANT_DIGITS = 9
@@ -41,7 +34,7 @@ def write_recording(root: Path, recording: Recording) -> None:
     """Write the three sensor files of one recording, each atomically.
 
     Times keep whole microseconds, values nine significant digits: sensor steps (1 mg, 0.01 N, 0.01 mm) are preserved
-    exactly. ValueError if a value is not finite; OSError if the disk refuses.
+    exactly. ValueError if a value is not finite; InputError if the disk refuses.
     """
     sensors: tuple[tuple[SensorKind, NDArray[np.float64], NDArray[np.floating]], ...] = (
         (ACCELERATION, recording.acceleration_time_seconds, recording.acceleration_g),
@@ -54,9 +47,7 @@ def write_recording(root: Path, recording: Recording) -> None:
             raise ValueError(
                 f"recording {recording.identity.name}: {kind.folder} holds values that are not finite"
             )
-        path = Path(root) / SENSOR_FOLDER / kind.folder / f"{recording.identity.name}.csv"
-        with _replacing(path) as unfinished:
-            unfinished.write_bytes(_csv(kind, table))
+        write_whole(Path(root) / SENSOR_FOLDER / kind.folder / f"{recording.identity.name}.csv", _csv(kind, table))
 
 
 def write_texture_list(root: Path, entries: Iterable[TextureEntry]) -> None:
@@ -64,8 +55,9 @@ def write_texture_list(root: Path, entries: Iterable[TextureEntry]) -> None:
     import pandas
 
     rows = [{"id": entry.texture_id, "name": entry.name, **entry.friction_coefficients} for entry in entries]
-    with _replacing(Path(root) / TEXTURE_LIST_FILE) as unfinished:
-        pandas.DataFrame(rows).to_excel(unfinished, index=False, engine="openpyxl")
+    sheet = io.BytesIO()
+    pandas.DataFrame(rows).to_excel(sheet, index=False, engine="openpyxl")
+    write_whole(Path(root) / TEXTURE_LIST_FILE, sheet.getvalue())
 
 
 def write_provenance(
@@ -73,22 +65,10 @@ def write_provenance(
 ) -> None:
     """Write provenance.json, which states where the recordings come from; stores and model files copy it."""
     document = {"source": source, "licence": licence, "synthetic": synthetic, **(details or {})}
-    with _replacing(Path(root) / PROVENANCE_FILE) as unfinished:
-        unfinished.write_text(json.dumps(document, indent=2) + "\n", encoding="utf-8")
+    write_json(Path(root) / PROVENANCE_FILE, document)
 
 
 def _csv(kind: SensorKind, table: NDArray[np.float64]) -> bytes:
     row = f"%.{_TIME_DECIMALS}f" + f",%.{_SIGNIFICANT_DIGITS}g" * (len(kind.columns) - 1) + "\n"
     header = ",".join(kind.columns) + "\n"
     return (header + (row * len(table)) % tuple(table.ravel().tolist())).encode()
-
-
-@contextmanager
-def _replacing(path: Path) -> Iterator[Path]:
-    path.parent.mkdir(parents=True, exist_ok=True)
-    unfinished = path.with_name(f".{os.getpid()}.{path.name}")
-    try:
-        yield unfinished
-        os.replace(unfinished, path)
-    finally:
-        unfinished.unlink(missing_ok=True)

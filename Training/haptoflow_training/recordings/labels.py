@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import tomllib
 import unicodedata
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from haptoflow_training.errors import InputError
+from haptoflow_training.whole_file import read_toml
 
 DEFAULT_LABELS_PATH = Path(__file__).resolve().parents[2] / "configs" / "labels-cluster.toml"
 
@@ -62,14 +62,7 @@ def plain_name(name: str) -> str:
 def load_labels(path: Path | str | None = None) -> LabelMap:
     """Read a labels file; InputError names the file, the entry, the key and the expected value."""
     source = DEFAULT_LABELS_PATH if path is None else Path(path)
-    try:
-        document = tomllib.loads(source.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise InputError(
-            f"{source}: cannot be read ({error.strerror}); expected a labels file in TOML"
-        ) from error
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise InputError(f"{source}: not valid TOML ({error})") from error
+    document = read_toml(source, "a labels file")
     entries = document.get("label")
     if not isinstance(entries, list) or not entries:
         raise InputError(f"{source}: no [[label]] entries; expected one for each label")

@@ -4,17 +4,21 @@ from __future__ import annotations
 
 import ctypes
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from haptoflow_training.native_library import NativeError, native_library, options_of
 from haptoflow_training.recordings.cluster_dataset_files import DatasetFileError
+from haptoflow_training.waveform import SAMPLE_RATE_HZ
+
+if TYPE_CHECKING:
+    from haptoflow_training.recordings.material_recording import MaterialRecording
 
 _EXPECTED = "; expected "
 
@@ -79,23 +83,10 @@ class Track:
 
 
 @dataclass(frozen=True)
-class EvenRecording:
-    """Samples at one rate. acceleration_mps2: [n, 1 or 3], not finite in a gap. velocity_mps: [n, 2], force_newtons: [n];
-    None where the constant holds for every sample."""
-
-    rate_hz: float
-    acceleration_mps2: NDArray[np.float32]
-    velocity_mps: NDArray[np.float32] | None
-    force_newtons: NDArray[np.float32] | None
-    constant_velocity_mps: tuple[float, float] = (0.0, 0.0)
-    constant_force_newtons: float = 0.0
-
-
-@dataclass(frozen=True)
 class NativeRecording:
     """A recording as the library reads it (haptoflow_recording_info in haptoflow.h).
 
-    even: the form in which the library learns; None if only described. acceleration: m/s^2; None if only described.
+    acceleration: m/s^2; None if only described.
     motion: velocities in m/s, or positions in m if has_positions. velocity_mps, force_newtons: constants. notes: one
     sentence each. material_name: what `haptoflow learn` calls the material.
     """
@@ -106,7 +97,6 @@ class NativeRecording:
     source: str
     motion_path: Path | None
     notes: tuple[str, ...]
-    even: EvenRecording | None
     acceleration: Track | None
     motion: Track | None
     has_positions: bool
@@ -115,15 +105,23 @@ class NativeRecording:
     force_newtons: float | None
 
 
-def read_native(
-    path: Path, files: Mapping[str, bytes] | None = None, *, samples: bool = True, complete: bool = False
-) -> NativeRecording:
-    """Read a recording with the files beside it; `files` by name replace those on disk.
+def read_native(path: Path, files: Mapping[str, bytes] | None = None, *, samples: bool = True) -> NativeRecording:
+    """Read a recording with the files beside it; `files` by name replace those on disk. samples: False for the sidecar
+    and the column names only.
 
-    samples: False for the sidecar and the column names only. complete: refuse a recording without motion or force.
     DatasetFileError names file, line and column or key, what was found and what is expected.
     """
-    library = native_library()
+    with opened_native(path, files, samples=samples) as handle:
+        info = options_of(_Info)
+        native_library().call("haptoflow_recording_get_info", handle, ctypes.byref(info))
+        return _copied(info)
+
+
+@contextmanager
+def opened_native(
+    path: Path, files: Mapping[str, bytes] | None = None, *, samples: bool = True
+) -> Iterator[ctypes.c_void_p]:
+    """The library's handle of a recording; as `read_native`."""
     given = [_File(os.fsencode(name), content, len(content)) for name, content in (files or {}).items()]
     options = options_of(
         _Options,
@@ -131,47 +129,51 @@ def read_native(
         path=os.fsencode(path),
         files=(_File * len(given))(*given) if given else None,
         without_samples=not samples,
-        needs_motion_and_force=complete,
+        needs_motion_and_force=samples,
     )
-    handle = ctypes.c_void_p()
     try:
-        library.call("haptoflow_recording_read", ctypes.byref(options), ctypes.byref(handle))
+        handle = _handle("haptoflow_recording_read", options)
     except NativeError as error:
         raise _as_file_error(path, str(error)) from error
-    try:
-        info = options_of(_Info)
-        library.call("haptoflow_recording_get_info", handle, ctypes.byref(info))
-        return _copied(info)
-    finally:
-        library.call("haptoflow_recording_close", ctypes.byref(handle))
+    with _closing(handle):
+        yield handle
 
 
 @contextmanager
-def as_native(recording: EvenRecording, provenance: str = "") -> Iterator[ctypes.c_void_p]:
-    """A handle of the library for samples, which it copies. provenance: of a material that is learnt from them."""
+def as_native(
+    wave_mps2: NDArray[np.float32], velocity_mps: NDArray[np.float32], force_newtons: NDArray[np.float32], origin: str = ""
+) -> Iterator[ctypes.c_void_p]:
+    """A handle of the library for samples at 2 kHz, which it copies: wave_mps2 [n, 1 or 3], not finite in a gap;
+    velocity_mps [n, 2]; force_newtons [n]. origin: what a material that is learnt from them says of its recordings."""
     floats = ctypes.POINTER(ctypes.c_float)
-    given = [recording.acceleration_mps2, recording.velocity_mps, recording.force_newtons]
-    arrays = [None if each is None else np.ascontiguousarray(each, np.float32) for each in given]
-    acceleration, velocity, force = (None if each is None else each.ctypes.data_as(floats) for each in arrays)
+    arrays = [np.ascontiguousarray(each, np.float32) for each in (wave_mps2, velocity_mps, force_newtons)]
+    acceleration, velocity, force = (each.ctypes.data_as(floats) for each in arrays)
     info = options_of(
         _Info,
-        axis_count=recording.acceleration_mps2.shape[1],
-        sample_rate_hz=recording.rate_hz,
-        sample_count=len(recording.acceleration_mps2),
+        axis_count=wave_mps2.shape[1],
+        sample_rate_hz=SAMPLE_RATE_HZ,
+        sample_count=len(wave_mps2),
         acceleration_mps2=acceleration,
         velocity_mps=velocity,
         force_newtons=force,
-        constant_velocity_mps=(ctypes.c_double * 2)(*recording.constant_velocity_mps),
-        constant_force_newtons=recording.constant_force_newtons,
-        provenance=provenance.encode(),
+        provenance=origin.encode(),
     )
-    library = native_library()
-    handle = ctypes.c_void_p()
-    library.call("haptoflow_recording_create", ctypes.byref(info), ctypes.byref(handle))
-    try:
+    with _closing(handle := _handle("haptoflow_recording_create", info)):
         yield handle
+
+
+def _handle(function: str, options: ctypes.Structure) -> ctypes.c_void_p:
+    handle = ctypes.c_void_p()
+    native_library().call(function, ctypes.byref(options), ctypes.byref(handle))
+    return handle
+
+
+@contextmanager
+def _closing(handle: ctypes.c_void_p) -> Iterator[None]:
+    try:
+        yield
     finally:
-        library.call("haptoflow_recording_close", ctypes.byref(handle))
+        native_library().call("haptoflow_recording_close", ctypes.byref(handle))
 
 
 def _as_file_error(path: Path, message: str) -> DatasetFileError:
@@ -186,24 +188,6 @@ def _track(track: _Track) -> Track | None:
         return None
     seconds = np.ctypeslib.as_array(track.seconds, (track.count,)).copy()
     return Track(seconds, np.ctypeslib.as_array(track.values, (track.count, track.width)).copy())
-
-
-def _even(info: _Info, velocity: tuple[float, float] | None, force: float | None) -> EvenRecording | None:
-    if not info.acceleration_mps2:
-        return None
-    count = info.sample_count
-
-    def values(pointer: Any, *shape: int) -> NDArray[np.float32]:
-        return np.asarray(np.ctypeslib.as_array(pointer, shape).copy())
-
-    return EvenRecording(
-        info.sample_rate_hz,
-        values(info.acceleration_mps2, count, info.axis_count),
-        values(info.velocity_mps, count, 2) if info.velocity_mps else None,
-        values(info.force_newtons, count) if info.force_newtons else None,
-        constant_velocity_mps=velocity or (0.0, 0.0),
-        constant_force_newtons=force or 0.0,
-    )
 
 
 def _text(content: bytes) -> str:
@@ -223,7 +207,6 @@ def _copied(info: _Info) -> NativeRecording:
         source=_text(info.source),
         motion_path=Path(motion_path) if motion_path else None,
         notes=tuple(_text(info.notes).split("\n")) if info.notes else (),
-        even=_even(info, velocity, force),
         acceleration=_track(info.acceleration),
         motion=_track(info.motion),
         has_positions=bool(info.motion_is_position),
@@ -231,3 +214,61 @@ def _copied(info: _Info) -> NativeRecording:
         velocity_mps=velocity,
         force_newtons=force,
     )
+
+
+NoiseSource = Literal["none", "rest", "quiet part"]
+
+_SOURCES: tuple[NoiseSource, ...] = ("none", "rest", "quiet part")
+_POINTER = ctypes.POINTER(ctypes.c_float)
+
+
+@dataclass(frozen=True)
+class SensorNoise:
+    """What a sensor adds to a recording. source: the part of the recording in which the noise was measured. rms_mps2: its
+    RMS; 0 where none was found."""
+
+    source: NoiseSource
+    rms_mps2: float
+
+
+NO_NOISE = SensorNoise("none", 0.0)
+
+
+def remove_sensor_noise(
+    waveforms_mps2: Sequence[NDArray[np.float32]], motions: Sequence[NDArray[np.float32]]
+) -> tuple[list[NDArray[np.float32]], SensorNoise]:
+    """The stretches of one recording without noise, and the noise of all. waveforms_mps2: each [n] at 2 kHz. motions: each
+    [n, 3]: vx, vy in m/s, force in N. InputError if there is nothing but noise, or if the library is missing."""
+    # A sample that is not finite separates two stretches.
+    gap, still = np.full(1, np.nan, np.float32), np.zeros((1, 3), np.float32)
+    wave = np.concatenate([piece for each in waveforms_mps2 for piece in (each, gap)])
+    motion = np.concatenate([piece for each in motions for piece in (each, still)])
+    velocity, force = (np.ascontiguousarray(values, np.float32) for values in (motion[:, :2], motion[:, 2]))
+    source, rms_mps2 = ctypes.c_int32(), ctypes.c_double()
+    native_library().call(
+        "haptoflow_recording_remove_noise", wave.ctypes.data_as(_POINTER), velocity.ctypes.data_as(_POINTER),
+        force.ctypes.data_as(_POINTER), ctypes.c_uint64(len(wave)), ctypes.byref(source), ctypes.byref(rms_mps2),
+    )  # fmt: skip
+    ends = np.cumsum([len(each) + 1 for each in waveforms_mps2])
+    stretches = [wave[end - 1 - len(each) : end - 1] for each, end in zip(waveforms_mps2, ends, strict=True)]
+    return stretches, SensorNoise(_SOURCES[source.value], rms_mps2.value)
+
+
+# In cycles per millimetre.
+WaveVector = tuple[float, float]
+
+
+def estimate_wave_vectors(recordings: Sequence[MaterialRecording]) -> tuple[WaveVector, ...]:
+    """Up to two vectors, the clearest first, 0.4 to 8 mm apart; none if the recordings show no ribs or cannot show them.
+    InputError if the library is missing."""
+    # A sample that is not finite separates two recordings.
+    gap, still = np.full(1, np.nan, np.float32), np.zeros((1, 2), np.float32)
+    wave = np.concatenate([piece for each in recordings for piece in (each.vibration_mps2, gap)] or [gap])
+    velocity = np.concatenate([piece for each in recordings for piece in (each.velocity_mps, still)] or [still])
+    wave, velocity = (np.ascontiguousarray(values, dtype=np.float32) for values in (wave, velocity))
+    found = (ctypes.c_double * 4)()
+    native_library().call(
+        "haptoflow_find_wave_vectors", wave.ctypes.data_as(_POINTER), velocity.ctypes.data_as(_POINTER),
+        ctypes.c_uint64(len(wave)), found,
+    )  # fmt: skip
+    return tuple((x, y) for x, y in (found[:2], found[2:]) if x != 0.0 or y != 0.0)

@@ -1,20 +1,26 @@
-"""A user's own recordings, one file each: CSV or Parquet table, or WAV, with a sidecar for constants."""
+"""A user's own recordings, one file each: CSV or Parquet table, or WAV, with a sidecar for constants; and a folder of them as a
+data set."""
 
 from __future__ import annotations
 
+import ctypes
 import json
+import os
 from collections.abc import Iterable
-from dataclasses import dataclass
+from contextlib import AbstractContextManager
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import signal
 
-from haptoflow_training.recordings.cluster_dataset_files import open_table
-from haptoflow_training.recordings.dataset import UNKNOWN
+from haptoflow_training.errors import InputError
+from haptoflow_training.recordings.cluster_dataset_files import DatasetFileError, open_table
+from haptoflow_training.recordings.dataset import UNKNOWN, Dataset
 from haptoflow_training.recordings.dataset_layout import beside, ending_of, sidecar_of
-from haptoflow_training.recordings.native_recording import NativeRecording, Track, read_native
+from haptoflow_training.recordings.labels import LabelMap
+from haptoflow_training.recordings.native_recording import NativeRecording, Track, opened_native, read_native
 from haptoflow_training.recordings.recording import STANDARD_GRAVITY_MPS2, Recording, RecordingIdentity
 
 OWN_ENDINGS = (".csv", ".parquet", ".wav", ".w64")
@@ -58,12 +64,17 @@ class OwnRecordingFile:
 
 def read_own(path: Path) -> NativeRecording:
     """The recording as the library reads it; DatasetFileError as of `OwnRecordingFile.load`."""
-    return _read(path, samples=True)
+    return read_native(*_readable(path))
+
+
+def open_own(path: Path) -> AbstractContextManager[ctypes.c_void_p]:
+    """The library's handle of the recording; as `read_own`."""
+    return opened_native(*_readable(path))
 
 
 def described_file(path: Path, name: str) -> OwnRecordingFile:
     """The file under a name of its own; DatasetFileError if its sidecar or the names of its columns are wrong."""
-    read = _read(path, samples=False)
+    read = read_native(*_readable(path), samples=False)
     identity = RecordingIdentity(0, None, 0, 0, 0, name)
     licence, source = read.licence or UNKNOWN, read.source or UNKNOWN
     return OwnRecordingFile(path, identity, read.label, licence, source, read.motion_path, read.notes)
@@ -74,10 +85,10 @@ def is_motion_file(path: Path) -> bool:
     return path.stem.lower().endswith(_MOTION_MARK)
 
 
-def _read(path: Path, *, samples: bool) -> NativeRecording:
+def _readable(path: Path) -> tuple[Path, dict[str, bytes]]:
+    """The library reads text: a Parquet table becomes CSV here, and the files beside it go along."""
     if ending_of(path) != ".parquet":
-        return read_native(path, samples=samples, complete=samples)
-    # The library reads text: a Parquet table becomes CSV here, and the files beside it go along.
+        return path, {}
     table = path.with_suffix(".csv").name
     files = {table: _as_csv(path)}
     for other in (sidecar_of(path), beside(path, DEFAULTS_FILE)):
@@ -87,7 +98,7 @@ def _read(path: Path, *, samples: bool) -> NativeRecording:
         named = beside(path, motion)
         if named.is_file():
             files[motion] = _as_csv(named) if ending_of(named) == ".parquet" else named.read_bytes()
-    return read_native(Path(table), files, samples=samples, complete=samples)
+    return Path(table), files
 
 
 def _as_csv(path: Path) -> bytes:
@@ -140,3 +151,77 @@ def _band_limited(acceleration: Track) -> tuple[NDArray[np.float64], NDArray[np.
     sections = signal.butter(6, _KEPT_HZ, "lowpass", fs=1.0 / step, output="sos")
     filtered = signal.sosfiltfilt(sections, values, axis=0, padlen=min(len(values) - 1, round(30 * 0.0004 / step)))
     return time[::stride], filtered[::stride]
+
+
+def open_own_dataset(root: Path, labels: LabelMap | None = None) -> Dataset:
+    """Index a folder with its subfolders, or one file; reads sidecars and headings, but no samples.
+
+    Without `labels` a recording's label is the one in its sidecar. InputError if the path does not exist or holds no
+    recording.
+    """
+    base = root.parent if root.is_file() else root
+    broken: dict[Path, DatasetFileError] = {}
+    described: list[OwnRecordingFile] = []
+    for path in _files(root):
+        try:
+            described.append(described_file(path, _name(path.relative_to(base))))
+        except DatasetFileError as error:
+            broken[path] = error
+    motions = {entry.motion_path.resolve() for entry in described if entry.motion_path is not None}
+    complete: list[OwnRecordingFile] = []
+    unlabelled: list[OwnRecordingFile] = []
+    notes: list[str] = []
+    for entry in described:
+        if _is_motion(entry.path, motions):
+            continue
+        notes.extend(entry.notes)
+        label = entry.label if labels is None else labels.label_of(-1, entry.label) if entry.label else None
+        (complete if label else unlabelled).append(replace(entry, label=label or entry.label))
+    problems = [error for path, error in broken.items() if not _is_motion(path, motions)]
+    entries = [*complete, *unlabelled]
+    provenance = {
+        key: ", ".join(dict.fromkeys(getattr(entry, key) for entry in entries)) or UNKNOWN
+        for key in ("source", "licence")
+    }
+    return Dataset(
+        root, tuple(complete), tuple(unlabelled), tuple(problems), {**provenance, "synthetic": False},
+        _left_out(root, unlabelled), tuple(notes), is_own=True,
+    )  # fmt: skip
+
+
+def _name(path: Path) -> str:
+    """Also of bytes that are not UTF-8, which no report and no store could hold."""
+    return os.fsencode(path.as_posix()).decode("utf-8", "backslashreplace")
+
+
+def _is_motion(path: Path, named: set[Path]) -> bool:
+    return is_motion_file(path) or path.resolve() in named
+
+
+def _left_out(root: Path, unlabelled: list[OwnRecordingFile]) -> str:
+    if not unlabelled:
+        return ""
+    nameless = [entry.identity.name for entry in unlabelled if not entry.label]
+    named = dict.fromkeys(entry.label for entry in unlabelled if entry.label)
+    reasons = [f"no sidecar has a key 'label' for {', '.join(nameless)}"] if nameless else []
+    reasons += [f"no label of the labels file names {', '.join(named)}"] if named else []
+    return f"{root}: {len(unlabelled)} recordings are left out: {'; '.join(reasons)}"
+
+
+def _files(root: Path) -> list[Path]:
+    if root.is_file():
+        if ending_of(root) not in OWN_ENDINGS:
+            raise InputError(f"{root}: expected a recording that ends with {', '.join(OWN_ENDINGS)}")
+        return [root]
+    if not root.is_dir():
+        raise InputError(
+            f"{root}: does not exist; expected the folder that holds sensor_data, a folder of recordings, or one file"
+        )
+    found = [path for path in root.rglob("*") if ending_of(path) in OWN_ENDINGS and path.is_file()]
+    visible = [path for path in found if not any(part.startswith(".") for part in path.relative_to(root).parts)]
+    if not visible:
+        raise InputError(
+            f"{root}: no recording in it; expected files that end with {', '.join(OWN_ENDINGS)}, or the folder that "
+            "holds sensor_data"
+        )
+    return sorted(visible)

@@ -13,7 +13,7 @@ from haptoflow_training.studies.log_table import participants_words
 from haptoflow_training.studies.plans import CONDITIONS, MAIN
 from haptoflow_training.studies.psychometric import Answers, Fit, Interval, fit, share, threshold_difference
 from haptoflow_training.studies.rating_tests import EQUIVALENCE_POINTS, RatingResult, analysed
-from haptoflow_training.studies.session_file import Session
+from haptoflow_training.studies.session_file import Session, session_bound
 
 @dataclass(frozen=True)
 class Point:
@@ -80,7 +80,6 @@ def answers_of(sessions: Sequence[Session], condition: str) -> tuple[Answers, np
 
 
 MINIMUM_PARTICIPANTS = 3
-EQUIVALENCE_KEY = "equivalence_points"
 _MAXIMUM_METHODS = 12
 
 
@@ -128,13 +127,6 @@ def too_few_words(participants: int) -> str:
 def bound_of(sessions: Sequence[Session]) -> float:
     """The bound of equivalence that the settings fixed before the first answer; the smallest if sessions differ."""
     return min(session_bound(session) or EQUIVALENCE_POINTS for session in sessions)
-
-
-def session_bound(session: Session) -> float | None:
-    """None if the settings name none, as in logs of older versions."""
-    value = session.sidecar["settings"].get(EQUIVALENCE_KEY)
-    is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
-    return float(value) if is_number and 0.0 < value <= 6.0 else None
 
 
 def _names(sessions: Sequence[Session], key: str) -> list[str]:

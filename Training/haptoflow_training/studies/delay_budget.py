@@ -12,8 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from haptoflow_training.errors import InputError
-from haptoflow_training.markdown import table
-from haptoflow_training.model_stamp import model_line, picture_metadata
+from haptoflow_training.model_stamp import model_line, picture_metadata, table
 from haptoflow_training.studies.plans import TURN_OFF, TURN_ON
 from haptoflow_training.studies.simulation import PAPER_CURVES
 from haptoflow_training.whole_file import write_whole
@@ -136,11 +135,6 @@ REFRESH_RATES_HZ = (72.0, 90.0, 120.0)
 _MAIN_BLOCK = Block(256)
 _PARTS = (("pose interval", "#4a73b5"), ("inference, p99", "#d1495b"), ("audio block", "#2f7d57"))
 _NOT_MEASURED = "not measured here"
-_LAG_WORDS = (
-    "From stylus to vibration, by rendering strokes offline with a lead of 8 ms: the lag at which the level of the "
-    "vibration follows the pen's true speed best. It holds half a pose interval, the estimate of velocity, lead and "
-    "hop, and neither audio block nor device:"
-)
 _TITLES = {TURN_ON: "Turn-On", TURN_OFF: "Turn-Off"}
 
 
@@ -171,11 +165,8 @@ def budgets(bench: BenchFigures, refresh_hz: float, block: Block, device_ms: flo
     }
 
 
-def page_words(
-    bench: BenchFigures, chart: str, device_ms: float | None = None, lags: Mapping[str, Any] | None = None
-) -> str:
-    """Markdown of the page's measured part, with `chart` as the picture's address. lags: rows of
-    `haptoflow-benchmark measure-lag`, by name."""
+def page_words(bench: BenchFigures, chart: str, device_ms: float | None = None) -> str:
+    """Markdown of the page's measured part, with `chart` as the picture's address."""
     main = budgets(bench, REFRESH_RATES_HZ[0], _MAIN_BLOCK, device_ms)
     return "\n\n".join(
         [
@@ -187,7 +178,6 @@ def page_words(
             _settings_table(bench, device_ms),
             "The same way measured inside the library, 99th percentile of events, with the frame in which they happen:",
             _measured_table(bench, device_ms),
-            *([] if lags is None else [_LAG_WORDS, _lag_table(lags)]),
         ]
     )
 
@@ -236,25 +226,6 @@ def _measured_table(bench: BenchFigures, device_ms: float | None) -> str:
             cells += [f"{spread.p99:.1f}", f"{budget.known_ms:.1f}", _left(budget, condition)]
         rows.append(cells)
     return table(headings, rows)
-
-
-def read_lags(path: Path) -> dict[str, Any]:
-    """Rows of `haptoflow-benchmark measure-lag`, by name."""
-    try:
-        rows: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
-        _lag_table(rows)
-    except (OSError, ValueError, KeyError, TypeError, AttributeError, StopIteration) as error:
-        raise InputError(f"{path}: not a report of haptoflow-benchmark measure-lag ({error!r})") from error
-    return rows
-
-
-def _lag_table(lags: Mapping[str, Any]) -> str:
-    rows = [
-        [f"{kind}, {name}", *(f"{row['lags'][kind][f'{rate:g}']['lag_ms']:.1f}" for rate in REFRESH_RATES_HZ)]
-        for kind in next(iter(lags.values()))["lags"]
-        for name, row in lags.items()
-    ]
-    return table(["stylus to vibration, ms", *(f"{rate:g} Hz" for rate in REFRESH_RATES_HZ)], rows)
 
 
 def write_chart(path: Path, bench: BenchFigures, device_ms: float | None = None) -> None:

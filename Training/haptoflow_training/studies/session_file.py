@@ -3,20 +3,25 @@
 from __future__ import annotations
 
 import csv
+import hashlib
 import io
 import json
 import math
 import re
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections import defaultdict
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from haptoflow_training.errors import InputError
 from haptoflow_training.studies.log_table import (
-    COLUMNS, FORMAT, PLANNED, STUDIES, VERSION, Column, Problem, Row, Value, ranges, read_rows, shown, text_of
+    COLUMNS, FORMAT, PLANNED, SIMILARITY, STUDIES, VERSION, Column, Problem, Row, Value, ranges, read_rows, shown,
+    text_of
 )
 from haptoflow_training.whole_file import write_whole
 
+EQUIVALENCE_KEY = "equivalence_points"
 DELAY_SOURCES = ("measured", "estimated")
 KEYS: Mapping[str, type] = {
     "study": str,
@@ -136,6 +141,13 @@ class Session:
         return bool(self.sidecar["simulated"])
 
 
+def session_bound(session: Session) -> float | None:
+    """None if the settings name none, as in logs of older versions."""
+    value = session.sidecar["settings"].get(EQUIVALENCE_KEY)
+    is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
+    return float(value) if is_number and 0.0 < value <= 6.0 else None
+
+
 def read_session(csv_path: Path) -> tuple[Session | None, list[Problem]]:
     """The session of STUDY-PARTICIPANT-SESSION.csv and its sidecar; None if either cannot be read at all."""
     name = NAME.fullmatch(csv_path.stem)
@@ -242,3 +254,138 @@ def merged_csv(study: str, sessions: Sequence[Session]) -> str:
         own = (session.participant, session.session, int(session.is_simulated))
         writer.writerows([*own, *(field_text(row[name]) for name in names)] for row in session.rows)
     return text.getvalue()
+
+
+_MAXIMUM_SHOWN = 20
+_OWN_SETTINGS = ("pen_hand",)
+_NOT_NAMED = "not named as a session, STUDY-PARTICIPANT-SESSION, for example latency-P07-1a2b3c4d; take it out"
+
+
+@dataclass(frozen=True)
+class StudyFolder:
+    """The contents of a folder. notes: allowed but notable, for example two models in one study."""
+
+    sessions: Sequence[Session]
+    problems: Sequence[Problem]
+    notes: Sequence[str] = field(default_factory=tuple)
+
+    def of(self, study: str) -> list[Session]:
+        """The sessions of a study, by participant."""
+        return sorted((one for one in self.sessions if one.study == study), key=lambda one: one.participant)
+
+
+def read_folder(folder: Path) -> StudyFolder:
+    """Every session below the folder. InputError if the folder is missing or holds none."""
+    if not folder.is_dir():
+        raise InputError(f"{folder}: no folder; expected one with the logs of a study")
+    files = sorted(path for path in folder.rglob("*") if path.suffix.lower() in (".csv", ".json") and path.is_file())
+    problems = [
+        Problem(path, _NOT_NAMED)
+        for path in files
+        if not NAME.fullmatch(path.stem) or path.suffix not in (".csv", ".json")
+    ]
+    named = {path.with_suffix(".csv") for path in files} - {problem.file.with_suffix(".csv") for problem in problems}
+    if not named and not problems:
+        raise InputError(f"{folder}: no log of a study in it; expected files such as latency-P07-1a2b3c4d.csv")
+    sessions = []
+    for path in sorted(named):
+        session, found = read_session(path)
+        problems += found
+        if session is not None:
+            sessions.append(session)
+    problems += _duplicates(named)
+    problems += _between(sessions)
+    return StudyFolder(sessions, problems, _notes(sessions))
+
+
+def read_faultless(folder: Path) -> StudyFolder:
+    """As read_folder; InputError names the problems."""
+    read = read_folder(folder)
+    if read.problems:
+        shown = [str(problem) for problem in read.problems[:_MAXIMUM_SHOWN]]
+        rest = len(read.problems) - len(shown)
+        if rest:
+            shown.append(f"and {rest} further problems: `haptoflow-training study check {folder}` names them")
+        raise InputError("\n  ".join(["the logs cannot be used as they are:", *shown]))
+    return read
+
+
+def _duplicates(csv_paths: Iterable[Path]) -> list[Problem]:
+    """Find logs with identical rows, whatever their names; logs without rows are not compared."""
+    problems = []
+    first: dict[str, Path] = {}
+    for path in sorted(csv_paths):
+        if not path.is_file() or len((content := path.read_bytes()).splitlines()) < 2:
+            continue
+        digest = hashlib.sha256(content).hexdigest()
+        if digest in first:
+            problems.append(Problem(path, f"the same rows as {first[digest]}; take one of them out"))
+        else:
+            first[digest] = path
+    return problems
+
+
+def _between(sessions: Sequence[Session]) -> list[Problem]:
+    problems = []
+    by_participant: Mapping[tuple[str, int], list[Session]] = defaultdict(list)
+    by_session: Mapping[tuple[str, str], list[Session]] = defaultdict(list)
+    for session in sessions:
+        by_participant[session.study, session.participant].append(session)
+        by_session[session.study, session.session].append(session)
+    for (study, participant), same in by_participant.items():
+        for other in same[1:]:
+            what = f"a second session of participant {participant} in the {study} study, beside {same[0].path.name}"
+            problems.append(Problem(other.path, f"{what}; take one of them out"))
+    for (_, identifier), same in by_session.items():
+        for other in same[1:]:
+            problems.append(Problem(other.path, f"session {identifier} is that of {same[0].path.name} already"))
+    simulated = [session for session in sessions if session.is_simulated]
+    if simulated and len(simulated) < len(sessions):
+        real = next(session for session in sessions if not session.is_simulated)
+        what = f"simulated, beside the real {real.path.name}; keep simulated and real logs in folders of their own"
+        problems += [Problem(session.path, what) for session in simulated]
+    return problems
+
+
+def _compared(value: object) -> object:
+    """The settings that must agree between participants."""
+    return {key: one for key, one in value.items() if key not in _OWN_SETTINGS} if isinstance(value, dict) else value
+
+
+def _notes(sessions: Sequence[Session]) -> list[str]:
+    notes = []
+    for study in STUDIES:
+        of_study = [session for session in sessions if session.study == study]
+        for key, why in (
+            ("seed", "the order of trials is counterbalanced within one seed only"),
+            ("settings", "participants took part in different studies"),
+            ("models", "participants felt different models"),
+            ("build", "participants used different programs"),
+        ):
+            kinds = {json.dumps(_compared(session.sidecar[key]), sort_keys=True) for session in of_study}
+            if len(kinds) > 1:
+                notes.append(f"{study}: {len(kinds)} different values of '{key}' in the sidecars: {why}")
+        notes += _missing(study, of_study)
+        if study == SIMILARITY and any(session_bound(session) is None for session in of_study):
+            notes.append(
+                f"{study}: not every sidecar's settings name '{EQUIVALENCE_KEY}': the bound of equivalence was not "
+                "fixed before the answers"
+            )
+        estimated = sum(session.sidecar["device"]["device_delay_source"] == "estimated" for session in of_study)
+        if estimated:
+            notes.append(f"{study}: the device delay of {estimated} of {len(of_study)} sessions is an estimate")
+    return notes
+
+
+def _missing(study: str, sessions: Sequence[Session]) -> list[str]:
+    """A note about the numbers below the highest one without a session: each number has an order of its own."""
+    present = {session.participant for session in sessions}
+    missing = [number for number in range(1, max(present, default=0)) if number not in present]
+    if not missing:
+        return []
+    are = "participant" if len(missing) == 1 else "participants"
+    return [
+        f"{study}: {are} {ranges(missing)} missing below participant {max(present)}: the order of trials is not "
+        f"counterbalanced; run somebody under {'this number' if len(missing) == 1 else 'each of these numbers'} before "
+        "higher ones"
+    ]

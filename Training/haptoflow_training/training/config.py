@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import dataclasses
-import tomllib
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, ClassVar, TypeVar
 
 from haptoflow_training.errors import InputError
 from haptoflow_training.extensions import configuration_class
+from haptoflow_training.whole_file import read_toml
 
 Rule = tuple[bool, str, str]
 # The order of tiers in a file; the most accurate comes last.
 TIER_NAMES = ("sketch", "draft", "standard")
+# Of a perceptron that native code reads.
+MAXIMUM_HIDDEN = 512
 
 
 @dataclass(frozen=True)
@@ -47,13 +49,14 @@ class DataConfig:
 @dataclass(frozen=True)
 class ModelConfig:
     """network: `skeleton` (no network: a filter, rib lines and impulses) or `refinement` (of the skeleton of another run,
-    `--base`). hidden: width of the skeleton's perceptron. width, previous_width, levels: of a refinement.
+    `--base`). hidden: widths of the skeleton's two perceptrons, of the filter's and of that of what drives it; or one
+    width for all. width, previous_width, levels: of a refinement.
     """
 
     networks: ClassVar[tuple[str, ...]] = ("skeleton", "refinement")
 
     network: str = "skeleton"
-    hidden: int = 160
+    hidden: tuple[int, ...] = (128, 192)
     width: int = 64
     previous_width: int = 32
     levels: int = 2
@@ -209,7 +212,13 @@ class TrainingConfig:
                 "0 for a network, which has no filter",
             ),
             (config.model.network != "refinement" or config.recipe.shares_base, "recipe.shares_base", "true"),
-            (config.model.hidden >= 8, "model.hidden", "at least 8"),
+            (
+                1 <= len(config.model.hidden) <= 2
+                and min(config.model.hidden) >= 8
+                and sum(config.model.hidden) <= MAXIMUM_HIDDEN,
+                "model.hidden",
+                f"one or two widths of at least 8, {MAXIMUM_HIDDEN} in all",
+            ),
             (config.model.width >= 8, "model.width", "at least 8"),
             (config.tier in TIER_NAMES, "tier", f"one of {', '.join(TIER_NAMES)}"),
         )
@@ -269,12 +278,7 @@ def load_config(path: Path) -> TrainingConfig:
 def _read_table(path: Path, extended_by: tuple[Path, ...]) -> dict[str, Any]:
     if path in extended_by:
         raise InputError(f"{path}: key 'extends' leads back to the file itself; end the chain in a file without it")
-    try:
-        table = tomllib.loads(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read ({error.strerror}); name a run's TOML file") from error
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise InputError(f"{path}: is not TOML ({error})") from error
+    table = read_toml(path, "a run's TOML file")
     _from_the_file(table, path)
     named = table.pop("extends", [])
     parents = [named] if isinstance(named, str) else named

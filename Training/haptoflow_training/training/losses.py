@@ -2,18 +2,27 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import torch
 from torch import Tensor, nn
 
-from haptoflow_training.models.haptoflow_model import Condition, HaptoFlowModel
-from haptoflow_training.models.label_embedding import rib_frequencies_hz, surface_phases
+from haptoflow_training.models.haptoflow_model import Condition, HaptoFlowModel, SkeletonModel
+from haptoflow_training.models.label_embedding import (
+    FAMILIES, MINIMUM_HZ, WAVE_VECTORS, advanced, path_of, rib_frequencies_hz, surface_path, surface_phases,
+    with_path, with_rates_at
+)
 from haptoflow_training.models.level_model import level_loss, scaled_previous
+from haptoflow_training.models.all_pole_filter import prediction_errors
 from haptoflow_training.models.rib_comb import PARTIALS
+from haptoflow_training.models.skeleton import LIKELIHOOD_END, ORDER, SkeletonGains
 from haptoflow_training.training.batches import Chain, SegmentBatch
-from haptoflow_training.training.energy_distance import energy_distance_loss, envelopes, halves_of, spectra
-from haptoflow_training.training.label_balance import LabelBalance, label_features
+from haptoflow_training.training.energy_distance import (
+    LabelBalance, energy_distance_loss, energy_score, envelope_distance, envelopes, halves_of, label_features, spectra
+)
+from haptoflow_training.waveform import SAMPLE_RATE_HZ, SEGMENT_SAMPLES
 
 _BALANCE_WEIGHT = 2.0
 # Power of a past in unit scale, and change of the log level within a segment, beyond which the segment weighs less.
@@ -24,9 +33,10 @@ _LOUD_PAST, _UNSTEADY_LOG_LEVEL = 4.0, 0.4
 class ScaledBatch:
     """A batch in unit scale, as the model encodes it.
 
-    log_level [B, 1]: of the condition, without gradient. segment and previous [B, *shape]; recorded_previous: [B, 1, 200], which `previous` is but for a chain of the
-    network's own output; phases [B, 6]; power [B]: mean square of the segment, at least 1; unsteadiness
-    [B]: the largest deviation of the log level within the segment from that of the condition.
+    log_level [B, 1]: of the condition, without gradient. segment [B, *shape]; previous: what it continues (models/
+    haptoflow_model.py, `Condition`); recorded_previous [B, 1, 200], which all of `previous` is but for a chain of the
+    network's own output; noise_before [2 * B, channels, before]: of the first draw and of the second; phases [B, 6];
+    unsteadiness [B]: the largest deviation of the log level within the segment from that of the condition.
     """
 
     batch: SegmentBatch
@@ -35,8 +45,8 @@ class ScaledBatch:
     segment: Tensor
     previous: Tensor
     recorded_previous: Tensor
+    noise_before: Tensor
     phases: Tensor
-    power: Tensor
     unsteadiness: Tensor
 
     @property
@@ -94,13 +104,12 @@ class Losses(nn.Module):
         steady_segment, unsteadiness = self._steady_segment(batch, embedding)
         segment = model.encode(steady_segment)
         recorded_previous = scaled_previous(batch.previous, log_level)
-        previous = recorded_previous
+        previous = recorded_previous.expand(-1, model.pasts, -1)
+        noise_before = torch.randn(2 * len(embedding), model.shape[0], model.noise_before, generator=generator)
         if batch.chain is not None:
-            own_previous = self.render_chain(batch.chain, embedding.detach(), objective, generator)
+            own_previous, own_noise = self.render_chain(batch.chain, embedding.detach(), objective, generator)
             previous = scaled_previous(own_previous, log_level)
-        # Bursts that the level cannot predict (an impact, the first motion after a rest) are learnt, but must not
-        # outweigh a hundred ordinary segments.
-        power = segment.square().mean(dim=(1, 2)).clamp(min=1.0)
+            noise_before = torch.cat([own_noise, own_noise])
         return ScaledBatch(
             batch=batch,
             embedding=embedding,
@@ -108,8 +117,8 @@ class Losses(nn.Module):
             segment=segment,
             previous=model.encode(previous),
             recorded_previous=recorded_previous,
+            noise_before=noise_before,
             phases=self.phases(batch, embedding),
-            power=power,
             unsteadiness=unsteadiness,
         )
 
@@ -123,25 +132,33 @@ class Losses(nn.Module):
         return self.one_step_loss(given, (first, second))
 
     def two_draws(self, given: ScaledBatch, generator: torch.Generator) -> tuple[Tensor, Tensor, Tensor]:
-        """Generates two independent segments for each row, in one step each. Returns the noise of the first, then both."""
+        """Generates two independent segments for each row, in one step each. Returns the noise of the first, then both
+        as of `HaptoFlowModel.one_step`."""
         # Both in one pass: few large matrix products are faster than many small ones.
-        noise = torch.randn(2 * len(given.segment), *given.segment.shape[1:], generator=generator)
+        noise = self.noise_after(given.noise_before, generator)
         condition = [torch.cat([part, part]) for part in given.condition]
         first, second = self.model.one_step(noise, *condition).chunk(2)
         return noise[: len(first)], first, second
 
-    def one_step_loss(self, given: ScaledBatch, drawn: tuple[Tensor, Tensor]) -> Tensor:
-        """The energy loss of a recording and two draws, [B, 1, 200] each, in unit scale."""
+    def noise_after(self, before: Tensor, generator: torch.Generator) -> Tensor:
+        """The noise of a segment [n, channels, before + positions], after the noise before it."""
+        fresh = torch.randn(len(before), *self.model.shape, generator=generator)
+        return torch.cat([before, fresh], dim=2)
+
+    def one_step_loss(
+        self, given: ScaledBatch, drawn: tuple[Tensor, Tensor], driving: Sequence[Tensor] | None = None
+    ) -> Tensor:
+        """The energy loss of a recording and two draws as of `two_draws`, in unit scale. driving: what drives a filter
+        in each of the three, [B, N], if one does; moments are compared there, too."""
         batch, embedding = given.batch, given.embedding
         weight = given.steadiness
-        recorded = given.segment
-        segments = [wave.squeeze(1) for wave in (recorded, *drawn)]
+        segments = [wave[:, 0] for wave in (given.segment, *drawn)]
         true = given.recorded_previous.squeeze(1), segments[0]
         # Both draws in one pass here, too.
-        own = torch.cat([given.previous, given.previous]).squeeze(1), torch.cat(segments[1:])
+        own = torch.cat([given.previous[:, 0]] * 2), torch.cat(segments[1:])
         all_spectra = [spectra(*true), *halves_of(spectra(*own))]
         shapes = [envelopes(*true), *zip(*(shape.chunk(2) for shape in envelopes(*own)), strict=True)]
-        partials, audible = self._partials(batch, (recorded, *drawn), given.phases)
+        partials, audible = self._partials(torch.stack(segments, dim=1), given.phases)
         loss = energy_distance_loss(
             all_spectra[0],
             (all_spectra[1], all_spectra[2]),
@@ -154,60 +171,70 @@ class Losses(nn.Module):
             return loss
         ribs_hz = rib_frequencies_hz(embedding.detach(), batch.motion).squeeze(2)
         features = [
-            label_features(spectrum, ribs_hz, partial, audible, segment)
-            for spectrum, partial, segment in zip(all_spectra, partials, segments, strict=True)
+            label_features(spectrum, ribs_hz, partial, audible, segment, driven)
+            for spectrum, partial, segment, driven in zip(
+                all_spectra, partials, segments, driving or [None] * len(segments), strict=True
+            )
         ]
         speed_mps = batch.motion[:, 0:2].norm(dim=1)
         balance = self._balance.loss(batch.label, speed_mps, features[0], (features[1], features[2]), weight)
         return loss + _BALANCE_WEIGHT * balance
 
-    def _partials(
-        self, batch: SegmentBatch, segments: tuple[Tensor, ...], phases: Tensor
-    ) -> tuple[list[Tensor], Tensor]:
-        """For each segment, its partials [B, 2, P] relative to the ribs; and a mask [B, P] of those that one
-        segment can resolve. Both are zero for a network without ribs."""
+    def _partials(self, segments: Tensor, phases: Tensor) -> tuple[list[Tensor], Tensor]:
+        """For each segment of [B, S, 200], its partials [B, 2, P] relative to the ribs; and a mask [B, P] of those that
+        one segment can resolve. Both are zero for a network without ribs."""
         comb = self.model.comb
         if comb is None:
-            nothing = torch.zeros(len(batch.label), 2, PARTIALS)
-            return [nothing] * len(segments), nothing[:, 0]
-        profiles, resolved = comb.profile(phases, torch.cat(segments, dim=1))
+            nothing = torch.zeros(len(segments), 2, PARTIALS)
+            return [nothing] * segments.shape[1], nothing[:, 0]
+        profiles, resolved = comb.profile(phases, segments)
         recorded, *drawn = profiles.unbind(dim=1)
         return [recorded.detach(), *drawn], resolved
 
     @torch.no_grad()
-    def render_chain(self, chain: Chain, embedding: Tensor, objective: str, generator: torch.Generator) -> Tensor:
-        """The previous waveform [B, 1, 200] in m/s^2 after the chain's hops, rendered by the network itself."""
-        model, previous = self.model, chain.start
-        for hop in range(chain.motion.shape[1]):
-            where = chain.motion[:, hop], chain.position_mm[:, hop], chain.wander[:, hop]
-            segment = self.generate(previous, embedding, *where, objective, generator)
-            appended = segment[:, :, : chain.hop_samples]
-            previous = torch.cat([previous[:, :, appended.shape[2] :], appended], dim=2)
-        return previous
+    def render_chain(
+        self, chain: Chain, embedding: Tensor, objective: str, generator: torch.Generator
+    ) -> tuple[Tensor, Tensor]:
+        """What is continued after the chain's hops, [B, pasts, 200] in m/s^2, rendered by the network itself; and the
+        noise before [B, channels, before]."""
+        model, hop = self.model, chain.hop_samples
+        previous = chain.start.expand(-1, model.pasts, -1)
+        before = torch.randn(len(embedding), model.shape[0], model.noise_before, generator=generator)
+        noise = self.noise_after(before, generator)
+        for step in range(chain.motion.shape[1]):
+            where = chain.motion[:, step], chain.position_mm[:, step], chain.wander[:, step]
+            segment = self.generate(previous, noise, embedding, *where, objective)
+            previous = torch.cat([previous[:, :, hop:], segment[:, :, :hop]], dim=2)
+            noise = self.later_noise(noise, hop, generator)
+        return previous, noise[:, :, : model.noise_before]
+
+    def later_noise(self, noise: Tensor, samples: int, generator: torch.Generator) -> Tensor:
+        """The noise of a segment that begins so many samples later."""
+        return torch.randn(noise.shape, generator=generator)
 
     @torch.no_grad()
     def generate(
         self,
         previous_mps2: Tensor,
+        noise: Tensor,
         embedding: Tensor,
         motion: Tensor,
         position_mm: Tensor,
         wander: Tensor,
         objective: str,
-        generator: torch.Generator,
     ) -> Tensor:
-        """One segment [B, 1, 200] in m/s^2, generated in the way the objective's tier is run."""
+        """One segment, and what goes on beneath it, [B, pasts, 200] in m/s^2, generated in the way the objective's tier
+        is run."""
         model = self.model
         phases = surface_phases(embedding, motion, position_mm, wander)
         log_level = model.level(embedding, motion)
         previous = model.encode(scaled_previous(previous_mps2, log_level))
-        noise = torch.randn(len(embedding), *model.shape, generator=generator)
         made = self.drawn(objective, noise, (previous, embedding, motion, phases))
         return model.decode(made) * torch.exp(log_level).unsqueeze(-1)
 
     def drawn(self, objective: str, noise: Tensor, condition: Condition) -> Tensor:
-        """The segment [B, *shape] that the network of an objective makes of noise. condition: previous, embedding,
-        motion, phases."""
+        """What the network of an objective makes of noise, as `HaptoFlowModel.one_step`. condition: previous,
+        embedding, motion, phases."""
         return self.model.one_step(noise, *condition)
 
     def _steady_segment(self, batch: SegmentBatch, embedding: Tensor) -> tuple[Tensor, Tensor]:
@@ -223,3 +250,145 @@ class Losses(nn.Module):
         samples = batch.segment.shape[-1]
         log_level = nn.functional.interpolate(log_level, size=samples, mode="linear", align_corners=True)
         return batch.segment * torch.exp(-log_level), unsteadiness
+
+
+_SMALL = 1e-6
+# Noise added to recordings before a filter is fitted. Where nothing is felt, a filter has better uses for its poles.
+_FLOOR_MPS2 = 0.005
+# In unit scale at most this: 45 dB below the level.
+_LARGEST_FLOOR = 10.0 ** (-45.0 / 20.0)
+# A vibration of this RMS weighs half.
+_FAINT_MPS2 = 0.03
+
+
+def with_floor(segment: Tensor, log_level: Tensor, generator: torch.Generator) -> Tensor:
+    """Segments [B, 1, 200] in unit scale, of the level exp(log_level) [B, 1] in m/s^2, over the noise floor."""
+    floor = (_FLOOR_MPS2 * torch.exp(-log_level.detach())).clamp(max=_LARGEST_FLOOR).unsqueeze(2)
+    return segment + floor * torch.randn(segment.shape, generator=generator)
+
+
+def motion_at(motion_path: Tensor, sample: int) -> Tensor:
+    """[B, 3]: the motion at about a sample of segments whose motions are known at evenly spaced samples [B, K, 3], from
+    the first to the last."""
+    return motion_path[:, round(sample * (motion_path.shape[1] - 1) / (SEGMENT_SAMPLES - 1))]
+
+
+def audible(log_level: Tensor) -> Tensor:
+    """[B]: near 1 where the expected level exp(log_level) [B, 1] in m/s^2 can be felt, 0 at rest, where nothing is
+    recorded. All other segments weigh alike: weighting down unpredictable ones would bias a likelihood towards too little
+    variance."""
+    power = log_level.detach().squeeze(1).mul(2.0).exp()
+    return power / (power + _FAINT_MPS2**2)
+
+
+def without_waves(rates_hz: Tensor) -> Tensor:
+    """[B]: 1 where all families of the surface's waves [B, F] stand still, else 0. Burg's method takes their lines for
+    resonances."""
+    return (rates_hz.abs() <= MINIMUM_HZ).all(dim=1).to(rates_hz.dtype)
+
+
+def weighted_mean(values: Tensor, weight: Tensor) -> Tensor:
+    """Of [B] each."""
+    return (weight * values).sum() / (weight.sum() + _SMALL)
+
+
+# Samples by which the second pass of the shift's loss is begun later: up to the hop of an update at 72 Hz.
+_MAXIMUM_SHIFT = 27
+_SHIFT_WEIGHT = 1.0
+# What drives the filter is compared from this sample of a segment on: errors of prediction need the samples before
+# them, and envelopes whole frames.
+_DRIVEN_FROM = 40
+_DRIVING_WEIGHT = 1.0
+
+
+class SkeletonLosses(Losses):
+    """In the energy phases a skeleton keeps its likelihood, because the embedding would drift away from the filter
+    without it. A refinement, for which the skeleton is given, also learns that a segment begun later says the same of
+    the same samples: a network of patches would else depend on where its patches lie, and be heard at every hop."""
+
+    model: SkeletonModel
+
+    def field_loss(self, given: ScaledBatch, objective: str, generator: torch.Generator) -> Tensor:
+        if self.model.refiner is None:
+            return self._skeleton_loss(given, objective, generator)
+        return self._refinement_loss(given, generator)
+
+    def phases(self, batch: SegmentBatch, embedding: Tensor) -> Tensor:
+        path = surface_path(embedding, batch.position_path_mm, batch.wander_path)
+        phases = with_path(super().phases(batch, embedding), path)
+        return self._aligned(phases, embedding, batch.motion) if self.ribs_followed else phases
+
+    @torch.no_grad()
+    def _aligned(self, phases: Tensor, embedding: Tensor, motion: Tensor) -> Tensor:
+        """Phases of a vibration's fundamental as those of the ribs that drive it: without the phase that the skeleton's
+        own fundamental has at this rate behind its filter."""
+        gains = self.model.skeleton.gains(embedding, motion, phases)
+        rates = phases[:, FAMILIES : 2 * FAMILIES]
+        angle = (2.0 * math.pi / SAMPLE_RATE_HZ) * rates.abs().unsqueeze(2) * torch.arange(1.0, ORDER + 1.0)
+        delayed = (gains.coefficients.unsqueeze(1) * torch.polar(torch.ones_like(angle), -angle)).sum(dim=2)
+        first = torch.complex(gains.lines[:, :, 0, 0, 0], -gains.lines[:, :, 1, 0, 0]) / (1.0 + delayed)
+        turns = torch.sign(rates) * torch.angle(first) / (2.0 * math.pi)
+        # Of stick and slip nothing was followed.
+        turns[:, WAVE_VECTORS:] = 0.0
+        path = path_of(phases) - turns.unsqueeze(2)
+        return with_path(torch.cat([phases[:, :FAMILIES] - turns, rates], dim=1), path)
+
+    def _skeleton_loss(self, given: ScaledBatch, objective: str, generator: torch.Generator) -> Tensor:
+        skeleton = self.model.skeleton
+        segment, weight = with_floor(given.segment, given.log_level, generator), audible(given.log_level)
+        if objective == "filter":
+            still = without_waves(given.phases[:, FAMILIES : 2 * FAMILIES])
+            amid = self._condition_at(given, SEGMENT_SAMPLES // 2)
+            return weighted_mean(skeleton.filter_distance(segment, *amid), weight * still)
+        amid = self._condition_at(given, (ORDER + LIKELIHOOD_END) // 2)
+        gains = skeleton.gains(*amid)
+        likelihood = weighted_mean(skeleton.likelihood(segment, gains, given.phases), weight)
+        likelihood = likelihood + weighted_mean(skeleton.tail_likelihood(segment, gains, given.phases), weight)
+        if objective == "likelihood":
+            return likelihood
+        # The energy distance would only blur the filter and what the embedding says of it.
+        gains = skeleton.gains(given.embedding.detach(), given.batch.motion, given.phases)
+        drawn = tuple(
+            skeleton.parts(self.noise_after(before, generator), given.previous[:, 1:], gains, given.phases).segment
+            for before in given.noise_before.chunk(2)
+        )
+        driving = [self._driving(segment, gains) for segment in (given.segment, *drawn)]
+        one_step = self.one_step_loss(given, (drawn[0], drawn[1]), driving)
+        return likelihood + one_step + _DRIVING_WEIGHT * self._driving_loss(given, driving)
+
+    @staticmethod
+    def _driving(segment: Tensor, gains: SkeletonGains) -> Tensor:
+        """[B, 160]: what drives the filter where it makes a segment [B, 1, 200], in unit scale. There an impulse is
+        short and stands out; behind a filter that resonates, its strength hardly shows."""
+        errors = prediction_errors(segment[:, 0, _DRIVEN_FROM - ORDER :], gains.coefficients.detach())
+        return errors * torch.exp(-gains.log_drive.detach())
+
+    @staticmethod
+    def _driving_loss(given: ScaledBatch, driving: Sequence[Tensor]) -> Tensor:
+        """The energy distance of the envelopes of what drives the filter: of the recording and of two draws."""
+        recorded, first, second = (envelopes(each[:, :0], each) for each in driving)
+        return weighted_mean(energy_score(recorded, (first, second), envelope_distance), given.steadiness)
+
+    def _refinement_loss(self, given: ScaledBatch, generator: torch.Generator) -> Tensor:
+        model = self.model
+        noise, first, second = self.two_draws(given, generator)
+        loss = self.one_step_loss(given, (first, second))
+        later = int(torch.randint(1, _MAXIMUM_SHIFT + 1, (1,), generator=generator))
+        again = model.one_step(
+            self.later_noise(noise, later, generator),
+            torch.cat([given.previous[:, :, later:], first[:, :, :later]], dim=2),
+            given.embedding, given.batch.motion, advanced(given.phases, later),
+        )  # fmt: skip
+        difference = again[:, 0, : again.shape[2] - later] - first[:, 0, later:]
+        shift = weighted_mean((difference.square().mean(dim=1) + _SMALL).sqrt(), given.steadiness)
+        return loss + _SHIFT_WEIGHT * shift
+
+    @staticmethod
+    def _condition_at(given: ScaledBatch, sample: int) -> tuple[Tensor, Tensor, Tensor]:
+        """Embedding, motion and phases as they are at a sample of the segment."""
+        return given.embedding, motion_at(given.batch.motion_path, sample), with_rates_at(given.phases, sample)
+
+    def later_noise(self, noise: Tensor, samples: int, generator: torch.Generator) -> Tensor:
+        """It goes on: the noise belongs to the place."""
+        fresh = torch.randn(*noise.shape[:2], samples, generator=generator)
+        return torch.cat([noise[:, :, samples:], fresh], dim=2)

@@ -11,14 +11,13 @@ from pathlib import Path
 from typing import Any
 
 from haptoflow_training.errors import InputError
-from haptoflow_training.export.label_info import LabelInfo
-from haptoflow_training.preprocessing.preparation import prepare_cut_where_needed, prepare_store
-from haptoflow_training.preprocessing.rib_phases import with_rib_phases
+from haptoflow_training.recordings.landing import LabelInfo, landing_of, landing_of_spring, rib_wander_of, stick_slip_of
+from haptoflow_training.preprocessing.preparation import prepare_store
+from haptoflow_training.training.found_wave_vectors import with_found_ribs, with_rib_phases
 from haptoflow_training.preprocessing.split import SPLITS
 from haptoflow_training.preprocessing.store import SegmentStore, store_lock
 from haptoflow_training.recordings.dataset import UNKNOWN, Dataset
 from haptoflow_training.recordings.labels import LabelDefinition, LabelMap, load_labels
-from haptoflow_training.recordings.landing import landing_of, landing_of_spring, rib_wander_of, stick_slip_of
 from haptoflow_training.recordings.open_recordings import RecordingFile, open_recordings
 from haptoflow_training.recordings.recording import Recording, RecordingIdentity
 from haptoflow_training.recordings.synthetic import (
@@ -26,7 +25,6 @@ from haptoflow_training.recordings.synthetic import (
 )
 from haptoflow_training.recordings.synthetic.materials import select_materials
 from haptoflow_training.training.config import DataConfig
-from haptoflow_training.training.found_wave_vectors import with_found_ribs
 from haptoflow_training.waveform import SEGMENT_SAMPLES
 
 _MAXIMUM_SHOWN = 10
@@ -123,13 +121,13 @@ def _open_or_prepare(
     if (found := _open_if_made_from(out, fingerprint)) is not None:
         return found
     # Synthetic recordings are split by their names alone, so that existing stores stay valid.
-    prepare = prepare_store if data.source == "synthetic" else prepare_cut_where_needed
     with store_lock(out):
         if (found := _open_if_made_from(out, fingerprint)) is not None:
             return found
-        return prepare(
-            recordings, labels, out, seed=data.recordings_seed, provenance={"made_from": fingerprint}, workers=workers
-        )
+        return prepare_store(
+            recordings, labels, out, seed=data.recordings_seed, provenance={"made_from": fingerprint}, workers=workers,
+            is_cut=data.source != "synthetic",
+        )  # fmt: skip
 
 
 def _open_if_made_from(out: Path, fingerprint: dict[str, Any]) -> SegmentStore | None:
@@ -196,7 +194,7 @@ def _open_folders(data: DataConfig, store_folder: Path, workers: int) -> Source:
         }
         labels_made_from = [dataclasses.asdict(definition) for definition in label_map.definitions]
     entries = [entry for root in roots for entry in root if not data.labels or entry.label in data.labels]
-    left_out = _left_out(roots)
+    left_out = tuple(line for root in roots for line in root.said)
     if not entries:
         first = f" ({left_out[0]})" if left_out else ""
         raise InputError(
@@ -224,13 +222,6 @@ def _open_folders(data: DataConfig, store_folder: Path, workers: int) -> Source:
         left_out,
         turned_degrees,
     )
-
-
-def _left_out(roots: list[Dataset]) -> tuple[str, ...]:
-    """A line for each file and recording that is excluded before preparation."""
-    lines = [f"skipped: {problem}" for root in roots for problem in root.problems]
-    lines += [note for root in roots for note in root.notes]
-    return tuple(lines + [root.left_out for root in roots if root.left_out])
 
 
 def _require_splits(store: SegmentStore, unusable: Sequence[str]) -> None:

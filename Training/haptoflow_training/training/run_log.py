@@ -3,23 +3,10 @@
 from __future__ import annotations
 
 import csv
-import json
 import subprocess
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
-
-from haptoflow_training.whole_file import write_whole
-
-
-def write_json(path: Path, content: Mapping[str, Any]) -> None:
-    """Write indented JSON, as `write_text`."""
-    write_text(path, json.dumps(content, indent=2, ensure_ascii=False) + "\n")
-
-
-def write_text(path: Path, text: str) -> None:
-    """Write UTF-8 atomically: an interrupted run leaves the old file complete."""
-    write_whole(path, text.encode("utf-8"))
 
 
 def source_commit(folder: Path) -> str:

@@ -12,7 +12,7 @@ from torch import Tensor, nn
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.export.skeleton_tensors import embedding_rows, has_skeleton, skeleton_weights
-from haptoflow_training.models.conditioning import EMBEDDING_SIZE
+from haptoflow_training.models.conditioning import EMBEDDING_SIZE, MaskedLinear
 from haptoflow_training.models.haptoflow_model import HaptoFlowModel, SkeletonModel
 from haptoflow_training.models.label_embedding import WAVE_NUMBERS
 
@@ -79,8 +79,13 @@ def _adopt_file(model: HaptoFlowModel, path: Path, labels: list[str]) -> None:
     begun = torch.stack([rows.get(label, middle) for label in labels])
     weights = skeleton_weights(file) | {"embedding.learnt.weight": begun[:, : EMBEDDING_SIZE - WAVE_NUMBERS]}
     own = model.state_dict()
+    masks = {
+        f"{name}.weight": layer.mask for name, layer in model.named_modules() if isinstance(layer, MaskedLinear)
+    }
     for name, value in weights.items():
-        if name not in own or own[name].shape != value.shape:
+        fits = name in own and own[name].shape == value.shape
+        # One perceptron is no two side by side, even if it is as wide.
+        if not fits or (name in masks and (value * (1.0 - masks[name])).any()):
             raise InputError(f"--from {path}: its '{name}' does not fit; begin with its [model], or without --from")
         own[name] = value
     model.load_state_dict(own)

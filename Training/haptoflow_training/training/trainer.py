@@ -34,12 +34,12 @@ from haptoflow_training.stopping import Stopped, end_if_stopped
 from haptoflow_training.training.batches import SegmentBatches
 from haptoflow_training.training.budget import Budget
 from haptoflow_training.training.config import TrainingConfig, config_of_run
-from haptoflow_training.training.label_balance import LabelBalance
-from haptoflow_training.training.losses import Losses
+from haptoflow_training.training.energy_distance import LabelBalance
+from haptoflow_training.training.losses import Losses, SkeletonLosses
 from haptoflow_training.training.starting_weights import MovingAverage, adopt_base, adopt_start, checkpoint_of
 from haptoflow_training.training.processes import Processes
-from haptoflow_training.training.run_log import MetricsLog, plot_metrics, source_commit, write_json
-from haptoflow_training.training.skeleton_losses import SkeletonLosses
+from haptoflow_training.training.run_log import MetricsLog, plot_metrics, source_commit
+from haptoflow_training.whole_file import write_json
 
 _COLUMNS = ("step", "phase", "field_loss", "level_loss", "validation_field_loss", "validation_level_loss", "seconds")
 _LOG_EVERY = 100

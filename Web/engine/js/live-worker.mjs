@@ -6,6 +6,7 @@ import { startRuntime } from './runtime.mjs';
 // Between messages it waits inside the module for contact states; `Mail` tells it to come back for a message.
 
 const ringChunk = 256;
+const byteLength = (/** @type {string} */ text) => new TextEncoder().encode(text).length;
 /** Words of the shared control block. */
 export const control = { mail: 0, beat: 1, words: 2 };
 
@@ -14,7 +15,6 @@ export const control = { mail: 0, beat: 1, words: 2 };
 /** One voice whose blocks go through a port to the audio thread. */
 class Ring {
   constructor(/** @type {Core} */ core, /** @type {number} */ voice, /** @type {MessagePort} */ port, /** @type {number} */ rateHz, /** @type {number} */ ahead) {
-    Object.assign(this, { core, voice, port, rateHz, ahead });
     this.core = core;
     this.voice = voice;
     this.port = port;
@@ -108,12 +108,7 @@ class LiveWorker {
   }
 
   #addMaterial(/** @type {any} */ { text, replaced }) {
-    const { address, length } = this.core.copyText(text);
-    try {
-      this.core.call('hapto_material_add', address, length, replaced);
-    } finally {
-      this.core.free(address);
-    }
+    this.core.call('hapto_material_add', text, byteLength(text), replaced);
     return this.core.json('hapto_labels_json');
   }
 
@@ -147,13 +142,7 @@ class LiveWorker {
   }
 
   #setActuator(/** @type {any} */ { voice, profile }) {
-    if (profile === null) return this.core.call('hapto_voice_set_actuator', voice, 0, 0);
-    const { address, length } = this.core.copyText(profile);
-    try {
-      return this.core.call('hapto_voice_set_actuator', voice, address, length);
-    } finally {
-      this.core.free(address);
-    }
+    return this.core.call('hapto_voice_set_actuator', voice, profile ?? 0, profile === null ? 0 : byteLength(profile));
   }
 
   #publish(/** @type {any} */ { voice, fields }) {

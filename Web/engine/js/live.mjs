@@ -36,12 +36,8 @@ export class Live {
     this.core = null;
     /** @type {{address: number} | null} */
     this.audioThread = null;
-    this.#worker = startWorker('live-worker.mjs', places, 'haptoflow');
+    this.#worker = startWorker('live-worker.mjs', places, 'haptoflow', (error) => this.#lose(error));
     this.#worker.onmessage = ({ data }) => this.#take(data);
-    this.#worker.onerror = (event) => {
-      event.preventDefault?.();
-      this.#lose(new HaptoFlowError('worker-lost', `${places.base}live-worker.mjs: the worker failed (${event.message || 'it cannot be loaded'})`));
-    };
   }
 
   /** The worker; for tests that end it. */

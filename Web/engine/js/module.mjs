@@ -150,12 +150,6 @@ export class Core {
     return address;
   }
 
-  /** A text with a final zero byte. @param {string} text @returns {{address: number, length: number}} to be freed */
-  copyText(text) {
-    const bytes = new TextEncoder().encode(`${text}\0`);
-    return { address: this.copyIn(bytes), length: bytes.length - 1 };
-  }
-
   /** The text at an address, "" at zero. @param {number} address */
   textAt(address) {
     if (address === 0) return '';
@@ -201,7 +195,7 @@ export class Core {
     try {
       return action(values.map((value) => {
         if (typeof value === 'number') return value;
-        texts.push(this.copyText(value).address);
+        texts.push(this.copyIn(new TextEncoder().encode(`${value}\0`)));
         return /** @type {number} */ (texts.at(-1));
       }));
     } finally {

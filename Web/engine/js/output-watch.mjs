@@ -5,7 +5,8 @@ import { pause } from './pause.mjs';
 // whether there is an output to play to.
 
 const lookEveryMs = 1000;
-/** An output that has just gone may still be listed, and a context on it says that it runs. Its time stands still, though. */
+/** An output that has just gone may still be listed, and a context on it says that it runs. Its time stands still, though, if not at once. */
+const settlingMs = 1000;
 const proofMs = 300;
 
 /** Keeps a context running without its output, and gives it the next one. */
@@ -16,6 +17,7 @@ export class OutputWatch {
   #timer;
   #isLooking = false;
   #hasLost = false;
+  #errors = 0;
 
   /** @param {any} context @param {(state: 'lost' | 'stopped' | 'back') => void} onChange */
   constructor(context, onChange) {
@@ -30,6 +32,7 @@ export class OutputWatch {
   }
 
   #onError = () => {
+    this.#errors += 1;
     if (this.#hasLost) return;
     this.#hasLost = true;
     if (!this.#context.setSinkId) {
@@ -41,18 +44,25 @@ export class OutputWatch {
     this.#timer = setInterval(() => void this.#look(), lookEveryMs);
   };
 
-  /** @returns {Promise<boolean>} whether the context runs on that output */
+  /** @returns {Promise<boolean>} whether the context took that output */
   async #playTo(/** @type {string | {type: 'none'}} */ output) {
     try {
       await this.#context.setSinkId(output);
-      // It may wait for an output that never comes.
-      void this.#context.resume().catch(() => {});
     } catch {
       return false;
     }
+    // It may wait for an output that never comes.
+    void this.#context.resume().catch(() => {});
+    return true;
+  }
+
+  async #playsToNextOutput() {
+    const errorsBefore = this.#errors;
+    if (!await this.#playTo('')) return false;
+    await pause(settlingMs);
     const before = this.#context.currentTime;
     await pause(proofMs);
-    return this.#context.currentTime > before;
+    return this.#errors === errorsBefore && this.#context.currentTime > before;
   }
 
   async #look() {
@@ -60,7 +70,7 @@ export class OutputWatch {
     this.#isLooking = true;
     // Chromium takes note of a new output when it is asked for all.
     const devices = await navigator.mediaDevices?.enumerateDevices().catch(() => []);
-    const isBack = devices?.some(({ kind }) => kind === 'audiooutput') === true && await this.#playTo('');
+    const isBack = devices?.some(({ kind }) => kind === 'audiooutput') === true && await this.#playsToNextOutput();
     if (isBack) {
       clearInterval(this.#timer);
       this.#hasLost = false;

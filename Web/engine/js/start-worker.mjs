@@ -17,13 +17,21 @@ import(${JSON.stringify(address.href)}).then(() => early.forEach((event) => onme
  * @param {string} script
  * @param {import('./files.mjs').Places} places
  * @param {string} name for the browser's tools
+ * @param {(error: HaptoFlowError) => void} onFailure "worker-lost": the script cannot be loaded, or threw
  * @throws HaptoFlowError "worker-lost" where the browser starts none
  */
-export function startWorker(script, places, name) {
+export function startWorker(script, places, name, onFailure) {
   const address = new URL(script, places.base);
   try {
-    if (address.origin === globalThis.origin) return new Worker(address, { type: 'module', name });
-    return new Worker(URL.createObjectURL(new Blob([importing(address)], { type: 'text/javascript' })), { name });
+    const isOwn = address.origin === globalThis.origin;
+    const worker = isOwn
+      ? new Worker(address, { type: 'module', name })
+      : new Worker(URL.createObjectURL(new Blob([importing(address)], { type: 'text/javascript' })), { name });
+    worker.onerror = (event) => {
+      event.preventDefault?.();
+      onFailure(new HaptoFlowError('worker-lost', `${address}: the worker failed (${event.message || 'it cannot be loaded'})`));
+    };
+    return worker;
   } catch (error) {
     throw new HaptoFlowError('worker-lost', `${address}: this browser starts no worker (${/** @type {Error} */ (error).message})`);
   }

@@ -14,14 +14,12 @@ export async function runTask(task, { signal, onProgress = () => {}, base, onnxR
   onProgress(0, 'loading');
   const [compiled, bytes] = await Promise.all([module ?? engineModule(places, signal), modelBytes(model, places, signal)]);
   requireNotAborted(signal);
-  const worker = startWorker('offline-worker.mjs', places, `haptoflow ${task}`);
+  /** @type {Worker | undefined} */
+  let worker;
   try {
     return await new Promise((resolve, reject) => {
       signal?.addEventListener('abort', () => reject(new HaptoFlowError('aborted', 'aborted by the caller')));
-      worker.onerror = (event) => {
-        event.preventDefault?.();
-        reject(new HaptoFlowError('worker-lost', `${places.base}offline-worker.mjs: the worker failed (${event.message || 'it cannot be loaded'})`));
-      };
+      worker = startWorker('offline-worker.mjs', places, `haptoflow ${task}`, reject);
       worker.onmessage = ({ data: { progress, result, error } }) => {
         if (progress) onProgress(progress.share, progress.doing);
         else if (error) reject(asHaptoFlowError(error));
@@ -30,6 +28,6 @@ export async function runTask(task, { signal, onProgress = () => {}, base, onnxR
       worker.postMessage({ module: compiled, onnxRuntime: places.onnxRuntime, model: bytes, task, options });
     });
   } finally {
-    worker.terminate();
+    worker?.terminate();
   }
 }

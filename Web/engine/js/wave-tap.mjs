@@ -109,11 +109,6 @@ export class WaveTap {
     return this.#source.secondsOf(this.#begin + frame);
   }
 
-  /** Of the next frame that `read` gives. */
-  get readFrames() {
-    return this.#read - this.#begin;
-  }
-
   /** @param {Float32Array} into */
   latest(into) {
     const end = this.#source.written;

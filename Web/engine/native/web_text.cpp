@@ -1,7 +1,7 @@
 #include "web_text.hpp"
 
 #include "haptoflow/haptoflow.h"
-#include "headless/scenes/command_files.hpp"
+#include "headless/command_files.hpp"
 #include "web_imports.hpp"
 
 #include <algorithm>
@@ -71,8 +71,4 @@ HAPTO_EXPORT HAPTO_NAMED("hapto_error_code") const char* hapto_error_code() {
 
 HAPTO_EXPORT HAPTO_NAMED("hapto_error_message") const char* hapto_error_message() {
     return haptoflow::web::theMessage.data();
-}
-
-HAPTO_EXPORT HAPTO_NAMED("hapto_version") const char* hapto_version() {
-    return haptoflow_version();
 }

@@ -60,7 +60,7 @@ export class DevicePanel {
   /** In the last stay in the headset; NaN before. */
   posesPerSecond = NaN;
 
-  /** @param {import('../../engine/js/haptoflow.d.ts').HaptoFlow} haptics @param {import('../hand/hand.mjs').Hand} hand @param {import('../../engine/js/haptoflow.d.ts').Voice} voice */
+  /** @param {import('../../engine/js/haptoflow.d.ts').HaptoFlow} haptics @param {import('../table/hand.mjs').Hand} hand @param {import('../../engine/js/haptoflow.d.ts').Voice} voice */
   constructor(haptics, hand, voice) {
     this.#haptics = haptics;
     this.#hand = hand;

@@ -30,7 +30,6 @@ export class EffectsPanel {
       ]);
     }));
     const button = find('#measure-effects');
-    if (!haptics.measureEffects) button.hidden = true;
     button.addEventListener('click', () => void this.measure(button));
   }
 

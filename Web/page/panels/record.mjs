@@ -10,7 +10,7 @@ export class RecordPanel {
   /** @type {{wav: Uint8Array, seconds: number, strokes: string[], scene: any} | null} */
   last = null;
 
-  /** @param {import('../signal/recorder.mjs').Recorder} recorder @param {() => any} sceneNow */
+  /** @param {import('../recorder.mjs').Recorder} recorder @param {() => any} sceneNow */
   constructor(recorder, sceneNow) {
     this.#recorder = recorder;
     this.#sceneNow = sceneNow;

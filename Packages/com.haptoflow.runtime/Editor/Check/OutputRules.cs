@@ -239,8 +239,7 @@ namespace HaptoFlow.Editor
             {
                 yield return new Finding(MessageType.Warning,
                     $"{name} has no hand, and neither has its stylus: no device is found.", new[] { output },
-                    new Repair("Right Hand", () => SetHand(output, HapticHand.Right)),
-                    new Repair("Left Hand", () => SetHand(output, HapticHand.Left)));
+                    Repair.ChooseHand(output));
             }
             if (output is ControllerParametricOutput parametric && !parametric.UseExperimentalFeature)
             {
@@ -272,8 +271,5 @@ namespace HaptoFlow.Editor
 
         private static void Play(HapticStylus stylus, HapticOutput output) =>
             SerializedFields.Set(stylus, "output", property => property.objectReferenceValue = output);
-
-        private static void SetHand(DeviceOutput output, HapticHand hand) =>
-            SerializedFields.Set(output, "hand", property => property.enumValueIndex = (int)hand);
     }
 }

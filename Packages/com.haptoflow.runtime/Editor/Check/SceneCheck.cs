@@ -35,7 +35,13 @@ namespace HaptoFlow.Editor
 
     /// <summary>A remedy for a finding.</summary>
     /// <param name="Caption">The text of its button.</param>
-    internal sealed record Repair(string Caption, Action Act);
+    internal sealed record Repair(string Caption, Action Act)
+    {
+        /// <summary>Remedies for a field "hand" that is not set.</summary>
+        public static Repair[] ChooseHand(Object target) => new[] { HapticHand.Right, HapticHand.Left }
+            .Select(hand => new Repair($"{hand} Hand", () => SerializedFields.Set(
+                target, "hand", property => property.enumValueIndex = (int)hand))).ToArray();
+    }
 
     /// <summary>A problem of the scene or the project that prevents or degrades haptics.</summary>
     /// <param name="Severity">Error: nothing is felt. Warning: something is not felt. Info: a remark.</param>

@@ -100,14 +100,10 @@ namespace HaptoFlow.Editor
                         $"{stylus.name} measures the force of its tip, but its field Hand is None: no controller or pen " +
                         "in a hand plays it, unless its Tip Force finds out the hand, as Tip Force (Meta) does. A pen on " +
                         "a tablet is in no hand; for another choose the hand.", new[] { stylus },
-                        new Repair("Right Hand", () => SetHand(stylus, HapticHand.Right)),
-                        new Repair("Left Hand", () => SetHand(stylus, HapticHand.Left)));
+                        Repair.ChooseHand(stylus));
                 }
             }
         }
-
-        private static void SetHand(HapticStylus stylus, HapticHand hand) =>
-            SerializedFields.Set(stylus, "hand", property => property.intValue = (int)hand);
     }
 
     /// <summary>Checks scenes with real objects under virtual ones: whether the touch force is measured, and whether

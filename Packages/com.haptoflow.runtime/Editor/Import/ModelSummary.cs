@@ -21,7 +21,7 @@ namespace HaptoFlow.Editor
             Title = header.Name;
             Description = header.Description;
             Origin = OriginOf(model, asset.File.Length).Where(row => row.Value.Length > 0).ToArray();
-            Tiers = header.Tiers.Select(tier => new TierSummary(tier)).ToArray();
+            Tiers = header.Tiers.Select(TierSummary.Of).ToArray();
             Labels = header.Labels.Select(LabelRow).ToArray();
         }
 
@@ -86,40 +86,37 @@ namespace HaptoFlow.Editor
             SummaryRow.Format("{0:0.##} to {1:0.##} {2}", interval.Minimum, interval.Maximum, unit);
     }
 
-    /// <summary>The text of a tier: its network, its accuracy against recordings, and its time, as far as the file
-    /// contains these figures.</summary>
-    internal sealed class TierSummary
+    /// <summary>The text of a tier, as far as the file contains these figures.</summary>
+    /// <param name="Network">Kind, solver and number of weights.</param>
+    /// <param name="Accuracy">Measured against recordings that were not used in training.</param>
+    /// <param name="Time">Milliseconds for a segment of 100 ms, and the machine on which they were measured.</param>
+    internal sealed record TierSummary(string Name, string Network, string Accuracy, string Time)
     {
-        private const string NotMeasured = "not measured";
-
-        private static readonly (string Key, string Words, string Format)[] AccuracyFigures =
+        private static readonly (string Key, string Format)[] AccuracyFigures =
         {
-            ("level_error_db", "level error", "{0} {1:+0.00;-0.00;0.00} dB"),
-            ("level_error_p90_db", "level error, nine in ten below", "{0} {1:0.0} dB"),
-            ("gfc_recording", "spectral fit", "{0} {1:0.000} of 1"),
-            ("lsd_db", "spectral distance", "{0} {1:0.0} dB"),
-            ("f0_error_percent", "pitch error", "{0} {1:0.0} %"),
-            ("drift_db_per_min", "drift", "{0} {1:0.00} dB a minute"),
+            ("level_error_db", "level error {0:+0.00;-0.00;0.00} dB"),
+            ("level_error_p90_db", "level error, nine in ten below {0:0.0} dB"),
+            ("gfc_recording", "spectral fit {0:0.000} of 1"),
+            ("lsd_db", "spectral distance {0:0.0} dB"),
+            ("f0_error_percent", "pitch error {0:0.0} %"),
+            ("drift_db_per_min", "drift {0:0.00} dB a minute"),
         };
 
-        public TierSummary(HapticTier tier)
+        private static readonly (string Key, string Format)[] TimeFigures =
         {
-            Name = tier.IsDefault ? tier.Name + " (default)" : tier.Name;
-            Network = NetworkOf(tier);
-            Accuracy = AccuracyOf(JsonValue.Parse(tier.AccuracyJson));
-            Time = TimeOf(JsonValue.Parse(tier.CostJson));
+            ("ms_p50", "{0:0.00} ms a segment"),
+            ("ms_live_p50", "{0:0.00} ms live"),
+            ("ms_live_p99", "one in a hundred above {0:0.00} ms live"),
+        };
+
+        public static TierSummary Of(HapticTier tier)
+        {
+            JsonValue cost = JsonValue.Parse(tier.CostJson);
+            string time = Figures(cost, TimeFigures);
+            string machine = time.Length > 0 && cost.Find("machine")?.Text is { } name ? "; on " + name : "";
+            return new TierSummary(tier.IsDefault ? tier.Name + " (default)" : tier.Name, NetworkOf(tier),
+                OrNotMeasured(Figures(JsonValue.Parse(tier.AccuracyJson), AccuracyFigures)), OrNotMeasured(time + machine));
         }
-
-        public string Name { get; }
-
-        /// <summary>Kind, solver and number of weights.</summary>
-        public string Network { get; }
-
-        /// <summary>Measured against recordings that were not used in training.</summary>
-        public string Accuracy { get; }
-
-        /// <summary>Milliseconds for a segment of 100 ms, and the machine on which they were measured.</summary>
-        public string Time { get; }
 
         private static string NetworkOf(HapticTier tier)
         {
@@ -130,40 +127,11 @@ namespace HaptoFlow.Editor
             return SummaryRow.Format("{0}, {1:0.00} million weights", work, tier.ParameterCount / 1e6);
         }
 
-        private static string AccuracyOf(JsonValue accuracy)
-        {
-            IEnumerable<string> known = AccuracyFigures
-                .Where(figure => accuracy.Find(figure.Key) is { IsNull: false })
-                .Select(figure => SummaryRow.Format(figure.Format, figure.Words, accuracy[figure.Key].AsNumber()));
-            return Joined(known);
-        }
+        private static string Figures(JsonValue json, IEnumerable<(string Key, string Format)> figures) =>
+            string.Join("; ", figures.Where(figure => json.Find(figure.Key) is { IsNull: false })
+                .Select(figure => SummaryRow.Format(figure.Format, json[figure.Key].AsNumber())));
 
-        private static string TimeOf(JsonValue cost)
-        {
-            var known = new List<string>();
-            if (cost.Find("ms_p50") is { IsNull: false } hot)
-            {
-                known.Add(SummaryRow.Format("{0:0.00} ms a segment", hot.AsNumber()));
-            }
-            if (cost.Find("ms_live_p50") is { IsNull: false } live)
-            {
-                string worst = cost.Find("ms_live_p99") is { IsNull: false } rare
-                    ? SummaryRow.Format(", one in a hundred above {0:0.00}", rare.AsNumber())
-                    : "";
-                known.Add(SummaryRow.Format("{0:0.00} ms live{1}", live.AsNumber(), worst));
-            }
-            if (known.Count > 0 && cost.Find("machine") is { IsNull: false } machine)
-            {
-                known.Add("on " + machine.AsText());
-            }
-            return Joined(known);
-        }
-
-        private static string Joined(IEnumerable<string> figures)
-        {
-            string all = string.Join("; ", figures);
-            return all.Length > 0 ? all : NotMeasured;
-        }
+        private static string OrNotMeasured(string figures) => figures.Length > 0 ? figures : "not measured";
     }
 
     /// <summary>Draws the summary of a model.</summary>

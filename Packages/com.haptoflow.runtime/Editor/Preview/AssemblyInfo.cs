@@ -2,4 +2,3 @@ using System.Runtime.CompilerServices;
 
 [assembly: InternalsVisibleTo("HaptoFlow.Editor")]
 [assembly: InternalsVisibleTo("HaptoFlow.EditorTests")]
-[assembly: InternalsVisibleTo("HaptoFlow.PreviewTests")]

@@ -1,6 +1,7 @@
 #nullable enable
 using System;
 using System.Collections.Generic;
+using System.Linq;
 using HaptoFlow.Preview;
 using UnityEngine;
 
@@ -64,11 +65,7 @@ namespace HaptoFlow.Editor
 
         private void Keep()
         {
-            var points = new DrawnPoint[drawn.Points.Count];
-            for (int index = 0; index < points.Length; ++index)
-            {
-                points[index] = drawn.Points[index];
-            }
+            DrawnPoint[] points = drawn.Points.ToArray();
             state.Change("Stroke", changed =>
             {
                 changed.Drawn = points;

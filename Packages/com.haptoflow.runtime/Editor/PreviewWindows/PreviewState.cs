@@ -11,11 +11,8 @@ namespace HaptoFlow.Editor
         where TState : PreviewState<TState>
     {
         /// <summary>Null for the project's model.</summary>
-        [field: SerializeField]
-        public HapticModelAsset? Model { get; set; }
-
-        [field: SerializeField]
-        public bool Loops { get; set; }
+        public HapticModelAsset? Model;
+        public bool Loops;
 
         /// <summary>Changes whenever a setting may have changed.</summary>
         public int Version { get; private set; }

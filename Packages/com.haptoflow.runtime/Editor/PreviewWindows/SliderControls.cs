@@ -125,7 +125,7 @@ namespace HaptoFlow.Editor
     /// They are read again when the model changes. Main thread.</summary>
     internal sealed class SliderCatalog
     {
-        public const string DefaultPath = "Packages/com.haptoflow.runtime/Editor/Sliders/default.sliders.json";
+        public const string DefaultPath = "Packages/com.haptoflow.runtime/Editor/default.sliders.json";
 
         private static SliderCatalog? current;
 

@@ -141,11 +141,7 @@ namespace HaptoFlow.Editor
             {
                 return;
             }
-            var samples = new float[sound.Samples.Length];
-            for (int index = 0; index < samples.Length; ++index)
-            {
-                samples[index] = Mathf.Clamp(gain * sound.Samples[index], -1f, 1f);
-            }
+            float[] samples = Array.ConvertAll(sound.Samples, sample => Mathf.Clamp(gain * sample, -1f, 1f));
             clip = AudioClip.Create("HaptoFlow Texture Preview", samples.Length, 1, PreviewSound.RateHz, false);
             clip.hideFlags = HideFlags.HideAndDontSave;
             clip.SetData(samples, 0);

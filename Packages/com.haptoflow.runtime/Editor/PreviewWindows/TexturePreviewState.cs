@@ -17,70 +17,36 @@ namespace HaptoFlow.Editor
         public const float MinimumLandingMps = 0.01f;
         public const float MaximumLandingMps = 2f;
 
-        [field: SerializeField]
-        public MaterialChoice First { get; private set; } = new MaterialChoice();
-
-        [field: SerializeField]
-        public MaterialChoice Second { get; private set; } = new MaterialChoice();
-
-        [field: SerializeField]
-        public bool Compares { get; set; } = true;
+        public MaterialChoice First = new MaterialChoice();
+        public MaterialChoice Second = new MaterialChoice();
+        public bool Compares = true;
 
         /// <summary>Index of the material that is played and exported, if two are shown.</summary>
-        [field: SerializeField]
-        public int Active { get; set; }
-
-        [field: SerializeField]
-        public StrokePreset Preset { get; set; } = StrokePreset.BackAndForth;
-
-        [field: SerializeField]
-        public float SpeedMps { get; set; } = 0.12f;
-
-        [field: SerializeField]
-        public float ForceNewtons { get; set; } = 1.5f;
-
-        [field: SerializeField]
-        public float DirectionDegrees { get; set; } = 30f;
-
-        [field: SerializeField]
-        public float ContactSeconds { get; set; } = 2.5f;
-
-        [field: SerializeField]
-        public float LandingMps { get; set; } = 0.3f;
-
-        [field: SerializeField]
-        public bool HasTexture { get; set; } = true;
-
-        [field: SerializeField]
-        public bool HasImpact { get; set; } = true;
-
-        [field: SerializeField]
-        public bool HasEdge { get; set; } = true;
-
-        [field: SerializeField]
-        public PreviewDevice Device { get; set; }
+        public int Active;
+        public StrokePreset Preset = StrokePreset.BackAndForth;
+        public float SpeedMps = 0.12f;
+        public float ForceNewtons = 1.5f;
+        public float DirectionDegrees = 30f;
+        public float ContactSeconds = 2.5f;
+        public float LandingMps = 0.3f;
+        public bool HasTexture = true;
+        public bool HasImpact = true;
+        public bool HasEdge = true;
+        public PreviewDevice Device;
 
         /// <summary>The connected device that plays along with the speakers.</summary>
-        [field: SerializeField]
-        public FeltDevice FeltOn { get; set; }
+        public FeltDevice FeltOn;
 
         /// <summary>Points of the drawn stroke. Set a new array instead of changing elements.</summary>
-        [field: SerializeField]
-        public DrawnPoint[] Drawn { get; set; } = Array.Empty<DrawnPoint>();
+        public DrawnPoint[] Drawn = Array.Empty<DrawnPoint>();
 
         /// <summary>Name of the tier; empty for the model's default.</summary>
-        [field: SerializeField]
-        public string Tier { get; set; } = "";
-
-        [field: SerializeField]
-        public int Seed { get; set; } = 1;
+        public string Tier = "";
+        public int Seed = 1;
 
         /// <summary>True to play both sounds with the gain at which the louder one nearly reaches full scale.</summary>
-        [field: SerializeField]
-        public bool Raises { get; set; } = true;
-
-        [field: SerializeField]
-        public bool ShowsSliders { get; set; }
+        public bool Raises = true;
+        public bool ShowsSliders;
 
         protected override string WindowName => "Texture Preview";
 
@@ -135,19 +101,14 @@ namespace HaptoFlow.Editor
         [SerializeField]
         private float toneDbPerOctave;
 
-        [field: SerializeField]
-        public string Label { get; set; } = "";
+        public string Label = "";
 
         /// <summary>Label of the blend's second material; empty for none.</summary>
-        [field: SerializeField]
-        public string SecondLabel { get; set; } = "";
-
-        [field: SerializeField]
-        public float Share { get; set; } = 0.5f;
+        public string SecondLabel = "";
+        public float Share = 0.5f;
 
         /// <summary>Positions of the sliders; empty if all are 0. Set a new array, do not change elements.</summary>
-        [field: SerializeField]
-        public float[] Moves { get; set; } = Array.Empty<float>();
+        public float[] Moves = Array.Empty<float>();
 
         public float FeatureScale
         {

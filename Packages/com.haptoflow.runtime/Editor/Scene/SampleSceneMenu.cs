@@ -13,7 +13,7 @@ namespace HaptoFlow.Editor
     internal static class SampleSceneMenu
     {
         private const string Recording =
-            "Packages/com.haptoflow.runtime/Runtime/SampleScenes/Recordings/doormat.";
+            "Packages/com.haptoflow.runtime/Runtime/SampleScenes/doormat.";
 
         // From above the near edge of a table, and in front of a wall.
         private static readonly Vector3 AboveTable = new Vector3(0f, 0.5f, -0.5f);

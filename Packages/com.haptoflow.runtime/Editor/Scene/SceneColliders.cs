@@ -85,30 +85,20 @@ namespace HaptoFlow.Editor
             {
                 return;
             }
+            // Those that had their seed before come first, so that they keep it.
             HapticSurface[] surfaces = Object.FindObjectsByType<HapticSurface>(
-                FindObjectsInactive.Include, FindObjectsSortMode.InstanceID);
+                    FindObjectsInactive.Include, FindObjectsSortMode.InstanceID)
+                .Where(surface => surface.Seed != 0).OrderByDescending(IsKnown).ToArray();
             var taken = new HashSet<uint>();
-            var now = new Dictionary<int, uint>();
             foreach (HapticSurface surface in surfaces)
             {
-                if (IsKnown(surface) && taken.Add(surface.Seed))
+                if (!taken.Add(surface.Seed))
                 {
-                    now.Add(surface.GetInstanceID(), surface.Seed);
+                    GiveNew(surface);
+                    taken.Add(surface.Seed);
                 }
             }
-            foreach (HapticSurface surface in surfaces)
-            {
-                if (surface.Seed != 0 && !now.ContainsKey(surface.GetInstanceID()))
-                {
-                    if (!taken.Add(surface.Seed))
-                    {
-                        GiveNew(surface);
-                        taken.Add(surface.Seed);
-                    }
-                    now.Add(surface.GetInstanceID(), surface.Seed);
-                }
-            }
-            known = now;
+            known = surfaces.ToDictionary(surface => surface.GetInstanceID(), surface => surface.Seed);
         }
 
         private static bool IsKnown(HapticSurface surface) =>

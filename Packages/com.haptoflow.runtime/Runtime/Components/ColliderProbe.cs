@@ -11,7 +11,6 @@ namespace HaptoFlow
     {
         public readonly Double3 TipMetres;
 
-        /// <summary>Surfaces farther away are ignored.</summary>
         public readonly double ReachMetres;
 
         /// <summary>The face of the collider that holds the tip.</summary>
@@ -41,7 +40,6 @@ namespace HaptoFlow
     /// physics engine may still hold the pose of the last physics step. Main thread, no garbage.</summary>
     internal static class ColliderProbe
     {
-        /// <summary>True for the kinds of collider that a tip can touch.</summary>
         public static bool IsSupportedKind(Collider collider) =>
             collider is BoxCollider || collider is SphereCollider || collider is CapsuleCollider ||
             collider is CharacterController || collider is MeshCollider || collider is TerrainCollider;
@@ -57,53 +55,33 @@ namespace HaptoFlow
         public static double DistanceBoundMetres(Collider collider, Double3 pointMetres)
         {
             Double3 scale = collider.transform.lossyScale.ToDouble();
-            LocalBounds(collider, out Vector3 middle, out Vector3 size);
-            Double3 local = PoseOf(collider).PointToLocal(pointMetres) - Double3.Scale(middle.ToDouble(), scale);
-            Double3 half = 0.5 * Double3.Scale(size.ToDouble(), scale).Absolute;
-            Double3 outside = local.Absolute - half;
+            Double3 point = PoseOf(collider).PointToLocal(pointMetres);
+            if (IsRound(collider, scale, out RoundShape round))
+            {
+                return Math.Max(0.0, round.Closest(point, default).SignedDistanceMetres);
+            }
+            if (!TryGetBounds(collider, out Bounds bounds))
+            {
+                return 0.0;
+            }
+            Double3 half = 0.5 * Double3.Scale(bounds.size.ToDouble(), scale).Absolute;
+            Double3 outside = (point - Double3.Scale(bounds.center.ToDouble(), scale)).Absolute - half;
             return new Double3(
                 Math.Max(0.0, outside.X), Math.Max(0.0, outside.Y), Math.Max(0.0, outside.Z)).Length;
         }
 
-        /// <summary>A box around the collider in its local frame, before its scale.</summary>
-        private static void LocalBounds(Collider collider, out Vector3 middle, out Vector3 size)
+        /// <summary>A box around the collider in its local frame, before its scale; false where there is none.</summary>
+        private static bool TryGetBounds(Collider collider, out Bounds bounds)
         {
-            switch (collider)
+            bounds = collider switch
             {
-                case BoxCollider box:
-                    (middle, size) = (box.center, box.size);
-                    break;
-                case SphereCollider sphere:
-                    // The radius follows the largest scale.
-                    (middle, size) = (sphere.center, Around(collider, 2f * sphere.radius));
-                    break;
-                case CapsuleCollider capsule:
-                    (middle, size) = (capsule.center,
-                        Around(collider, Mathf.Max(2f * capsule.radius, capsule.height)));
-                    break;
-                case CharacterController controller:
-                    (middle, size) = (controller.center,
-                        Around(collider, Mathf.Max(2f * controller.radius, controller.height)));
-                    break;
-                case MeshCollider mesh when mesh.sharedMesh != null:
-                    Bounds bounds = mesh.sharedMesh.bounds;
-                    (middle, size) = (bounds.center, bounds.size);
-                    break;
-                case TerrainCollider terrain when terrain.terrainData != null:
-                    (middle, size) = (0.5f * terrain.terrainData.size, terrain.terrainData.size);
-                    break;
-                default:
-                    (middle, size) = (Vector3.zero, new Vector3(1e6f, 1e6f, 1e6f));
-                    break;
-            }
-        }
-
-        /// <summary>A cube of a size that the largest scale of the collider gives all axes.</summary>
-        private static Vector3 Around(Collider collider, float size)
-        {
-            Double3 scale = collider.transform.lossyScale.ToDouble().Absolute;
-            double Axis(double own) => size * scale.Largest / Math.Max(own, 1e-9);
-            return new Double3(Axis(scale.X), Axis(scale.Y), Axis(scale.Z)).ToVector();
+                BoxCollider box => new Bounds(box.center, box.size),
+                MeshCollider mesh when mesh.sharedMesh != null => mesh.sharedMesh.bounds,
+                TerrainCollider terrain when terrain.terrainData != null =>
+                    new Bounds(0.5f * terrain.terrainData.size, terrain.terrainData.size),
+                _ => default,
+            };
+            return bounds.size != Vector3.zero;
         }
 
         /// <summary>False where no point is within reach, or the kind of collider is not supported.</summary>

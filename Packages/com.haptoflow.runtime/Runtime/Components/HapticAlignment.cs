@@ -2,6 +2,7 @@
 using System;
 using System.Collections.Generic;
 using System.Globalization;
+using System.IO;
 using HaptoFlow.Alignment;
 using HaptoFlow.Contact;
 using HaptoFlow.Numerics;
@@ -134,7 +135,8 @@ namespace HaptoFlow
                 MoveTo(poseBefore.Value);
                 poseBefore = null;
                 IsAligned = wasAligned;
-                SaveOrDelete();
+                // One that is back at its author's pose has nothing to keep.
+                Save(IsAligned ? LocalPose() : (RigidPose?)null);
                 ShowMessage("The object is back where it was.");
             }
         }
@@ -151,13 +153,7 @@ namespace HaptoFlow
         }
 
         /// <summary>Deletes the saved pose; the object stays where it is.</summary>
-        public void ForgetSaved()
-        {
-            if (saveName.Length > 0)
-            {
-                new AlignmentFile(saveName).Delete(this);
-            }
-        }
+        public void ForgetSaved() => Save(null);
 
         /// <summary>Present position of a mark, in world space.</summary>
         /// <param name="index">0 to 2.</param>
@@ -216,7 +212,7 @@ namespace HaptoFlow
             IsAligned = true;
             transform.SetPositionAndRotation(fit.Pose.PositionMetres.ToVector(), ToQuaternion(fit.Pose.Rotation));
             ForgetMotion();
-            SaveOrDelete();
+            Save(LocalPose());
             string error = (1000f * ErrorMetres).ToString("0.0", CultureInfo.InvariantCulture);
             ShowMessage($"Aligned; {error} mm of error at the worst mark.");
         }
@@ -252,17 +248,11 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>Saves the pose of an aligned object; deletes the file of one that is back at its author's
-        /// pose.</summary>
-        private void SaveOrDelete()
+        private void Save(RigidPose? pose)
         {
-            if (!IsAligned)
+            if (saveName.Length > 0)
             {
-                ForgetSaved();
-            }
-            else if (saveName.Length > 0)
-            {
-                new AlignmentFile(saveName).Write(LocalPose(), this);
+                new AlignmentFile(saveName).Save(pose, this);
             }
         }
 
@@ -274,5 +264,57 @@ namespace HaptoFlow
 
         private static Quaternion ToQuaternion(in Rotation rotation) =>
             new Quaternion((float)rotation.X, (float)rotation.Y, (float)rotation.Z, (float)rotation.W);
+    }
+
+    /// <summary>The file in the player's persistent folder that keeps an alignment between sessions. Main
+    /// thread.</summary>
+    internal readonly struct AlignmentFile
+    {
+        private readonly string path;
+
+        /// <param name="name">Name of the alignment. Characters other than letters, digits and hyphens become
+        /// underscores.</param>
+        public AlignmentFile(string name)
+        {
+            char[] letters = name.ToCharArray();
+            for (int index = 0; index < letters.Length; ++index)
+            {
+                bool plain = char.IsLetterOrDigit(letters[index]) || letters[index] == '-';
+                letters[index] = plain ? letters[index] : '_';
+            }
+            path = Path.Combine(Application.persistentDataPath, "HaptoFlow", new string(letters) + ".pose.json");
+        }
+
+        public bool TryRead(out RigidPose pose, UnityEngine.Object context)
+        {
+            bool found = SavedPose.TryRead(path, out pose, out string? problem);
+            if (problem != null)
+            {
+                Debug.LogWarning($"HaptoFlow: {problem}.", context);
+            }
+            return found;
+        }
+
+        /// <summary>Writes the pose; null deletes the file.</summary>
+        public void Save(RigidPose? pose, UnityEngine.Object context)
+        {
+            try
+            {
+                if (pose.HasValue)
+                {
+                    SavedPose.Write(path, pose.Value);
+                }
+                else
+                {
+                    File.Delete(path);
+                }
+            }
+            catch (Exception error) when (error is IOException || error is UnauthorizedAccessException)
+            {
+                Debug.LogWarning($"HaptoFlow: {path}: {error.Message}; " + (pose.HasValue
+                    ? "the alignment is lost when the application ends; make the folder writable to keep it."
+                    : "delete the file by hand."), context);
+            }
+        }
     }
 }

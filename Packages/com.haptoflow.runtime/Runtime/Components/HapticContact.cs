@@ -77,7 +77,6 @@ namespace HaptoFlow
         /// <summary>Number of touch-downs of the stylus so far.</summary>
         public uint TouchCounter { get; }
 
-        /// <summary>The labels at the touched place with their weights.</summary>
         internal LabelBlend Labels { get; }
 
         /// <summary>Names the surface, or the rule and its map, that gives the place its material. For people; makes

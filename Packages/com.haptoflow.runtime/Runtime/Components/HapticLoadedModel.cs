@@ -107,7 +107,6 @@ namespace HaptoFlow
         /// <summary>Closes the model's engine. If it is in use, styluses return to the model of the settings.</summary>
         public void Dispose() => session.Unload();
 
-        /// <summary>Waits until loading has succeeded or failed.</summary>
         internal void FinishLoading() => session.FinishLoading();
     }
 

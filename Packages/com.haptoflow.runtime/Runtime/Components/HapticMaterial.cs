@@ -60,18 +60,14 @@ namespace HaptoFlow
         private bool edge = true;
 
         /// <summary>Name of a label of the model.</summary>
-        public string Label { get => label; set => Change(ref label, value); }
+        public string Label { get => label; set => Change(ref label, value ?? ""); }
 
         /// <summary>A Haptic Material with an embedding of its own, used instead of <see cref="Label"/>; null for the
         /// label. For the description inside such an asset this is the asset itself.</summary>
         public HapticMaterial? Learnt
         {
             get => owner != null && owner.IsLearnt ? owner : learnt != null && learnt.IsLearnt ? learnt : null;
-            set
-            {
-                learnt = value;
-                ++Version;
-            }
+            set => Change(ref learnt, value);
         }
 
         /// <summary>True where the asset that contains this description, or its learnt material, was destroyed: nobody
@@ -79,28 +75,16 @@ namespace HaptoFlow
         internal bool IsUnloaded => HapticMaterial.IsUnloaded(owner) || HapticMaterial.IsUnloaded(learnt);
 
         /// <summary>Name of a second label to blend with; empty for none.</summary>
-        public string SecondLabel { get => secondLabel; set => Change(ref secondLabel, value); }
+        public string SecondLabel { get => secondLabel; set => Change(ref secondLabel, value ?? ""); }
 
         /// <summary>Weight of the second label: 0 for the first label alone, 1 for the second alone.</summary>
-        public float Blend
-        {
-            get => blend;
-            set
-            {
-                blend = Mathf.Clamp01(value);
-                ++Version;
-            }
-        }
+        public float Blend { get => blend; set => Change(ref blend, Mathf.Clamp01(value)); }
 
         /// <summary>Stiffness of the spring model, in N/m; 0 for the model's value of the label.</summary>
         public float StiffnessNewtonsPerMetre
         {
             get => stiffnessNewtonsPerMetre;
-            set
-            {
-                stiffnessNewtonsPerMetre = value;
-                ++Version;
-            }
+            set => Change(ref stiffnessNewtonsPerMetre, value);
         }
 
         /// <summary>Gain of the output while this material is touched, 0 to 1.</summary>
@@ -165,9 +149,9 @@ namespace HaptoFlow
             ++Version;
         }
 
-        private void Change(ref string field, string value)
+        private void Change<T>(ref T field, T value)
         {
-            field = value ?? "";
+            field = value;
             ++Version;
         }
     }
@@ -248,13 +232,13 @@ namespace HaptoFlow
         private void Announce()
         {
             description.MarkChanged();
-            HapticSession.OnMaterialChanged(this);
+            HapticSession.OnMaterialChanged(this, !IsLearnt);
         }
 
         private void OnEnable() => Announce();
 
         private void OnValidate() => Announce();
 
-        private void OnDestroy() => HapticSession.OnMaterialDestroyed(this);
+        private void OnDestroy() => HapticSession.OnMaterialChanged(this, true);
     }
 }

@@ -21,7 +21,6 @@ namespace HaptoFlow
         private readonly HapticCancellation? cancellation;
         private readonly CancellationTokenSource closing = new CancellationTokenSource();
         private readonly EngineHealth health = new EngineHealth();
-        private QualityChange? qualityChange;
         private readonly bool isAdditional;
         private readonly byte[]? modelFile;
         private Task<HapticModelDelay>? measuring;
@@ -78,7 +77,6 @@ namespace HaptoFlow
         /// <summary>Rate of contact states that the engine was configured for, in Hz.</summary>
         public double UpdateRateHz { get; }
 
-        /// <summary>True where the engine has a worker thread; otherwise the caller steps the engine.</summary>
         public bool HasWorker { get; }
 
         /// <summary>True after the session was closed by its owner or by the end of the application.</summary>
@@ -93,7 +91,6 @@ namespace HaptoFlow
         /// <summary>Empty while loading, and where loading failed.</summary>
         public ModelLabels Labels { get; private set; } = new ModelLabels(Array.Empty<HapticLabel>());
 
-        /// <summary>Why there are no haptics; null where there is no error.</summary>
         public string? Problem { get; private set; }
 
         /// <summary>Null while loading, and where loading failed.</summary>
@@ -132,7 +129,6 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>Loads a model in addition to the one in use.</summary>
         public static HapticSession Load(HapticModelAsset model, HapticQuality quality)
         {
             var session = new HapticSession(HaptoFlowSettings.Active, model, quality, true);
@@ -148,7 +144,6 @@ namespace HaptoFlow
             MaterialMaps.PrepareAll(this);
         }
 
-        /// <summary>Makes styluses use the session of the settings.</summary>
         public static void UseSettings() => replacingSession = null;
 
         /// <summary>Closes a session that was loaded in addition to that of the settings.</summary>
@@ -164,17 +159,17 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>Changes the quality of a running engine, on another thread.</summary>
         public void SetQuality(HapticQuality quality)
         {
-            if (Engine != null)
+            try
             {
-                qualityChange = new QualityChange(Engine, quality, qualityChange);
+                Engine?.SetQuality(quality);
+            }
+            catch (HaptoFlowException refusal)
+            {
+                Debug.LogWarning($"HaptoFlow: the quality was not changed: {refusal.Message}");
             }
         }
-
-        /// <summary>Waits until the last requested change of quality has succeeded or failed.</summary>
-        public void FinishQualityChange() => qualityChange?.Finish();
 
         /// <summary>Registers the learnt material of a description before it is touched.</summary>
         public void Prepare(MaterialDescription description)
@@ -183,28 +178,6 @@ namespace HaptoFlow
             if (material != null)
             {
                 Learnt?.TryFind(material, out _, out _);
-            }
-        }
-
-        /// <summary>Registers the new text of a material, or removes a material that has none.</summary>
-        private void ChangeLearnt(HapticMaterial material)
-        {
-            if (!material.IsLearnt)
-            {
-                ForgetLearnt(material);
-            }
-            else
-            {
-                Learnt?.Change(material);
-            }
-        }
-
-        /// <summary>Removes a material from the engine; labels of its users are looked up again.</summary>
-        private void ForgetLearnt(HapticMaterial material)
-        {
-            if (Learnt?.Forget(material) == true)
-            {
-                LabelsVersion = ++lastLabelsVersion;
             }
         }
 
@@ -227,30 +200,29 @@ namespace HaptoFlow
             return measuring;
         }
 
-        /// <summary>Waits until loading has succeeded or failed.</summary>
         public void FinishLoading()
         {
             ((IAsyncResult)loading).AsyncWaitHandle.WaitOne();
             Poll();
         }
 
-        /// <summary>Passes a changed material on to every engine.</summary>
-        public static void OnMaterialChanged(HapticMaterial material)
+        /// <summary>Has every engine register the new text of a material, or remove one that has none or was
+        /// destroyed; labels of its users are then looked up again.</summary>
+        public static void OnMaterialChanged(HapticMaterial material, bool isGone)
         {
-            settingsSession?.ChangeLearnt(material);
-            foreach (HapticSession each in AdditionalSessions)
-            {
-                each.ChangeLearnt(material);
-            }
+            settingsSession?.ChangeLearnt(material, isGone);
+            AdditionalSessions.ForEach(each => each.ChangeLearnt(material, isGone));
         }
 
-        /// <summary>Removes a destroyed material from every engine.</summary>
-        public static void OnMaterialDestroyed(HapticMaterial material)
+        private void ChangeLearnt(HapticMaterial material, bool isGone)
         {
-            settingsSession?.ForgetLearnt(material);
-            foreach (HapticSession each in AdditionalSessions)
+            if (!isGone)
             {
-                each.ForgetLearnt(material);
+                Learnt?.Change(material);
+            }
+            else if (Learnt?.Forget(material) == true)
+            {
+                LabelsVersion = ++lastLabelsVersion;
             }
         }
 
@@ -297,7 +269,6 @@ namespace HaptoFlow
             cancellation?.Cancel();
             closing.Cancel();
             Task.WhenAny(measuring ?? Task.CompletedTask).GetAwaiter().GetResult();
-            qualityChange?.Finish();
             Learnt?.Close();
             ((IAsyncResult)loading).AsyncWaitHandle.WaitOne();
             if (loading.Status == TaskStatus.RanToCompletion)
@@ -322,11 +293,6 @@ namespace HaptoFlow
             {
                 LabelsVersion = ++lastLabelsVersion;
             }
-            string? failure = qualityChange?.TakeFailure();
-            if (failure != null)
-            {
-                Debug.LogWarning($"HaptoFlow: the quality was not changed: {failure}");
-            }
             // The worker of an engine that is not in use is checked when it is used.
             string? workerFailure = ReferenceEquals(this, Existing)
                 ? health.Check(Time.unscaledTimeAsDouble, Engine)
@@ -338,7 +304,6 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>Null without the native library; loading then reports the error.</summary>
         private static HapticCancellation? NewCancellation()
         {
             try
@@ -378,6 +343,40 @@ namespace HaptoFlow
             Application.quitting += ShutDown;
             Application.quitting -= HapticLearning.EndAll;
             Application.quitting += HapticLearning.EndAll;
+        }
+    }
+
+    /// <summary>Checks once a second that an engine's worker thread is alive. Main thread; no garbage while it
+    /// is.</summary>
+    internal sealed class EngineHealth
+    {
+        private const double PeriodSeconds = 1.0;
+
+        private double nextSeconds = double.NegativeInfinity;
+        private bool reported;
+
+        /// <summary>The message for a worker that has ended, returned once; null otherwise.</summary>
+        public string? Check(double nowSeconds, HapticEngine engine)
+        {
+            if (reported || nowSeconds < nextSeconds)
+            {
+                return null;
+            }
+            nextSeconds = nowSeconds + PeriodSeconds;
+            EngineStatistics statistics = engine.Statistics();
+            return MessageFor(statistics, statistics.WorkerIsAlive ? "" : engine.LastFailure());
+        }
+
+        /// <summary>The message for statistics of a worker that has ended, returned once; null otherwise.</summary>
+        internal string? MessageFor(in EngineStatistics statistics, string lastFailure)
+        {
+            if (reported || statistics.WorkerIsAlive)
+            {
+                return null;
+            }
+            reported = true;
+            string cause = lastFailure.Length > 0 ? $" ({lastFailure})" : "";
+            return $"the engine's worker thread has ended{cause}; call Haptics.Restart";
         }
     }
 }

@@ -157,23 +157,26 @@ namespace HaptoFlow
         /// <summary>False while the stylus has no voice: before the model is loaded, or without a free voice.</summary>
         public bool TryGetStatistics(out VoiceStatistics statistics)
         {
-            statistics = default;
-            return voices != null && voices.TryGetStatistics(out statistics);
+            HapticVoice? voice = voices?.Open;
+            statistics = voice?.Statistics() ?? default;
+            return voice != null;
         }
 
         /// <summary>Statistics of one effect of the stylus's voice. False while the stylus has no voice.</summary>
         public bool TryGetEffectStatistics(HapticEffect effect, out EffectStatistics statistics)
         {
-            statistics = default;
-            return voices != null && voices.TryGetEffectStatistics(effect, out statistics);
+            HapticVoice? voice = voices?.Open;
+            statistics = voice?.EffectStatistics(effect) ?? default;
+            return voice != null;
         }
 
         /// <summary>Delays of the onsets and ends of the signal of the stylus's output. False while the stylus has no
         /// voice.</summary>
         public bool TryGetSignalStatistics(out SignalStatistics statistics)
         {
-            statistics = default;
-            return voices != null && voices.TryGetSignalStatistics(out statistics);
+            HapticVoice? voice = voices?.OnAudio;
+            statistics = voice?.SignalStatistics() ?? default;
+            return voice != null;
         }
 
         /// <summary>Silences the stylus at once; it sounds again with the next touch-down.</summary>
@@ -187,19 +190,17 @@ namespace HaptoFlow
             EndTouch();
         }
 
-        /// <summary>Centre of the tip, in world space.</summary>
         internal Vector3 TipPosition => tip != null ? tip.position : transform.position;
 
         /// <summary>The name that people know: the pen's, for a stylus on the child Tip of a pen.</summary>
         internal string PenName => name == "Tip" && transform.parent != null ? transform.parent.name : name;
 
-        /// <summary>The voices of this stylus, one for each of its outputs.</summary>
         internal StylusVoices Voices => voices ??= new StylusVoices(this);
 
         private void OnEnable()
         {
             rigScale ??= new RigScale(this);
-            contacts ??= new TipContacts(new ContactSettings(), tipRadiusMetres, transform);
+            contacts ??= new TipContacts(tipRadiusMetres, transform);
             contacts.Tracker.TipRadiusMetres = tipRadiusMetres;
             isActive = true;
             HapticSession.Current.Poll();

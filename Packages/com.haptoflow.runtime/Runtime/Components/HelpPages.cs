@@ -18,7 +18,6 @@ namespace HaptoFlow
         /// <summary>The page with a section for each kind of output; append the section's anchor.</summary>
         public const string Outputs = "effects-and-outputs.html#";
 
-        /// <summary>The first page.</summary>
         public const string Index = "index.html";
 
         /// <summary>Address of the issue tracker, for reports of the device check. While it is empty, none is published.
@@ -84,7 +83,6 @@ namespace HaptoFlow
         public HelpPageAttribute(string page)
             : base(HelpPages.AddressOf(page)) => Page = page;
 
-        /// <summary>The page, with the section's anchor.</summary>
         public string Page { get; }
     }
 }

@@ -22,13 +22,11 @@ namespace HaptoFlow
         private Task<List<MaterialRegistration>>? running;
         private int taken;
 
-        /// <param name="space">Space of the engine's model.</param>
         /// <param name="labelCount">Number of labels of the engine's model: indices of materials follow those of
         /// labels.</param>
         public LearntMaterials(HapticEngine engine, string space, int labelCount) =>
             (this.engine, this.space, this.labelCount) = (engine, space, labelCount);
 
-        /// <summary>Number of registered materials.</summary>
         public int Felt { get; private set; }
 
         /// <summary>Number of refused materials: their labels are used instead.</summary>
@@ -158,11 +156,7 @@ namespace HaptoFlow
             waiting.AddRange(withoutPlace);
             if (next.Count > 0)
             {
-                running = Task.Run(() =>
-                {
-                    next.ForEach(each => each.Do(engine, space));
-                    return next;
-                });
+                running = Task.Run(() => next.ConvertAll(each => each.Do(engine, space)));
             }
         }
 
@@ -221,79 +215,61 @@ namespace HaptoFlow
         /// <summary>State of one material.</summary>
         private sealed class Known
         {
+            public readonly HapticMaterial Material;
+
+            // Requested last.
+            public string Text = "";
+
+            // In the engine; -1 where the material is not registered.
+            public int Index = -1;
+            public bool IsUnderWay;
+            public bool IsRefused;
+            public string Refusal = "";
+            public bool IsGone;
+
             public Known(HapticMaterial material) => Material = material;
-
-            public HapticMaterial Material { get; }
-
-            /// <summary>The text requested last.</summary>
-            public string Text { get; set; } = "";
-
-            /// <summary>Index in the engine; -1 where the material is not registered.</summary>
-            public int Index { get; set; } = -1;
-
-            public bool IsUnderWay { get; set; }
-
-            public bool IsRefused { get; set; }
-
-            public string Refusal { get; set; } = "";
-
-            public bool IsGone { get; set; }
         }
     }
 
     /// <summary>The registration of one learnt material with an engine. Created on the main thread, run on
     /// another.</summary>
-    internal sealed class MaterialRegistration
+    /// <param name="Place">Index of the material to replace, or <see cref="NewPlace"/>; of a result, its index in the
+    /// engine, or <see cref="NewPlace"/> where the engine refused a new one.</param>
+    internal sealed record MaterialRegistration(object Owner, string Text, int Place,
+        double StiffnessNewtonsPerMetre = 0.0, string? Refusal = null)
     {
         /// <summary>The engine assigns the index.</summary>
         public const int NewPlace = -1;
-
-        private readonly string text;
-
-        /// <param name="owner">The entry that the result belongs to.</param>
-        /// <param name="place">Index of the material to replace, or <see cref="NewPlace"/>.</param>
-        public MaterialRegistration(object owner, string text, int place) =>
-            (Owner, Place, this.text) = (owner, place, text);
-
-        public object Owner { get; }
-
-        /// <summary>Index of the material in the engine; <see cref="NewPlace"/> where the engine refused a new
-        /// one.</summary>
-        public int Place { get; private set; }
-
-        public double StiffnessNewtonsPerMetre { get; private set; }
-
-        /// <summary>Why the engine refused the material; null where it did not.</summary>
-        public string? Refusal { get; private set; }
 
         /// <summary>Says why a material of another space cannot be used with a model, and what to do.</summary>
         public static string ForeignSpace(string own, string models) =>
             $"it was learnt for another model (its space is {own}, the model's {models}). Learn it again from its " +
             "recording with this model, or choose the model that it was learnt for in Project Settings > HaptoFlow.";
 
-        public void Do(HapticEngine engine, string space)
+        /// <summary>Registers the material; returns the result.</summary>
+        public MaterialRegistration Do(HapticEngine engine, string space)
         {
             try
             {
-                MaterialFile file = MaterialFile.Read(text);
+                MaterialFile file = MaterialFile.Read(Text);
                 if (file.Space != space)
                 {
-                    Refusal = ForeignSpace(file.Space, space);
-                    return;
+                    return this with { Refusal = ForeignSpace(file.Space, space) };
                 }
-                StiffnessNewtonsPerMetre = file.StiffnessNewtonsPerMetre;
-                if (Place == NewPlace)
+                int place = Place;
+                if (place == NewPlace)
                 {
-                    Place = engine.RegisterMaterial(text);
+                    place = engine.RegisterMaterial(Text);
                 }
                 else
                 {
-                    engine.ReplaceMaterial(Place, text);
+                    engine.ReplaceMaterial(place, Text);
                 }
+                return this with { Place = place, StiffnessNewtonsPerMetre = file.StiffnessNewtonsPerMetre };
             }
             catch (HaptoFlowException refusal)
             {
-                Refusal = refusal.Message + ".";
+                return this with { Refusal = refusal.Message + "." };
             }
         }
     }

@@ -78,7 +78,6 @@ namespace HaptoFlow
             : ByRules is object ? ByRules.At(Place, session) : default;
 
         /// <summary>Records the pose at which the collider is drawn in a frame.</summary>
-        /// <param name="nowSeconds">The tip's clock.</param>
         /// <param name="secondsSinceStep">Time since the last physics step, on the same clock; not a number where none
         /// runs.</param>
         public void Record(double nowSeconds, double secondsSinceStep, in RigidPose pose)
@@ -126,16 +125,13 @@ namespace HaptoFlow
         /// too.</summary>
         public int Searches => isShift ? 2 : 1;
 
-        /// <summary>Colliders that the last search found.</summary>
         public int Count { get; private set; }
 
         /// <summary>True where the last search found more than it can hold.</summary>
         public bool IsFull => Count == MaximumColliders;
 
-        /// <summary>A collider that the last search found.</summary>
         public Collider this[int index] => colliders[index];
 
-        /// <summary>Advances the tip.</summary>
         public void BeginFrame(Double3 tipMetres, double nowSeconds)
         {
             Double3 moved = hasPrevious ? tipMetres - previousTipMetres : Double3.Zero;
@@ -154,7 +150,6 @@ namespace HaptoFlow
             hasPrevious = true;
         }
 
-        /// <summary>Discards the tip's way.</summary>
         public void Forget()
         {
             hasPrevious = false;
@@ -175,7 +170,6 @@ namespace HaptoFlow
                     QueryTriggerInteraction.Ignore);
         }
 
-        /// <summary>Lets go of what was found.</summary>
         public void Clear()
         {
             Array.Clear(colliders, 0, Count);

@@ -68,8 +68,6 @@ namespace HaptoFlow
         }
 
         /// <summary>Where the tip's way first goes through a front face.</summary>
-        /// <param name="from">Start of the way, in the collider's local frame.</param>
-        /// <param name="tip">End of the way, in the collider's local frame.</param>
         public static SurfaceEntry? EntryInto(
             Collider collider, in RigidPose pose, Double3 from, Double3 tip, out RaycastHit? hit)
         {
@@ -135,30 +133,23 @@ namespace HaptoFlow
             private readonly Double3 tip;
 
             public Search(Collider collider, double reach, Double3 tip)
+                : this()
             {
-                this.collider = collider;
-                this.reach = reach;
-                this.tip = tip;
-                Found = false;
-                Point = Double3.Zero;
+                (this.collider, this.reach, this.tip) = (collider, reach, tip);
                 Normal = Double3.Up;
                 Distance = double.PositiveInfinity;
-                Beyond = 0.0;
-                Hit = default;
             }
 
             public bool Found { get; private set; }
             public Double3 Point { get; private set; }
             public Double3 Normal { get; private set; }
 
-            /// <summary>Signed distance in metres, negative inside.</summary>
             public double Distance { get; private set; }
 
             /// <summary>Distance from the mesh's far side for a tip that went through it, 0 for one that did
             /// not.</summary>
             public double Beyond { get; private set; }
 
-            /// <summary>The ray hit that found the point.</summary>
             public RaycastHit Hit { get; private set; }
 
             public void Try(Double3 outward)

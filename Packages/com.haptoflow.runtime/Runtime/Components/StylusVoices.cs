@@ -36,7 +36,6 @@ namespace HaptoFlow
         /// <summary>Counts a device output that the author assigned to the stylus, or no longer assigns.</summary>
         public void Name(bool names) => named += names ? 1 : -1;
 
-        /// <summary>Adds an output that plays the stylus.</summary>
         public void Add(IVoiceTarget target)
         {
             if (!Array.Exists(devices, each => ReferenceEquals(each.Target, target)))
@@ -46,7 +45,6 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>Removes an output that no longer plays the stylus.</summary>
         public void Remove(IVoiceTarget target)
         {
             Device[] before = devices;
@@ -60,43 +58,22 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>Statistics of the audio output's voice; without one, of the first device's.</summary>
-        public bool TryGetStatistics(out VoiceStatistics statistics)
-        {
-            if (audio.TryGetStatistics(out statistics))
-            {
-                return true;
-            }
-            foreach (Device each in devices)
-            {
-                if (each.Voice.TryGetStatistics(out statistics))
-                {
-                    return true;
-                }
-            }
-            return false;
-        }
+        /// <summary>The audio output's voice, which alone plays signals; null where it is not open.</summary>
+        public HapticVoice? OnAudio => audio.OpenVoice;
 
-        /// <summary>Statistics of the audio output's voice, else of the first device's.</summary>
-        public bool TryGetEffectStatistics(HapticEffect effect, out EffectStatistics statistics)
+        /// <summary>The audio output's voice; without one, the first device's that is open.</summary>
+        public HapticVoice? Open
         {
-            if (audio.TryGetEffectStatistics(effect, out statistics))
+            get
             {
-                return true;
-            }
-            foreach (Device each in devices)
-            {
-                if (each.Voice.TryGetEffectStatistics(effect, out statistics))
+                HapticVoice? open = OnAudio;
+                for (int index = 0; open == null && index < devices.Length; ++index)
                 {
-                    return true;
+                    open = devices[index].Voice.OpenVoice;
                 }
+                return open;
             }
-            return false;
         }
-
-        /// <summary>Statistics of the audio output's voice, which alone plays signals.</summary>
-        public bool TryGetSignalStatistics(out SignalStatistics statistics) =>
-            audio.TryGetSignalStatistics(out statistics);
 
         public void Panic()
         {
@@ -137,18 +114,7 @@ namespace HaptoFlow
             return chosen.isActiveAndEnabled ? chosen : null;
         }
 
-        private readonly struct Device
-        {
-            public Device(IVoiceTarget target, StylusVoice voice)
-            {
-                Target = target;
-                Voice = voice;
-            }
-
-            public IVoiceTarget Target { get; }
-
-            public StylusVoice Voice { get; }
-        }
+        private sealed record Device(IVoiceTarget Target, StylusVoice Voice);
     }
 
     /// <summary>The voice of one stylus on one output: opens it when engine and output are available, reopens it when
@@ -182,34 +148,11 @@ namespace HaptoFlow
 
         public StylusVoice(HapticStylus stylus) => this.stylus = stylus;
 
-        // A restart closes the engine with its voices; the stylus detects it in its next update.
-        private bool IsOpen => voice != null && ReferenceEquals(engine, HapticSession.Existing?.Engine);
+        /// <summary>The voice; null while there is none. A restart closes the engine with its voices, which the stylus
+        /// detects in its next update.</summary>
+        public HapticVoice? OpenVoice => ReferenceEquals(engine, HapticSession.Existing?.Engine) ? voice : null;
 
-        public bool TryGetStatistics(out VoiceStatistics statistics)
-        {
-            statistics = IsOpen ? voice!.Statistics() : default;
-            return IsOpen;
-        }
-
-        public bool TryGetEffectStatistics(HapticEffect effect, out EffectStatistics statistics)
-        {
-            statistics = IsOpen ? voice!.EffectStatistics(effect) : default;
-            return IsOpen;
-        }
-
-        public bool TryGetSignalStatistics(out SignalStatistics statistics)
-        {
-            statistics = IsOpen ? voice!.SignalStatistics() : default;
-            return IsOpen;
-        }
-
-        public void Panic()
-        {
-            if (IsOpen)
-            {
-                voice!.Panic();
-            }
-        }
+        public void Panic() => OpenVoice?.Panic();
 
         /// <summary>Publishes a contact state; opens the voice first where possible.</summary>
         /// <param name="felt">The material at the contact; without labels where there is none.</param>
@@ -260,7 +203,6 @@ namespace HaptoFlow
             output = null;
         }
 
-        /// <summary>Whether the tip moves over what it touches, in its frame.</summary>
         private bool Moves(in ContactReading reading)
         {
             PlaceVector place = reading.State.PlaceMetres;

@@ -14,7 +14,6 @@ namespace HaptoFlow
 
         private static readonly UntaggedColliders Untagged = new UntaggedColliders();
 
-        /// <summary>The number of registered colliders, with the destroyed ones that are not swept yet.</summary>
         public static int Count => Surfaces.Count;
 
         /// <summary>Registers a collider, and takes it from the surface that had it.</summary>
@@ -35,7 +34,6 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>True where the collider is registered for the surface.</summary>
         public static bool IsOf(Collider collider, HapticSurface surface) =>
             Surfaces.TryGetValue(collider, out HapticSurface registered) && ReferenceEquals(registered, surface);
 
@@ -80,7 +78,6 @@ namespace HaptoFlow
             return owner;
         }
 
-        /// <summary>The nearest surface at or above a transform.</summary>
         public static HapticSurface? OwnerOf(Transform? place)
         {
             for (Transform? each = place; each != null; each = each.parent)

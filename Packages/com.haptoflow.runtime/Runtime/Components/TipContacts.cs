@@ -33,11 +33,16 @@ namespace HaptoFlow
         private long update;
         private double scale = 1.0;
 
+        // Of this update.
+        private double secondsSinceStep;
+        private int layers;
+        private HapticSession session = null!;
+
         /// <param name="stylus">The stylus, whose own colliders the rules must not match.</param>
-        public TipContacts(ContactSettings settings, double tipRadiusMetres, Transform stylus)
+        public TipContacts(double tipRadiusMetres, Transform stylus)
         {
             this.stylus = stylus;
-            Tracker = new ContactTracker(settings, tipRadiusMetres) { Geometry = this };
+            Tracker = new ContactTracker(tipRadiusMetres) { Geometry = this };
             for (int index = 0; index < near.Length; ++index)
             {
                 near[index] = new NearbyCollider();
@@ -74,10 +79,11 @@ namespace HaptoFlow
             in TipSample sample, double secondsSinceStep, int layers, HapticSession session, Object context)
         {
             ++update;
+            (this.secondsSinceStep, this.layers, this.session) = (secondsSinceStep, layers, session);
             if (Tracker.BeginFrame(sample))
             {
                 search.BeginFrame(TipInWorld, Tracker.NowSeconds);
-                Consider(secondsSinceStep, layers, session, context);
+                Consider(context);
             }
             ContactReading reading = Tracker.EndFrame();
             reading.PointMetres = scale * reading.PointMetres;
@@ -116,26 +122,24 @@ namespace HaptoFlow
             return isNear;
         }
 
-        private void Consider(double secondsSinceStep, int layers, HapticSession session, Object context)
+        private void Consider(Object context)
         {
             using FrontFacesOnly fronts = FrontFacesOnly.Begin();
             SyncMovedMeshes();
             if (hasTooMany)
             {
                 // Colliders that the tip may touch take precedence over those that are only tracked.
-                ConsiderWithin(
-                    scale * (Tracker.ReachMetres + TouchableWithinMetres), secondsSinceStep, layers, session, true);
+                ConsiderWithin(scale * (Tracker.ReachMetres + TouchableWithinMetres), true);
             }
             double trackedMetres = scale * (Tracker.ReachMetres + TrackedWithinMetres) +
                 System.Math.Min(search.WayMetres, scale * TrackedAheadMetres);
-            bool hasAll = ConsiderWithin(trackedMetres, secondsSinceStep, layers, session, false);
-            ConsiderKept(trackedMetres, secondsSinceStep, layers, session);
+            bool hasAll = ConsiderWithin(trackedMetres, false);
+            ConsiderKept(trackedMetres);
             hasTooMany = !hasAll;
             if (Tracker.PassedWithinMetres > TrackedWithinMetres)
             {
                 // With slow frames a hand comes from farther away, and passes what is then far behind it.
-                ConsiderWithin(scale * (Tracker.ReachMetres + Tracker.PassedWithinMetres), secondsSinceStep, layers,
-                    session, false);
+                ConsiderWithin(scale * (Tracker.ReachMetres + Tracker.PassedWithinMetres), false);
             }
             if (hasTooMany)
             {
@@ -145,8 +149,7 @@ namespace HaptoFlow
 
         /// <param name="takesPlaces">True to replace colliders that this update has not found near.</param>
         /// <returns>False where there was no room for some.</returns>
-        private bool ConsiderWithin(
-            double metres, double secondsSinceStep, int layers, HapticSession session, bool takesPlaces)
+        private bool ConsiderWithin(double metres, bool takesPlaces)
         {
             bool hasAll = true;
             for (int number = 0; number < search.Searches; ++number)
@@ -156,7 +159,7 @@ namespace HaptoFlow
                 hasAll &= !search.IsFull;
                 for (int index = 0; index < search.Count; ++index)
                 {
-                    hasAll &= ConsiderFound(search[index], metres, secondsSinceStep, session, takesPlaces);
+                    hasAll &= ConsiderFound(search[index], metres, takesPlaces);
                 }
                 search.Clear();
             }
@@ -164,8 +167,7 @@ namespace HaptoFlow
         }
 
         /// <returns>False where there was no room for the collider.</returns>
-        private bool ConsiderFound(
-            Collider collider, double metres, double secondsSinceStep, HapticSession session, bool takesPlaces)
+        private bool ConsiderFound(Collider collider, double metres, bool takesPlaces)
         {
             bool hasMaterial = Resolve(collider, out HapticSurface? surface, out MappedCollider? byRules);
             if (!hasMaterial || (search.IsWide && !IsDrawnWithin(collider, metres)))
@@ -176,24 +178,24 @@ namespace HaptoFlow
             if (place != null && place.LastUpdate != update)
             {
                 place.LastFound = update;
-                Consider(place, collider, secondsSinceStep, session);
+                Consider(place, collider);
             }
             return place != null;
         }
 
         /// <summary>Colliders that the search no longer finds, although they are drawn near the tip.</summary>
-        private void ConsiderKept(double metres, double secondsSinceStep, int layers, HapticSession session)
+        private void ConsiderKept(double metres)
         {
             foreach (NearbyCollider each in near)
             {
                 Collider? collider = each.Collider;
                 bool isKept = !(collider is null) && each.LastUpdate != update &&
                     (ReferenceEquals(each.Tracked, Tracker.Touched) || update - each.LastFound <= GraceUpdates) &&
-                    IsTouchable(collider, layers) && IsDrawnWithin(collider, metres);
+                    IsTouchable(collider) && IsDrawnWithin(collider, metres);
                 if (isKept && Resolve(collider!, out HapticSurface? surface, out MappedCollider? byRules) &&
                     each.Is(collider!, surface, byRules))
                 {
-                    Consider(each, collider!, secondsSinceStep, session);
+                    Consider(each, collider!);
                 }
             }
         }
@@ -211,7 +213,7 @@ namespace HaptoFlow
 
         /// <summary>True for a collider that the search could find: it may have been destroyed, switched off, or moved to
         /// another layer.</summary>
-        private bool IsTouchable(Collider collider, int layers) =>
+        private bool IsTouchable(Collider collider) =>
             collider != null && collider.enabled && !collider.isTrigger && collider.gameObject.activeInHierarchy &&
             (layers & (1 << collider.gameObject.layer)) != 0 &&
             collider.gameObject.scene.GetPhysicsScene().Equals(stylus.gameObject.scene.GetPhysicsScene());
@@ -230,7 +232,7 @@ namespace HaptoFlow
             }
         }
 
-        private void Consider(NearbyCollider place, Collider collider, double secondsSinceStep, HapticSession session)
+        private void Consider(NearbyCollider place, Collider collider)
         {
             place.LastUpdate = update;
             RigidPose pose = ColliderProbe.PoseOf(collider);

@@ -1,4 +1,6 @@
 #nullable enable
+using System;
+using HaptoFlow.Contact;
 using UnityEngine;
 
 namespace HaptoFlow
@@ -24,5 +26,82 @@ namespace HaptoFlow
         /// cref="HapticHand.None"/> where no hand does, or at present none is known to. Main thread; must make no
         /// garbage.</summary>
         public virtual HapticHand HeldIn => HapticHand.None;
+    }
+
+    /// <summary>What decides whether a stylus touches.</summary>
+    public enum TouchDecision
+    {
+        /// <summary>The tip sphere cuts into a tagged surface. For objects that exist only virtually.</summary>
+        Geometry,
+
+        /// <summary>The force that the stylus measures on its tip, near a tagged surface. For a real object below the
+        /// virtual one, where tracking and alignment are wrong by some millimetres. While no force is measured,
+        /// geometry decides.</summary>
+        MeasuredForce,
+    }
+
+    /// <summary>Thresholds that turn a measured force into touch-down and lift-off. Main thread.</summary>
+    [Serializable]
+    public sealed class ForceDecision
+    {
+        private const float MinimumNewtons = 0.001f;
+        private const float MinimumMetres = 0.001f;
+
+        // Physics queries do not look for colliders farther away than this.
+        private const float MaximumMetres = 0.04f;
+        private const float MaximumReleaseShare = 0.9f;
+
+        [SerializeField, Min(MinimumNewtons), Tooltip("A touch begins at this force, in newtons.")]
+        private float pressNewtons = (float)ForceTouch.DefaultPressNewtons;
+
+        [SerializeField, Min(0f), Tooltip("A touch ends at this force, in newtons. It has to be below the press " +
+            "force by more than the sensor's noise.")]
+        private float releaseNewtons = (float)ForceTouch.DefaultReleaseNewtons;
+
+        [SerializeField, Range(MinimumMetres, MaximumMetres), Tooltip("A pressing tip touches a surface within this " +
+            "distance on either side, in metres. The distance has to exceed the errors of tracking and alignment.")]
+        private float nearMetres = (float)ForceTouch.DefaultNearMetres;
+
+        private ForceTouch? detector;
+
+        /// <summary>A touch begins at this force, in newtons; 0.001 or more.</summary>
+        public float PressNewtons
+        {
+            get => pressNewtons;
+            set => Change(ref pressNewtons, Mathf.Max(MinimumNewtons, value));
+        }
+
+        /// <summary>A touch ends at this force, in newtons. Values above nine tenths of the press force are treated as
+        /// nine tenths of it.</summary>
+        public float ReleaseNewtons { get => releaseNewtons; set => Change(ref releaseNewtons, Mathf.Max(0f, value)); }
+
+        /// <summary>Largest distance between the pressing tip and a tagged surface, in metres, 0.001 to 0.04.</summary>
+        public float NearMetres
+        {
+            get => nearMetres;
+            set => Change(ref nearMetres, Mathf.Clamp(value, MinimumMetres, MaximumMetres));
+        }
+
+        /// <summary>The detector with these thresholds; the same object until a threshold changes.</summary>
+        internal ForceTouch Detector() => detector ??= NewDetector();
+
+        internal ForceTouch NewDetector()
+        {
+            float press = Mathf.Max(MinimumNewtons, pressNewtons);
+            return new ForceTouch
+            {
+                PressNewtons = press,
+                ReleaseNewtons = Mathf.Clamp(releaseNewtons, 0f, MaximumReleaseShare * press),
+                NearMetres = Mathf.Clamp(nearMetres, MinimumMetres, MaximumMetres),
+            };
+        }
+
+        internal void ResetDetector() => detector = null;
+
+        private void Change(ref float field, float value)
+        {
+            field = value;
+            detector = null;
+        }
     }
 }

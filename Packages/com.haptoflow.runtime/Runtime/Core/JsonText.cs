@@ -23,68 +23,28 @@ namespace HaptoFlow.Model
             var text = new StringWriter(CultureInfo.InvariantCulture);
             using (var writer = new ShortNumberWriter(text))
             {
-                Write(writer, value);
+                Token(value).WriteTo(writer);
             }
             return text.ToString();
         }
 
-        private static void Write(JsonWriter writer, object? value)
+        private static JToken Token(object? value) => value switch
         {
-            switch (value)
-            {
-                case null:
-                    writer.WriteNull();
-                    break;
-                case JsonValue parsed:
-                    parsed.WriteTo(writer);
-                    break;
-                case bool truth:
-                    writer.WriteValue(truth);
-                    break;
-                case string words:
-                    writer.WriteValue(words);
-                    break;
-                case float number when !float.IsNaN(number) && !float.IsInfinity(number):
-                    writer.WriteValue(number);
-                    break;
-                case double number when !double.IsNaN(number) && !double.IsInfinity(number):
-                    writer.WriteValue(number);
-                    break;
-                case int number:
-                    writer.WriteValue(number);
-                    break;
-                case ulong number:
-                    writer.WriteValue(number);
-                    break;
-                case IEnumerable<KeyValuePair<string, JsonValue>> members:
-                    WriteMembers(writer, members);
-                    break;
-                case IEnumerable<KeyValuePair<string, object?>> members:
-                    WriteMembers(writer, members);
-                    break;
-                case IEnumerable elements:
-                    writer.WriteStartArray();
-                    foreach (object? element in elements)
-                    {
-                        Write(writer, element);
-                    }
-                    writer.WriteEndArray();
-                    break;
-                default:
-                    throw new ArgumentException($"JSON has no form for {value}", nameof(value));
-            }
-        }
-
-        private static void WriteMembers<T>(JsonWriter writer, IEnumerable<KeyValuePair<string, T>> members)
-        {
-            writer.WriteStartObject();
-            foreach (KeyValuePair<string, T> member in members)
-            {
-                writer.WritePropertyName(member.Key);
-                Write(writer, member.Value);
-            }
-            writer.WriteEndObject();
-        }
+            null => JValue.CreateNull(),
+            JsonValue parsed => parsed.Token,
+            bool truth => new JValue(truth),
+            string words => new JValue(words),
+            float number when !float.IsNaN(number) && !float.IsInfinity(number) => new JValue(number),
+            double number when !double.IsNaN(number) && !double.IsInfinity(number) => new JValue(number),
+            int number => new JValue(number),
+            ulong number => new JValue(number),
+            IEnumerable<KeyValuePair<string, JsonValue>> members =>
+                new JObject(members.Select(member => new JProperty(member.Key, member.Value.Token))),
+            IEnumerable<KeyValuePair<string, object?>> members =>
+                new JObject(members.Select(member => new JProperty(member.Key, Token(member.Value)))),
+            IEnumerable elements => new JArray(elements.Cast<object?>().Select(Token)),
+            _ => throw new ArgumentException($"JSON has no form for {value}", nameof(value)),
+        };
 
         /// <summary>Writes the double 5 as "5", not "5.0": a number reads the same whether it was computed or parsed.
         /// </summary>
@@ -114,27 +74,25 @@ namespace HaptoFlow.Model
         // A double holds every whole number up to here exactly.
         private const double MaximumExactInteger = 9007199254740992.0;
 
-        private readonly JToken token;
+        private JsonValue(JToken token) => Token = token;
 
-        private JsonValue(JToken token) => this.token = token;
+        internal JToken Token { get; }
 
         /// <summary>Place in the document, for example "labels[3].name"; "the document" for the whole.</summary>
-        public string Path => token.Path.Length > 0 ? token.Path : "the document";
+        public string Path => Token.Path.Length > 0 ? Token.Path : "the document";
 
         /// <summary>JSON null.</summary>
-        public bool IsNull => token.Type == JTokenType.Null;
+        public bool IsNull => Token.Type == JTokenType.Null;
 
-        internal bool IsObject => token is JObject;
+        internal bool IsObject => Token is JObject;
 
-        /// <summary>Null where the value is not a string.</summary>
-        internal string? Text => (token as JValue)?.Value as string;
+        internal string? Text => (Token as JValue)?.Value as string;
 
-        /// <summary>Null where the value is not an array.</summary>
         internal IReadOnlyList<JsonValue>? Elements =>
-            (token as JArray)?.Select(element => new JsonValue(element)).ToArray();
+            (Token as JArray)?.Select(element => new JsonValue(element)).ToArray();
 
         /// <summary>Null where the value is not a number that a double can hold.</summary>
-        internal double? Number => (token as JValue)?.Value switch
+        internal double? Number => (Token as JValue)?.Value switch
         {
             double real when Math.Abs(real) <= double.MaxValue => real,
             long whole => whole,
@@ -142,8 +100,7 @@ namespace HaptoFlow.Model
             _ => (double?)null,
         };
 
-        /// <summary>Null where the value is neither true nor false.</summary>
-        internal bool? Truth => (token as JValue)?.Value as bool?;
+        internal bool? Truth => (Token as JValue)?.Value as bool?;
 
         /// <summary>Parses a JSON document, nested 32 levels deep at most, no key twice in an object.</summary>
         /// <exception cref="FormatException">The text is not valid; the message names line and position.</exception>
@@ -185,7 +142,7 @@ namespace HaptoFlow.Model
         }
 
         /// <summary>A whole number from 0 to 2^64 - 1, exactly.</summary>
-        public ulong AsUnsigned64() => (token as JValue)?.Value switch
+        public ulong AsUnsigned64() => (Token as JValue)?.Value switch
         {
             long whole when whole >= 0 => (ulong)whole,
             BigInteger whole when whole.Sign >= 0 && whole <= ulong.MaxValue => (ulong)whole,
@@ -218,12 +175,10 @@ namespace HaptoFlow.Model
             Members().TryGetValue(key, out JToken? member) ? new JsonValue(member!) : null;
 
         /// <summary>An element of an array.</summary>
-        public JsonValue this[int index] => new JsonValue((token as JArray ?? throw Expected("an array"))[index]);
+        public JsonValue this[int index] => new JsonValue((Token as JArray ?? throw Expected("an array"))[index]);
 
         internal FormatException Expected(string expectation) => new FormatException($"{Path} is not {expectation}");
 
-        internal void WriteTo(JsonWriter writer) => token.WriteTo(writer);
-
-        private JObject Members() => token as JObject ?? throw Expected("an object");
+        private JObject Members() => Token as JObject ?? throw Expected("an object");
     }
 }

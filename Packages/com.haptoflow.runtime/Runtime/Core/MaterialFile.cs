@@ -75,7 +75,6 @@ namespace HaptoFlow.Model
         /// <summary>Forces of the recordings, in N.</summary>
         public TrainedInterval ForceNewtons { get; }
 
-        /// <summary>The text that was read.</summary>
         internal string Text { get; }
 
         /// <param name="text">The whole .haptomaterial file.</param>
@@ -113,7 +112,6 @@ namespace HaptoFlow.Model
         };
 
         /// <summary>The material file of a label. It has no seeds: if the model needs seeds, its own apply.</summary>
-        /// <param name="file">The whole .haptoflow file.</param>
         /// <exception cref="HaptoFlowException">The bytes are not a model, or it has no such label.</exception>
         public static string OfLabel(byte[] file, string label)
         {
@@ -165,7 +163,6 @@ namespace HaptoFlow.Model
             return JsonText.Of(members);
         }
 
-        /// <summary>A copy of a material with some members replaced.</summary>
         public static string With(MaterialFile material, IReadOnlyDictionary<string, object?> changes)
         {
             var members = new Dictionary<string, object?>();

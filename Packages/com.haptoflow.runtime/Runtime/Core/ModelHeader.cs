@@ -1,6 +1,8 @@
 #nullable enable
+using System;
 using System.Collections.Generic;
 using System.Linq;
+using System.Text;
 using HaptoFlow.Native;
 
 namespace HaptoFlow.Model
@@ -106,6 +108,138 @@ namespace HaptoFlow.Model
         {
             using HapticModel model = HapticModel.Open(file);
             return model.Header;
+        }
+    }
+
+    /// <summary>Finds labels by name, and suggests labels for a misspelt name.</summary>
+    public sealed class LabelNames
+    {
+        private const int RememberedSpellings = 1024;
+
+        private readonly Dictionary<string, int> indices = new Dictionary<string, int>(LabelSpelling.Same);
+
+        // Spellings that were asked for: a surface asks each frame, and a comparison beyond ASCII allocates.
+        private readonly Dictionary<string, int> asked = new Dictionary<string, int>(StringComparer.Ordinal);
+        private readonly string[] names;
+
+        /// <param name="labels">Names in the order of their indices.</param>
+        public LabelNames(IEnumerable<string> labels)
+        {
+            names = labels.ToArray();
+            for (int index = 0; index < names.Length; ++index)
+            {
+                indices[names[index]] = index;
+            }
+        }
+
+        /// <summary>Names in the order of their indices.</summary>
+        public IReadOnlyList<string> All => names;
+
+        /// <summary>Finds the index of a name; case and the form of accents are ignored (<see cref="LabelSpelling"/>).
+        /// One thread at a time.</summary>
+        public bool TryFind(string name, out int index)
+        {
+            if (!asked.TryGetValue(name, out index))
+            {
+                index = indices.TryGetValue(name, out int found) ? found : -1;
+                if (asked.Count < RememberedSpellings)
+                {
+                    asked[name] = index;
+                }
+            }
+            bool isKnown = index >= 0;
+            index = Math.Max(index, 0);
+            return isKnown;
+        }
+
+        /// <summary>Up to three labels with at most two different letters, or of which one name contains the other, in
+        /// order of similarity.</summary>
+        public IReadOnlyList<string> NearMatches(string name)
+        {
+            string wanted = name.Trim().ToLowerInvariant();
+            return names
+                .Select(label => (label, distance: Distance(wanted, label.ToLowerInvariant())))
+                .Where(match => match.distance <= 2 || Holds(wanted, match.label.ToLowerInvariant()))
+                .OrderBy(match => match.distance)
+                .ThenBy(match => match.label, StringComparer.Ordinal)
+                .Select(match => match.label)
+                .Take(3)
+                .ToArray();
+        }
+
+        private static bool Holds(string wanted, string label) =>
+            wanted.Length >= 3 && (label.Contains(wanted) || wanted.Contains(label));
+
+        /// <summary>Edit distance: letters to insert, delete or replace (Levenshtein 1966); .NET has none.</summary>
+        private static int Distance(string a, string b)
+        {
+            int[] row = Enumerable.Range(0, b.Length + 1).ToArray();
+            for (int i = 1; i <= a.Length; ++i)
+            {
+                int diagonal = row[0];
+                row[0] = i;
+                for (int j = 1; j <= b.Length; ++j)
+                {
+                    int above = row[j];
+                    int replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+                    row[j] = Math.Min(Math.Min(above, row[j - 1]) + 1, replaced);
+                    diagonal = above;
+                }
+            }
+            return row[b.Length];
+        }
+    }
+
+    /// <summary>Compares labels as every reader of HaptoFlow does: case and the form of accents (composed or not) do not
+    /// matter, the language of the machine neither. Native code does the same, by the golden file Tests/Golden/labels.
+    /// Any thread.</summary>
+    public sealed class LabelSpelling : IEqualityComparer<string>
+    {
+        /// <summary>The one comparer.</summary>
+        public static readonly LabelSpelling Same = new LabelSpelling();
+
+        private LabelSpelling()
+        {
+        }
+
+        /// <summary>True for two spellings of one label. Allocates only where one has letters beyond ASCII.</summary>
+        public bool Equals(string? first, string? second) =>
+            string.Equals(Key(first), Key(second), StringComparison.OrdinalIgnoreCase);
+
+        /// <summary>The same number for all spellings of one label.</summary>
+        public int GetHashCode(string label) => StringComparer.OrdinalIgnoreCase.GetHashCode(Key(label)!);
+
+        /// <summary>The text with each accent joined to its letter (Unicode form C), so that the same word has the same
+        /// characters. ASCII is returned as it is.</summary>
+        internal static string Composed(string text) => Normalized(text, NormalizationForm.FormC);
+
+        // Mono, unlike .NET, has no capital for the sigma that ends a word.
+        private static string? Key(string? label) =>
+            label == null ? null : Normalized(label, NormalizationForm.FormD).Replace('\u03C2', '\u03C3');
+
+        private static string Normalized(string text, NormalizationForm form)
+        {
+            try
+            {
+                return IsAscii(text) ? text : text.Normalize(form);
+            }
+            catch (ArgumentException)
+            {
+                // Half of a surrogate pair is no text; it is compared as it is.
+                return text;
+            }
+        }
+
+        private static bool IsAscii(string text)
+        {
+            foreach (char letter in text)
+            {
+                if (letter > '\x7F')
+                {
+                    return false;
+                }
+            }
+            return true;
         }
     }
 }

@@ -9,7 +9,7 @@ namespace HaptoFlow
     /// is rendered on the main thread at the pace of the device; no audio device is needed.</summary>
     /// <remarks>The capabilities of devices are polled: a device that disappears, sleeps or returns as another one is
     /// used according to its present capabilities.</remarks>
-    public abstract class DeviceOutput : MonoBehaviour, IVoiceTarget
+    public abstract class DeviceOutput : VoiceOutput, IVoiceTarget
     {
         /// <summary>Assumed acceleration of a controller at its full amplitude, in m/s^2.</summary>
         public const float DefaultFullScaleMps2 = 60f;
@@ -25,17 +25,6 @@ namespace HaptoFlow
 
         [SerializeField, Tooltip("The hand whose device plays. None uses the hand that holds the stylus.")]
         private HapticHand hand = HapticHand.None;
-
-        [SerializeField, Range(0f, 1f), Tooltip("The gain of this output, multiplied with the surface's and the " +
-            "stylus's.")]
-        private float strength = 1f;
-
-        [SerializeField, Tooltip("A muted output is silent and costs no inference.")]
-        private bool muted;
-
-        [SerializeField, Tooltip("The output goes on while AudioListener.pause is on, as pause menus set it. When it is " +
-            "off, it is silent meanwhile.")]
-        private bool playWhilePaused;
 
         [SerializeField, Range(0f, MaximumDeviceLoudness), Tooltip("How strongly the device plays: 1 is fitted so that " +
             "every shipped label is felt, 0 is silent. It has no effect with True Level.")]
@@ -58,7 +47,6 @@ namespace HaptoFlow
         private HapticStylus? namedIn;
         [NonSerialized]
         private HapticHand openedFor;
-        private OutputPause pause;
         private double nextSearchSeconds;
         private bool wasThere;
 
@@ -81,28 +69,6 @@ namespace HaptoFlow
 
         /// <summary>The hand whose device is used; <see cref="HapticHand.None"/> for the stylus's.</summary>
         public HapticHand Hand { get => hand; set => hand = value; }
-
-        /// <summary>Gain, 0 to 1.</summary>
-        public float Strength { get => strength; set => strength = Mathf.Clamp01(value); }
-
-        /// <summary>A muted output is silent from this frame on and costs no inference.</summary>
-        public bool Muted
-        {
-            get => muted;
-            set
-            {
-                muted = value;
-                source.ForEach((voice, on) => voice.SetMuted(on), muted);
-                if (muted)
-                {
-                    DiscardSubmitted();
-                }
-            }
-        }
-
-        /// <summary>True to go on while AudioListener.pause is on, as a sound with AudioSource.ignoreListenerPause does.
-        /// Off by default: a pause menu silences the device.</summary>
-        public bool PlayWhilePaused { get => playWhilePaused; set => playWhilePaused = value; }
 
         /// <summary>How strongly the device plays, 0 to <see cref="MaximumDeviceLoudness"/>: a gain after the loudness
         /// law. Has no effect with <see cref="TrueLevel"/>.</summary>
@@ -140,35 +106,36 @@ namespace HaptoFlow
 
         int IVoiceTarget.SampleRateHz => (int)WaveHistory.RateHz;
 
-        /// <summary>Silences the output at once; the stylus sounds again with its next touch-down.</summary>
-        public void Panic()
-        {
-            source.ForEach((voice, _) => voice.Panic(), 0);
-            DiscardSubmitted();
-        }
-
         void IVoiceTarget.Add(HapticVoice voice)
         {
-            voice.SetMuted(muted);
-            voice.SetPaused(pause.IsPaused);
+            Adopt(voice);
             source.Add(voice);
+        }
+
+        internal override void ForEachVoice<T>(Action<HapticVoice, T> act, T argument) => source.ForEach(act, argument);
+
+        /// <summary>Discards submitted samples, and the fade with which the voices close.</summary>
+        private protected override void Silence(bool isSilent)
+        {
+            if (isSilent)
+            {
+                source.Discard();
+                device.Flush();
+            }
         }
 
         /// <summary>True for an output created for a stylus without one.</summary>
         internal virtual bool IsMade => false;
 
-        /// <summary>False to queue submissions behind each other.</summary>
         private protected virtual bool MayReplace => true;
 
         /// <summary>Opens the sinks to try, in order of preference.</summary>
         private protected abstract void OpenSinks(HapticHand wanted, HeldDevice into);
 
-        /// <summary>Called when another device is used.</summary>
         private protected virtual void OnDevice(HapticForm form, IHapticSink sink, HapticHand held)
         {
         }
 
-        /// <summary>Searches for a device now. Main thread.</summary>
         private protected void FindDevice()
         {
             HapticHand held = SearchedHand;
@@ -190,7 +157,7 @@ namespace HaptoFlow
 
         private void OnEnable()
         {
-            pause.Update(playWhilePaused);
+            ReadPause();
             Attach();
             nextSearchSeconds = 0.0;
         }
@@ -215,30 +182,10 @@ namespace HaptoFlow
             Name(null);
         }
 
-        private void OnApplicationPause(bool paused)
-        {
-            if (pause.PauseApplication(paused, playWhilePaused))
-            {
-                PauseVoices();
-            }
-        }
-
-        private void PauseVoices()
-        {
-            source.ForEach((voice, on) => voice.SetPaused(on), pause.IsPaused);
-            if (pause.IsPaused)
-            {
-                DiscardSubmitted();
-            }
-        }
-
         // Runs after the styluses have published: see the execution order of each output.
         private void LateUpdate()
         {
-            if (pause.Update(playWhilePaused))
-            {
-                PauseVoices();
-            }
+            FollowPause();
             double now = Time.realtimeSinceStartupAsDouble;
             if (wasThere && !HasDevice)
             {
@@ -262,19 +209,12 @@ namespace HaptoFlow
                 bool isThere = HasDevice;
                 if (isThere && !wasThere)
                 {
-                    source.Forget(pause.IsPaused);
+                    source.Forget(IsPaused);
                 }
                 wasThere = isThere;
                 queue.YieldUntilSeconds = HandYields.UntilSeconds(openedFor);
                 queue.Update(now);
             }
-        }
-
-        /// <summary>Discards submitted samples, and the fade with which the voices close.</summary>
-        private void DiscardSubmitted()
-        {
-            source.Discard();
-            device.Flush();
         }
 
         private HapticStylus? Wanted()

@@ -25,7 +25,7 @@ namespace HaptoFlow
     [AddComponentMenu("HaptoFlow/Haptic Output")]
     [DisallowMultipleComponent]
     [HelpPage(HelpPages.Components + "haptic-output")]
-    public sealed class HapticOutput : MonoBehaviour, IVoiceTarget
+    public sealed class HapticOutput : VoiceOutput, IVoiceTarget
     {
         [SerializeField, Tooltip("The route leads the wave to the audio device. Audio Source plays beside other " +
             "sounds. Listener Channel overwrites one channel. Mixer Effect plays inside an Audio Mixer. The route is " +
@@ -36,16 +36,6 @@ namespace HaptoFlow
             "plays on all channels. A channel that the device does not have is silent. The route Listener Channel " +
             "needs a channel from 0.")]
         private int channel = HapticVoice.AllChannels;
-
-        [SerializeField, Range(0f, 1f), Tooltip("Strength is the gain of this output, from 0 to 1.")]
-        private float strength = 1f;
-
-        [SerializeField, Tooltip("A muted output is silent, and runs no inference.")]
-        private bool muted;
-
-        [SerializeField, Tooltip("The haptics go on while AudioListener.pause is on, as pause menus set it. When it is " +
-            "off, they are silent meanwhile.")]
-        private bool playWhilePaused;
 
         [SerializeField, Tooltip("AudioListener.volume also applies to the haptics. When it is off, the haptics stay as " +
             "they are when a game turns its sound down.")]
@@ -68,7 +58,6 @@ namespace HaptoFlow
         private readonly OutputMeter meter = new OutputMeter();
         private AudioCalls? calls;
         private CallWatch watch;
-        private OutputPause pause;
         private double signalHz;
         private double signalMps2;
         private bool started;
@@ -114,10 +103,6 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>True to go on while AudioListener.pause is on, as a sound with AudioSource.ignoreListenerPause does.
-        /// Off by default: a pause menu silences the haptics.</summary>
-        public bool PlayWhilePaused { get => playWhilePaused; set => playWhilePaused = value; }
-
         /// <summary>True to apply AudioListener.volume to the haptics as well, with <see
         /// cref="OutputRoute.AudioSource"/>. Off by default: a game that lowers its sound keeps its haptics.</summary>
         public bool ObeyListener
@@ -127,20 +112,6 @@ namespace HaptoFlow
             {
                 obeyListener = value;
                 calls?.ObeyVolume(value);
-            }
-        }
-
-        /// <summary>Gain, 0 to 1.</summary>
-        public float Strength { get => strength; set => strength = Mathf.Clamp01(value); }
-
-        /// <summary>A muted output is silent and costs no inference.</summary>
-        public bool Muted
-        {
-            get => muted;
-            set
-            {
-                muted = value;
-                mixer.ForEach((voice, on) => voice.SetMuted(on), muted);
             }
         }
 
@@ -189,9 +160,6 @@ namespace HaptoFlow
         /// <summary>Longest time to render a block, in ms.</summary>
         public float WorstRenderMilliseconds => meter.WorstMilliseconds;
 
-        /// <summary>Silences the output at once; each stylus sounds again with its next touch-down.</summary>
-        public void Panic() => mixer.ForEach((voice, _) => voice.Panic(), 0);
-
         /// <summary>True for an output created automatically for a scene without one.</summary>
         internal bool IsMade => isMade;
 
@@ -216,8 +184,7 @@ namespace HaptoFlow
 
         void IVoiceTarget.Add(HapticVoice voice)
         {
-            voice.SetMuted(muted);
-            voice.SetPaused(pause.IsPaused);
+            Adopt(voice);
             processing.Apply(voice, this);
             voice.SetSignal(signalHz, signalMps2);
             mixer.Add(voice);
@@ -233,8 +200,7 @@ namespace HaptoFlow
             set => meter.Recorder = value;
         }
 
-        /// <summary>Calls an action with every voice of this output. Main thread.</summary>
-        internal void ForEachVoice<T>(Action<HapticVoice, T> act, T argument) => mixer.ForEach(act, argument);
+        internal override void ForEachVoice<T>(Action<HapticVoice, T> act, T argument) => mixer.ForEach(act, argument);
 
         /// <summary>Tells the mixer effect which voice to play; where that fails, the console says so.</summary>
         private void NameVoice(HapticVoice voice)
@@ -253,7 +219,7 @@ namespace HaptoFlow
         {
             UpdateRendering();
             ReadConfiguration();
-            pause.Update(playWhilePaused);
+            ReadPause();
             AudioSettings.OnAudioConfigurationChanged += OnConfigurationChanged;
             SceneOutputs.Add(this);
             if (started)
@@ -276,10 +242,7 @@ namespace HaptoFlow
             {
                 Open();
             }
-            if (pause.Update(playWhilePaused))
-            {
-                PauseVoices();
-            }
+            FollowPause();
             UnityAudio.Poll();
             if (UnityAudio.Problem != null)
             {
@@ -307,14 +270,6 @@ namespace HaptoFlow
                 calls?.Close();
             }
             isOpen = false;
-        }
-
-        private void OnApplicationPause(bool paused)
-        {
-            if (pause.PauseApplication(paused, playWhilePaused))
-            {
-                PauseVoices();
-            }
         }
 
         private void OnValidate()
@@ -362,8 +317,6 @@ namespace HaptoFlow
                 mixer.ForEach((voice, output) => output.NameVoice(voice), this);
             }
         }
-
-        private void PauseVoices() => mixer.ForEach((voice, on) => voice.SetPaused(on), pause.IsPaused);
 
         /// <summary>The native library counts for the mixer effect.</summary>
         private ulong CallCount() => route == OutputRoute.MixerEffect ? mixer.RenderedFrames() : (ulong)callCount;

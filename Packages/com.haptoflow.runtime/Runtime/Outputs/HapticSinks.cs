@@ -46,10 +46,8 @@ namespace HaptoFlow
             Open(HapticForm.Amplitude, hand, into);
         }
 
-        /// <summary>The names of the routes to devices that are registered now.</summary>
         internal static IReadOnlyList<string> Names() => Routes.ConvertAll(route => route.Name);
 
-        /// <summary>Calls an action with the name, the form and the maker of each route.</summary>
         internal static void ForEach(Action<string, HapticForm, HapticSinkMaker> act) =>
             Routes.ForEach(route => act(route.Name, route.Form, route.Maker));
 
@@ -82,19 +80,16 @@ namespace HaptoFlow
     {
         private readonly List<(HapticForm Form, IHapticSink Sink)> sinks = new List<(HapticForm, IHapticSink)>();
 
-        /// <summary>Null until a device was found.</summary>
         public IHapticSink? Sink { get; private set; }
 
         public HapticForm Form { get; private set; }
 
-        /// <summary>Null until a device was found.</summary>
         public HapticQueue? Queue { get; private set; }
 
         public bool IsThere => Sink != null && Sink.TryGetCapabilities(out _);
 
         public bool HasSinks => sinks.Count > 0;
 
-        /// <summary>Adds a sink to try after all others.</summary>
         public void Add(HapticForm form, IHapticSink sink) => sinks.Add((form, sink));
 
         /// <summary>Uses the first sink whose device is there.</summary>
@@ -112,10 +107,8 @@ namespace HaptoFlow
             return true;
         }
 
-        /// <summary>Discards what was submitted.</summary>
         public void Flush() => Queue?.Flush(Time.realtimeSinceStartupAsDouble);
 
-        /// <summary>Stops the device and forgets all sinks.</summary>
         public void Close()
         {
             Flush();
@@ -135,7 +128,6 @@ namespace HaptoFlow
         private readonly VoiceMixer mixer = new VoiceMixer();
         private readonly float[] closing = new float[(int)(ClosingSeconds * WaveHistory.RateHz)];
 
-        /// <inheritdoc/>
         public bool IsStopped => mixer.AllAreStopped();
 
         public void Add(HapticVoice voice) => mixer.Add(voice);
@@ -146,7 +138,6 @@ namespace HaptoFlow
         public void Discard() => Render(closing);
 
         /// <summary>Discards impacts and edges that came while no device could play them.</summary>
-        /// <param name="staysPaused">True where the output is paused, and its voices with it.</param>
         public void Forget(bool staysPaused)
         {
             ForEach((voice, _) => voice.SetPaused(true), 0);
@@ -154,7 +145,6 @@ namespace HaptoFlow
             ForEach((voice, stays) => voice.SetPaused(stays), staysPaused);
         }
 
-        /// <inheritdoc/>
         public void Render(Span<float> samples)
         {
             using (Markers.Render.Auto())
@@ -172,7 +162,6 @@ namespace HaptoFlow
 
         private static readonly double[] Until = new double[Enum.GetValues(typeof(HapticHand)).Length];
 
-        /// <summary>See <see cref="Haptics.Yield"/>.</summary>
         public static void Yield(HapticHand hand, float seconds)
         {
             if (!(seconds > 0f))

@@ -22,7 +22,6 @@ namespace HaptoFlow
         public static bool AreSwitchedOff => Authors.Count == 0 && dormant != null;
 
         /// <summary>Null for silence.</summary>
-        /// <param name="asker">The stylus, named in the message about an output that had to be created.</param>
         public static HapticOutput? For(HapticStylus asker)
         {
             FindDisabledOutputs();

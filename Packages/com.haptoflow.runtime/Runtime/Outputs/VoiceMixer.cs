@@ -16,7 +16,6 @@ namespace HaptoFlow
         // The audio thread's: also those that fade; 0 for one that has.
         private ulong[] sounding = Array.Empty<ulong>();
 
-        /// <summary>True where there is a voice that is not closed.</summary>
         public bool HasVoices => Array.Exists(voices, voice => IsOpen(voice));
 
         public void Add(HapticVoice voice)
@@ -50,7 +49,7 @@ namespace HaptoFlow
             ulong frames = 0UL;
             foreach (HapticVoice voice in voices)
             {
-                frames += IsOpen(voice) ? FramesOf(voice) : 0UL;
+                frames += TryGetStatistics(voice, out VoiceStatistics statistics) ? statistics.RenderedFrames : 0UL;
             }
             return frames;
         }
@@ -61,7 +60,9 @@ namespace HaptoFlow
         {
             foreach (HapticVoice voice in voices)
             {
-                if (IsOpen(voice) && !IsStopped(voice))
+                if (TryGetStatistics(voice, out VoiceStatistics statistics) && !(statistics.Silence is
+                    HapticSilence.Muted or HapticSilence.Paused or HapticSilence.Panic or HapticSilence.Closing or
+                    HapticSilence.TurnedDown))
                 {
                     return false;
                 }
@@ -94,30 +95,22 @@ namespace HaptoFlow
             return before;
         }
 
-        private static ulong FramesOf(HapticVoice voice)
+        /// <summary>False for a voice that is closed, also by a restart of the engine in this frame.</summary>
+        private static bool TryGetStatistics(HapticVoice voice, out VoiceStatistics statistics)
         {
+            statistics = default;
             try
             {
-                return voice.Statistics().RenderedFrames;
-            }
-            catch (HaptoFlowException closed) when (closed.Status == HaptoFlowStatus.InvalidArgument)
-            {
-                return 0UL;
-            }
-        }
-
-        private static bool IsStopped(HapticVoice voice)
-        {
-            try
-            {
-                HapticSilence silence = voice.Statistics().Silence;
-                return silence == HapticSilence.Muted || silence == HapticSilence.Paused ||
-                    silence == HapticSilence.Panic || silence == HapticSilence.Closing ||
-                    silence == HapticSilence.TurnedDown;
-            }
-            catch (HaptoFlowException closed) when (closed.Status == HaptoFlowStatus.InvalidArgument)
-            {
+                if (!IsOpen(voice))
+                {
+                    return false;
+                }
+                statistics = voice.Statistics();
                 return true;
+            }
+            catch (HaptoFlowException closed) when (closed.Status == HaptoFlowStatus.InvalidArgument)
+            {
+                return false;
             }
         }
     }
@@ -125,10 +118,8 @@ namespace HaptoFlow
     /// <summary>An output as the interface between a stylus's voice and the device. Main thread.</summary>
     internal interface IVoiceTarget
     {
-        /// <summary>Rate at which the output renders, 8000 to 192000 Hz.</summary>
         int SampleRateHz { get; }
 
-        /// <summary>Gain, 0 to 1.</summary>
         float Strength { get; }
 
         /// <summary>True while the output plays a signal instead of textures: it begins and ends with the tip's
@@ -154,7 +145,6 @@ namespace HaptoFlow
         /// <summary>Peak magnitude, which decays within some blocks.</summary>
         public float Peak => peak;
 
-        /// <summary>Render time of the last block.</summary>
         public float Milliseconds => milliseconds;
 
         public float WorstMilliseconds => worstMilliseconds;
@@ -182,31 +172,6 @@ namespace HaptoFlow
                 largest = Math.Max(largest, Math.Abs(samples[index]));
             }
             peak = Math.Max(largest, peak * FallPerBlock);
-        }
-    }
-
-    /// <summary>Whether an output is paused: while the application is, and while AudioListener.pause is set, unless the
-    /// output plays while paused. Main thread.</summary>
-    internal struct OutputPause
-    {
-        private bool application;
-
-        public bool IsPaused { get; private set; }
-
-        /// <summary>True where the application's pause began or ended the output's.</summary>
-        public bool PauseApplication(bool paused, bool playsWhilePaused)
-        {
-            application = paused;
-            return Update(playsWhilePaused);
-        }
-
-        /// <summary>Reads AudioListener.pause, which Unity does not report; true where the output's pause began or
-        /// ended.</summary>
-        public bool Update(bool playsWhilePaused)
-        {
-            bool before = IsPaused;
-            IsPaused = application || (AudioListener.pause && !playsWhilePaused);
-            return IsPaused != before;
         }
     }
 }

@@ -3,4 +3,4 @@ using System.Runtime.CompilerServices;
 [assembly: InternalsVisibleTo("HaptoFlow.Editor")]
 [assembly: InternalsVisibleTo("HaptoFlow.EditorTests")]
 [assembly: InternalsVisibleTo("HaptoFlow.Meta")]
-[assembly: InternalsVisibleTo("HaptoFlow.SampleTests")]
+[assembly: InternalsVisibleTo("HaptoFlow.Tests")]

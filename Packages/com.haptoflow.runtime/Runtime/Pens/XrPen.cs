@@ -2,6 +2,7 @@
 using System;
 using UnityEngine;
 #if HAPTOFLOW_INPUT_SYSTEM && ENABLE_INPUT_SYSTEM
+using System.Collections.Generic;
 using UnityEngine.InputSystem;
 #endif
 
@@ -184,6 +185,7 @@ namespace HaptoFlow
         };
 
         private readonly DisguisedMxInk disguise = new DisguisedMxInk();
+        private readonly List<InputAction> opened = new List<InputAction>();
         private InputAction? isTracked;
         private InputAction? pressure;
         private InputAction? stick;
@@ -228,24 +230,17 @@ namespace HaptoFlow
 
         private void CloseControls()
         {
-            isTracked?.Dispose();
-            pressure?.Dispose();
-            stick?.Dispose();
-            stickTouched?.Dispose();
-            Array.ForEach(positions, action => action.Dispose());
-            Array.ForEach(rotations, action => action.Dispose());
-            isTracked = null;
+            opened.ForEach(action => action.Dispose());
+            opened.Clear();
             pressure = null;
-            stick = null;
-            stickTouched = null;
             positions = Array.Empty<InputAction>();
-            rotations = Array.Empty<InputAction>();
         }
 
         private InputAction Enabled(string control)
         {
             var action = new InputAction(binding: "<XRController>{" + hand + "Hand}/" + control);
             action.Enable();
+            opened.Add(action);
             return action;
         }
 #else

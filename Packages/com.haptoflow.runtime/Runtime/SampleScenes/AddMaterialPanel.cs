@@ -13,7 +13,7 @@ namespace HaptoFlow.SampleScenes
     /// one core in the background. A stylus that touches the button starts the learning, or cancels it. The specimen
     /// beside the button then takes the learnt material.</summary>
     [RequireComponent(typeof(WorkshopScene))]
-    public sealed class AddMaterialPanel : MonoBehaviour
+    internal sealed class AddMaterialPanel : MonoBehaviour
     {
         // Every new text allocates; four a second are enough to read.
         private const double UpdateSeconds = 0.25;
@@ -36,18 +36,14 @@ namespace HaptoFlow.SampleScenes
         private bool isCancelRequested;
         private double nextSeconds;
 
-        /// <summary>The text that the panel shows.</summary>
         public string Text { get; private set; } = "";
 
-        /// <summary>Whether a material is being learnt.</summary>
         public bool IsLearning => starting != null || learning != null;
 
         /// <summary>The button that starts the learning; null before the scene is built.</summary>
         public Collider? Button { get; private set; }
 
         /// <summary>Sets another recording. Call it before the button is touched.</summary>
-        /// <param name="file">The recording: a CSV table, or a WAV file whose name ends in .wav.bytes.</param>
-        /// <param name="siblings">Its sidecar and its motion file, if there are any.</param>
         public void SetRecording(TextAsset file, params TextAsset[] siblings)
         {
             recording = file;

@@ -6,7 +6,7 @@ namespace HaptoFlow.SampleScenes
 {
     /// <summary>Aligns the sample's table with a real one: the pen touches three corners of a sheet of A4 paper on the
     /// real table. After that, for pens that measure their tip force, the force decides when they touch.</summary>
-    public sealed class AlignmentStep : MonoBehaviour
+    internal sealed class AlignmentStep : MonoBehaviour
     {
         private const string Hint = "A, or the left hand's first button: put this table onto a real one";
 
@@ -20,16 +20,12 @@ namespace HaptoFlow.SampleScenes
         private CornerMarks corners = null!;
         private TextMesh text = null!;
 
-        /// <summary>The component that takes the points and moves the table.</summary>
         public HapticAlignment Alignment { get; private set; } = null!;
 
-        /// <summary>The text that names the next step.</summary>
         public string Text => text.text;
 
-        /// <summary>Adds the step to the table.</summary>
         /// <param name="exhibits">The object that moves. The plane y = 0 of its space is the top of the table.</param>
         /// <param name="saveName">The name under which the alignment is kept; empty to keep nothing.</param>
-        /// <param name="facing">The rotation of the text.</param>
         public static AlignmentStep Create(GameObject exhibits, string saveName, Quaternion facing)
         {
             var alignment = exhibits.AddComponent<HapticAlignment>();

@@ -6,7 +6,7 @@ namespace HaptoFlow.SampleScenes
 {
     /// <summary>Builds the sample when it wakes: three plates, a pen under the mouse, a pen for each hand in a headset,
     /// the check itself, and a board with its instructions.</summary>
-    public sealed class DeviceCheckScene : BuiltScene
+    internal sealed class DeviceCheckScene : BuiltScene
     {
         private static readonly Vector3 PlateMetres = new Vector3(0.18f, 0.02f, 0.24f);
 
@@ -22,13 +22,10 @@ namespace HaptoFlow.SampleScenes
         private ButtonPress skip = null!;
         private TextMesh board = null!;
 
-        /// <summary>The check, which begins with the scene.</summary>
         public DeviceCheckRun Run { get; private set; } = null!;
 
-        /// <summary>The words on the board.</summary>
         public string Words => board.text;
 
-        /// <inheritdoc/>
         public override void Sketch() => Array.ForEach(Plates, each => SceneSketch.DrawBox(
             PlaceOf(each.X), PlateMetres, each.Colour));
 

@@ -7,7 +7,7 @@ namespace HaptoFlow.SampleScenes
 {
     /// <summary>Builds the sample when it wakes: a tile for each label of the model, and a wide board that takes the
     /// label of the tile that was pressed last.</summary>
-    public sealed class GalleryScene : BuiltScene
+    internal sealed class GalleryScene : BuiltScene
     {
         private const string Hint = "press a tile to pick its label; stroke the tile, or the board below";
         private const float BoardHeight = 0.16f;
@@ -23,13 +23,10 @@ namespace HaptoFlow.SampleScenes
         /// <summary>The surfaces of the tiles, one for each label of the model, in the model's order.</summary>
         public IReadOnlyList<HapticSurface> Tiles => tiles;
 
-        /// <summary>The surface of the board that takes the picked label.</summary>
         public HapticSurface Board { get; private set; } = null!;
 
-        /// <summary>The pen under the mouse.</summary>
         public MousePen Pen { get; private set; } = null!;
 
-        /// <inheritdoc/>
         public override void Sketch()
         {
             int labels = LabelsOfModel().Count;
@@ -87,24 +84,21 @@ namespace HaptoFlow.SampleScenes
     }
 
     /// <summary>Arranges tiles on a wall that faces -z, row by row from the upper left.</summary>
-    public readonly struct Wall
+    internal readonly struct Wall
     {
         private const float ColumnStep = 0.15f;
         private const float RowStep = 0.13f;
         private readonly int columns;
         private readonly int rows;
 
-        /// <param name="tiles">The number of tiles, 1 or more.</param>
         public Wall(int tiles)
         {
             columns = (int)Math.Ceiling(Math.Sqrt(1.25 * tiles));
             rows = (tiles + columns - 1) / columns;
         }
 
-        /// <summary>The size of a tile, in metres.</summary>
         public static Vector3 TileSize => new Vector3(0.13f, 0.09f, 0.02f);
 
-        /// <summary>The size of the whole wall, in metres.</summary>
         public Vector3 Size => new Vector3(ColumnStep * columns, RowStep * rows, TileSize.z);
 
         /// <summary>The centre of a tile, relative to the centre of the wall.</summary>

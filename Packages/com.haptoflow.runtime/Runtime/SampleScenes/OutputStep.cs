@@ -8,7 +8,7 @@ namespace HaptoFlow.SampleScenes
 {
     /// <summary>Compares outputs while the scene runs: one button switches every pen to the next output, another one
     /// switches the processing of an audio output.</summary>
-    public sealed class OutputStep : MonoBehaviour
+    internal sealed class OutputStep : MonoBehaviour
     {
         // Without any output in the scene, Auto Output plays each pen on the device in its hand.
         private const int Auto = 0;
@@ -40,11 +40,8 @@ namespace HaptoFlow.SampleScenes
         private int outputChoice;
         private int processingChoice;
 
-        /// <summary>The text that names the output in use.</summary>
         public string Text => text.text;
 
-        /// <summary>Creates the step.</summary>
-        /// <param name="facing">The rotation of the text.</param>
         public static OutputStep Create(Quaternion facing)
         {
             var step = new GameObject("Output Step").AddComponent<OutputStep>();

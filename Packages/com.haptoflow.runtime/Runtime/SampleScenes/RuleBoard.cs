@@ -4,17 +4,15 @@ using UnityEngine;
 namespace HaptoFlow.SampleScenes
 {
     /// <summary>A line of text that says which rule assigns the material that the pen touches.</summary>
-    public sealed class RuleBoard : MonoBehaviour
+    internal sealed class RuleBoard : MonoBehaviour
     {
         private HapticStylus stylus = null!;
         private TextMesh line = null!;
         private Collider? shown;
         private MaterialDescription? shownMaterial;
 
-        /// <summary>The text that the board shows.</summary>
         public string Text => line.text;
 
-        /// <summary>Creates a board at a place of the scene.</summary>
         public static RuleBoard Create(HapticStylus stylus, Vector3 position, Quaternion rotation)
         {
             TextMesh line = SceneObjects.AddText("", position, rotation);

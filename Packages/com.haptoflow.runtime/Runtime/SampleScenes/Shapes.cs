@@ -1,7 +1,6 @@
 #nullable enable
 using System;
 using UnityEngine;
-using Object = UnityEngine.Object;
 
 namespace HaptoFlow.SampleScenes
 {
@@ -15,8 +14,6 @@ namespace HaptoFlow.SampleScenes
         };
 
         /// <summary>Creates a sheet that faces up. Its texture coordinates run from 0 to 1 along x and z.</summary>
-        /// <param name="columns">The number of vertices along x, 2 or more.</param>
-        /// <param name="rows">The number of vertices along z, 2 or more.</param>
         /// <param name="corner">The position of a vertex from its texture coordinates.</param>
         public static Mesh Grid(int columns, int rows, Func<float, float, Vector3> corner)
         {
@@ -80,6 +77,24 @@ namespace HaptoFlow.SampleScenes
             return picture;
         }
 
+        public static MeshRenderer Show(string name, Vector3 place, Mesh mesh)
+        {
+            var owner = new GameObject(name);
+            owner.transform.position = place;
+            owner.AddComponent<MeshFilter>().sharedMesh = mesh;
+            var renderer = owner.AddComponent<MeshRenderer>();
+            PipelineMaterial.Paint(renderer, Color.white);
+            return renderer;
+        }
+
+        /// <summary>Makes a mesh that is shown one that a pen touches.</summary>
+        public static MeshCollider Touchable(MeshRenderer shown)
+        {
+            var collider = shown.gameObject.AddComponent<MeshCollider>();
+            collider.sharedMesh = shown.GetComponent<MeshFilter>().sharedMesh;
+            return collider;
+        }
+
         private static void AddFace(Vector3[] vertices, int first, Vector3 centre, Vector3 half, Vector3 normal)
         {
             bool isUpright = Mathf.Abs(normal.y) < 0.5f;
@@ -105,7 +120,7 @@ namespace HaptoFlow.SampleScenes
     }
 
     /// <summary>A mesh of two submeshes, each drawn with its own material. The rules match these materials.</summary>
-    internal sealed class TwoHalves
+    internal static class TwoHalves
     {
         private static readonly Vector3 Half = new Vector3(0.19f, 0.012f, 0.22f);
 
@@ -117,41 +132,29 @@ namespace HaptoFlow.SampleScenes
             ("Oak", "wood", new Color(0.64f, 0.45f, 0.25f)), ("Steel", "metal mesh", new Color(0.55f, 0.6f, 0.68f)),
         };
 
-        private readonly Vector3 place;
-        private readonly Func<Object, Object> keep;
-
         /// <param name="place">The position of the middle of its underside.</param>
-        /// <param name="keep">Marks an asset to be destroyed with the scene.</param>
-        public TwoHalves(Vector3 place, Func<Object, Object> keep) => (this.place, this.keep) = (place, keep);
-
-        public MeshCollider Build(HapticMaterialMap map, Func<string, HapticMaterial> createMaterial)
+        public static MeshCollider Build(WorkshopScene scene, Vector3 place)
         {
-            var owner = new GameObject("Two Halves");
-            owner.transform.position = place;
             var left = new Vector3(-0.5f * Half.x, 0.5f * Half.y, 0f);
-            var mesh = (Mesh)keep(Shapes.Boxes(
-                Half, left, new Vector3(-left.x, left.y, left.z)));
-            owner.AddComponent<MeshFilter>().sharedMesh = mesh;
-            var renderer = owner.AddComponent<MeshRenderer>();
-            PipelineMaterial.Paint(renderer, Color.white);
+            MeshRenderer renderer = Shapes.Show("Two Halves", place, scene.Keep(Shapes.Boxes(
+                Half, left, new Vector3(-left.x, left.y, left.z))));
             var paints = new Material[Sides.Length];
             for (int side = 0; side < Sides.Length; ++side)
             {
-                paints[side] = (Material)keep(new Material(renderer.sharedMaterial!));
+                paints[side] = scene.Keep(new Material(renderer.sharedMaterial!));
                 paints[side].name = Sides[side].Paint;
                 paints[side].color = Sides[side].Colour;
-                map.Add(HapticMaterialRule.ForRendererMaterial(paints[side], createMaterial(Sides[side].Label)));
+                scene.Map.Add(HapticMaterialRule.ForRendererMaterial(
+                    paints[side], scene.CreateMaterial(Sides[side].Label)));
             }
             renderer.sharedMaterials = paints;
-            var collider = owner.AddComponent<MeshCollider>();
-            collider.sharedMesh = mesh;
-            return collider;
+            return Shapes.Touchable(renderer);
         }
     }
 
     /// <summary>A pane of ceramic with a mask. The red channel selects jute in a ring, the green channel scales the
     /// strength.</summary>
-    internal sealed class InlaidPane
+    internal static class InlaidPane
     {
         private const int Texels = 128;
 
@@ -161,37 +164,24 @@ namespace HaptoFlow.SampleScenes
         private static readonly Color32 Ceramic = new Color32(225, 228, 222, 255);
         private static readonly Color32 Jute = new Color32(181, 154, 76, 255);
 
-        private readonly Vector3 place;
-        private readonly Func<Object, Object> keep;
-
         /// <param name="place">The position of the middle of its underside.</param>
-        /// <param name="keep">Marks an asset to be destroyed with the scene.</param>
-        public InlaidPane(Vector3 place, Func<Object, Object> keep) => (this.place, this.keep) = (place, keep);
-
-        public MeshCollider Build(HapticMaterialMap map, Func<string, HapticMaterial> createMaterial)
+        public static MeshCollider Build(WorkshopScene scene, Vector3 place)
         {
-            var mask = (HapticMaskMap)keep(ScriptableObject.CreateInstance<HapticMaskMap>());
+            HapticMaskMap mask = scene.Keep(ScriptableObject.CreateInstance<HapticMaskMap>());
             mask.name = "Ring";
-            mask.Red.SetMaterial(createMaterial("jute"));
+            mask.Red.SetMaterial(scene.CreateMaterial("jute"));
             mask.Green.SetFactor(MaskChannelUse.Strength, 0.3f, 1f);
             mask.SetPixels(Texels, Texels, Pixels((ring, wear) =>
                 new Color32(Level(ring), Level(1f - wear), 0, 0)), false);
-            HapticMaterialRule rule = HapticMaterialRule.ForName("Inlaid Pane", createMaterial("ceramic"));
+            HapticMaterialRule rule = HapticMaterialRule.ForName("Inlaid Pane", scene.CreateMaterial("ceramic"));
             rule.Mask = mask;
-            map.Add(rule);
+            scene.Map.Add(rule);
 
-            var owner = new GameObject("Inlaid Pane");
-            owner.transform.position = place;
-            var mesh = (Mesh)keep(Shapes.Grid(2, 2, (x, z) =>
-                new Vector3((x - 0.5f) * Size.x, Size.y, (z - 0.5f) * Size.z)));
-            owner.AddComponent<MeshFilter>().sharedMesh = mesh;
-            var renderer = owner.AddComponent<MeshRenderer>();
-            PipelineMaterial.Paint(renderer, Color.white);
-            renderer.material.mainTexture = (Texture2D)keep(Shapes.Picture(Texels, Texels, Pixels((ring, wear) =>
+            MeshRenderer renderer = Shapes.Show("Inlaid Pane", place, scene.Keep(Shapes.Grid(2, 2, (x, z) =>
+                new Vector3((x - 0.5f) * Size.x, Size.y, (z - 0.5f) * Size.z))));
+            renderer.material.mainTexture = scene.Keep(Shapes.Picture(Texels, Texels, Pixels((ring, wear) =>
                 Color32.Lerp(Ceramic, Jute, ring * (1f - 0.5f * wear)))));
-            var collider = owner.AddComponent<MeshCollider>();
-            collider.sharedMesh = mesh;
-            return collider;
+            return Shapes.Touchable(renderer);
         }
 
         /// <param name="colour">The colour of a pixel from the ring's share there and the wear, each 0 to 1.</param>
@@ -215,7 +205,7 @@ namespace HaptoFlow.SampleScenes
 
     /// <summary>A terrain of three layers that blend into each other. A separate mesh draws it, because the look of a
     /// terrain created by a script depends on the render pipeline.</summary>
-    internal sealed class GardenBed
+    internal static class GardenBed
     {
         private const int Corners = 33;
         private const int Texels = 32;
@@ -230,24 +220,19 @@ namespace HaptoFlow.SampleScenes
             ("Sand", "sandpaper", new Color(0.87f, 0.76f, 0.5f)),
         };
 
-        private readonly Vector3 corner;
-        private readonly Func<Object, Object> keep;
-
         /// <param name="corner">The position of the terrain's origin, its corner.</param>
-        /// <param name="keep">Marks an asset to be destroyed with the scene.</param>
-        public GardenBed(Vector3 corner, Func<Object, Object> keep) => (this.corner, this.keep) = (corner, keep);
-
-        public Terrain Build(HapticMaterialMap map, Func<string, HapticMaterial> createMaterial)
+        public static Terrain Build(WorkshopScene scene, Vector3 corner)
         {
-            var data = (TerrainData)keep(new TerrainData());
+            TerrainData data = scene.Keep(new TerrainData());
             data.heightmapResolution = Corners;
             data.size = Size;
             data.alphamapResolution = Texels;
             var layers = new TerrainLayer[Layers.Length];
             for (int layer = 0; layer < layers.Length; ++layer)
             {
-                layers[layer] = (TerrainLayer)keep(new TerrainLayer { name = Layers[layer].Layer });
-                map.Add(HapticMaterialRule.ForTerrainLayer(layers[layer], createMaterial(Layers[layer].Label)));
+                layers[layer] = scene.Keep(new TerrainLayer { name = Layers[layer].Layer });
+                scene.Map.Add(HapticMaterialRule.ForTerrainLayer(
+                    layers[layer], scene.CreateMaterial(Layers[layer].Label)));
             }
             data.terrainLayers = layers;
             data.SetHeights(0, 0, Heights());
@@ -257,7 +242,7 @@ namespace HaptoFlow.SampleScenes
             owner.transform.position = corner;
             var terrain = owner.GetComponent<Terrain>();
             terrain.drawHeightmap = false;
-            Draw(owner.transform);
+            Draw(scene, owner.transform);
             return terrain;
         }
 
@@ -270,7 +255,6 @@ namespace HaptoFlow.SampleScenes
             return layer == 0 ? gravel : layer == 2 ? sand : 1f - gravel - sand;
         }
 
-        /// <summary>The height of a low hill, 0 to 1.</summary>
         private static float Height(float x, float z) =>
             (float)(Math.Sin(Math.PI * x) * Math.Sin(Math.PI * z));
 
@@ -300,14 +284,11 @@ namespace HaptoFlow.SampleScenes
             return weights;
         }
 
-        private void Draw(Transform terrain)
+        private static void Draw(WorkshopScene scene, Transform terrain)
         {
-            var look = new GameObject("Garden Look");
-            look.transform.SetParent(terrain, false);
-            look.AddComponent<MeshFilter>().sharedMesh = (Mesh)keep(Shapes.Grid(Corners, Corners, (x, z) =>
-                Vector3.Scale(Size, new Vector3(x, Height(x, z), z))));
-            var renderer = look.AddComponent<MeshRenderer>();
-            PipelineMaterial.Paint(renderer, Color.white);
+            MeshRenderer renderer = Shapes.Show("Garden Look", terrain.position, scene.Keep(
+                Shapes.Grid(Corners, Corners, (x, z) => Vector3.Scale(Size, new Vector3(x, Height(x, z), z)))));
+            renderer.transform.SetParent(terrain, true);
             var pixels = new Color32[Texels];
             for (int x = 0; x < Texels; ++x)
             {
@@ -318,7 +299,7 @@ namespace HaptoFlow.SampleScenes
                 }
                 pixels[x] = colour;
             }
-            renderer.material.mainTexture = (Texture2D)keep(Shapes.Picture(Texels, 1, pixels));
+            renderer.material.mainTexture = scene.Keep(Shapes.Picture(Texels, 1, pixels));
         }
     }
 }

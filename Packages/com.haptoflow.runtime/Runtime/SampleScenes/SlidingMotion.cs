@@ -6,7 +6,7 @@ namespace HaptoFlow.SampleScenes
 {
     /// <summary>Slides a kinematic body to and fro in physics steps, as games move their platforms. A stylus that is
     /// held still on it feels its texture pass.</summary>
-    public sealed class SlidingMotion : MonoBehaviour
+    internal sealed class SlidingMotion : MonoBehaviour
     {
         private Rigidbody body = null!;
         private Vector3 centre;
@@ -15,7 +15,6 @@ namespace HaptoFlow.SampleScenes
         /// <summary>The largest displacement from the centre, in metres along the axes of the parent.</summary>
         public Vector3 Reach { get; set; } = new Vector3(0.04f, 0f, 0f);
 
-        /// <summary>The duration of one swing to and fro.</summary>
         public float PeriodSeconds { get; set; } = 2f;
 
         private void Awake()

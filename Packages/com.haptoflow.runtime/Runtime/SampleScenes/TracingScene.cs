@@ -5,7 +5,7 @@ namespace HaptoFlow.SampleScenes
 {
     /// <summary>Builds the sample when it wakes: a table with objects of eight labels, a pen under the mouse, and a pen
     /// for each hand that holds a tracked stylus or controller.</summary>
-    public sealed class TracingScene : BuiltScene
+    internal sealed class TracingScene : BuiltScene
     {
         private const string Hint = "hold the left mouse button and draw over the objects";
 
@@ -13,10 +13,8 @@ namespace HaptoFlow.SampleScenes
         /// keep nothing. Set it before the component wakes.</summary>
         public string SaveName { get; set; } = "StylusTracing";
 
-        /// <summary>The pen under the mouse.</summary>
         public MousePen Pen { get; private set; } = null!;
 
-        /// <inheritdoc/>
         public override void Sketch()
         {
             foreach (Exhibit each in Exhibits.All)
@@ -45,7 +43,7 @@ namespace HaptoFlow.SampleScenes
 #endif
         }
 
-        private static void Add(in Exhibit exhibit, Transform parent)
+        private static void Add(Exhibit exhibit, Transform parent)
         {
             GameObject solid = SceneObjects.AddSolid(
                 exhibit.Name, exhibit.Shape, exhibit.Position, exhibit.Size, exhibit.Colour);
@@ -63,48 +61,15 @@ namespace HaptoFlow.SampleScenes
     }
 
     /// <summary>One object of the sample.</summary>
-    public readonly struct Exhibit
+    /// <param name="Size">The size along the axes of the object, in metres.</param>
+    internal sealed record Exhibit(string Name, string Label, PrimitiveType Shape, Vector3 Position, Vector3 Size,
+        Color Colour, Quaternion? Turned = null, bool Slides = false)
     {
-        internal Exhibit(string name, string label, PrimitiveType shape, Vector3 position, Vector3 size, Color colour,
-            Quaternion? rotation = null, bool slides = false)
-        {
-            Name = name;
-            Label = label;
-            Shape = shape;
-            Position = position;
-            Size = size;
-            Colour = colour;
-            Rotation = rotation ?? Quaternion.identity;
-            Slides = slides;
-        }
-
-        /// <summary>The name of the GameObject.</summary>
-        public string Name { get; }
-
-        /// <summary>The material label.</summary>
-        public string Label { get; }
-
-        /// <summary>The shape, which is drawn and felt.</summary>
-        public PrimitiveType Shape { get; }
-
-        /// <summary>The position of the centre, in metres.</summary>
-        public Vector3 Position { get; }
-
-        /// <summary>The size along the axes of the object, in metres.</summary>
-        public Vector3 Size { get; }
-
-        /// <summary>The colour.</summary>
-        public Color Colour { get; }
-
-        /// <summary>The rotation.</summary>
-        public Quaternion Rotation { get; }
-
-        /// <summary>Whether the object slides to and fro.</summary>
-        public bool Slides { get; }
+        public Quaternion Rotation => Turned ?? Quaternion.identity;
     }
 
     /// <summary>The objects of the sample. StylusTracing.scene.json holds them for the command line.</summary>
-    public static class Exhibits
+    internal static class Exhibits
     {
         /// <summary>Objects of eight labels. The top of the table is the plane y = 0.</summary>
         public static readonly Exhibit[] All =
@@ -118,7 +83,7 @@ namespace HaptoFlow.SampleScenes
                 Quaternion.AngleAxis(90f, Vector3.forward)),
             new Exhibit("Sliding Grille", "metal mesh", PrimitiveType.Cube,
                 new Vector3(0.3f, 0.016f, 0.12f), new Vector3(0.2f, 0.012f, 0.16f), new Color(0.36f, 0.5f, 0.71f),
-                slides: true),
+                Slides: true),
             new Exhibit("Sanding Block", "sandpaper", PrimitiveType.Cube,
                 new Vector3(-0.34f, 0.01f, -0.12f), new Vector3(0.18f, 0.02f, 0.15f), new Color(0.85f, 0.55f, 0.18f)),
             new Exhibit("Tilted Pane", "glass", PrimitiveType.Cube,

@@ -1,13 +1,19 @@
 #nullable enable
 using System.Collections.Generic;
+using System.Runtime.CompilerServices;
 using UnityEngine;
+
+[assembly: InternalsVisibleTo("HaptoFlow.Editor")]
+[assembly: InternalsVisibleTo("HaptoFlow.EditorTests")]
+[assembly: InternalsVisibleTo("HaptoFlow.SampleTests")]
+[assembly: InternalsVisibleTo("HaptoFlow.Tests")]
 
 namespace HaptoFlow.SampleScenes
 {
     /// <summary>Builds the sample when it wakes: a bench of objects without Haptic Surface components. The rules of a
     /// Haptic Material Map assign their materials: to a terrain by its layers, to a board by its renderer's materials,
     /// to a pane by a mask.</summary>
-    public sealed class WorkshopScene : BuiltScene
+    internal sealed class WorkshopScene : BuiltScene
     {
         private const string Hint = "hold the left mouse button and draw: the line above says why it feels so";
         private const int Water = 4;
@@ -25,7 +31,6 @@ namespace HaptoFlow.SampleScenes
 
         private readonly List<Object> createdAssets = new List<Object>();
 
-        /// <summary>The rules of the scene.</summary>
         public HapticMaterialMap Map { get; private set; } = null!;
 
         /// <summary>A terrain whose material is a blend of its layers, weighted as they are painted.</summary>
@@ -37,7 +42,6 @@ namespace HaptoFlow.SampleScenes
         /// <summary>A pane with an inlaid ring of jute that is worn away towards one side.</summary>
         public MeshCollider Inlay { get; private set; } = null!;
 
-        /// <summary>The object with <see cref="SpecimenMaterial"/>.</summary>
         public GameObject Specimen { get; private set; } = null!;
 
         /// <summary>The material of the specimen. A panel may change it, to let the pen feel a new material.</summary>
@@ -46,10 +50,8 @@ namespace HaptoFlow.SampleScenes
         /// <summary>The place of a panel that adds a material: beside the specimen, facing the camera.</summary>
         public Transform PanelPlace { get; private set; } = null!;
 
-        /// <summary>The pen under the mouse.</summary>
         public MousePen Pen { get; private set; } = null!;
 
-        /// <inheritdoc/>
         public override void Sketch()
         {
             foreach (Solid each in new[] { Bench, Puddle, SpecimenSolid })
@@ -68,9 +70,9 @@ namespace HaptoFlow.SampleScenes
             Map = Keep(ScriptableObject.CreateInstance<HapticMaterialMap>());
             Map.name = "Workshop";
             MakeSolids();
-            Garden = new GardenBed(GardenCorner, Keep).Build(Map, CreateMaterial);
-            Halves = new TwoHalves(HalvesPlace, Keep).Build(Map, CreateMaterial);
-            Inlay = new InlaidPane(InlayPlace, Keep).Build(Map, CreateMaterial);
+            Garden = GardenBed.Build(this, GardenCorner);
+            Halves = TwoHalves.Build(this, HalvesPlace);
+            Inlay = InlaidPane.Build(this, InlayPlace);
             // Last, because the first rule that matches decides.
             Map.Add(HapticMaterialRule.ForName("Bench", CreateMaterial("wood")));
             gameObject.AddComponent<HapticMaterialMapScope>().Map = Map;
@@ -100,7 +102,7 @@ namespace HaptoFlow.SampleScenes
             PanelPlace.SetPositionAndRotation(new Vector3(0.27f, 0.03f, -0.26f), View!.transform.rotation);
         }
 
-        private HapticMaterial CreateMaterial(string label)
+        internal HapticMaterial CreateMaterial(string label)
         {
             HapticMaterial material = Keep(ScriptableObject.CreateInstance<HapticMaterial>());
             material.name = label;
@@ -109,28 +111,16 @@ namespace HaptoFlow.SampleScenes
         }
 
         /// <summary>Marks an asset to be destroyed with the scene.</summary>
-        private T Keep<T>(T asset)
+        internal T Keep<T>(T asset)
             where T : Object
         {
             createdAssets.Add(asset);
             return asset;
         }
 
-        /// <summary>A cuboid of the bench.</summary>
-        private readonly struct Solid
+        private sealed record Solid(string Name, Vector3 Place, Vector3 Size, Color Colour)
         {
-            private readonly string name;
-
-            public Solid(string name, Vector3 place, Vector3 size, Color colour) =>
-                (this.name, Place, Size, Colour) = (name, place, size, colour);
-
-            public Vector3 Place { get; }
-
-            public Vector3 Size { get; }
-
-            public Color Colour { get; }
-
-            public GameObject Add() => SceneObjects.AddSolid(name, PrimitiveType.Cube, Place, Size, Colour);
+            public GameObject Add() => SceneObjects.AddSolid(Name, PrimitiveType.Cube, Place, Size, Colour);
         }
     }
 }

@@ -35,14 +35,8 @@ namespace HaptoFlow.Samples.LatencyStudy
 
         /// <summary>Null until the operator has chosen the participant.</summary>
         public StudySession? Session { get; private set; }
-
-        /// <summary>The marker that the pen has to follow.</summary>
         public Marker Marker { get; private set; } = null!;
-
-        /// <summary>The panel that the participant reads.</summary>
-        public QuestionPanel Panel { get; private set; } = null!;
-
-        /// <summary>The view that the operator sees.</summary>
+        public TextMesh Panel { get; private set; } = null!;
         public OperatorView View { get; private set; } = null!;
 
         /// <summary>The delay of the system in the current trial, without the artificial part.</summary>
@@ -62,7 +56,7 @@ namespace HaptoFlow.Samples.LatencyStudy
             {
                 CheckIsReady();
                 Delay = MeasureDelay();
-                Delay.CheckReaches(settings.LevelsMilliseconds);
+                Delay.CheckReaches(settings.levelsMilliseconds);
                 StudyLog log = StudyLog.Open(settings.Folder, Describe(participant));
                 if (Session != null)
                 {
@@ -72,7 +66,7 @@ namespace HaptoFlow.Samples.LatencyStudy
                 Session.Changed += OnChanged;
                 View.Session = Session;
                 View.Problem = null;
-                Panel.Welcome();
+                Panel.text = "Please wait for the operator.";
             }
             catch (StudyException refusal)
             {
@@ -81,7 +75,7 @@ namespace HaptoFlow.Samples.LatencyStudy
         }
 
         internal void Prepare(LatencyStudySettings chosen, HapticOutput haptics, MaskingNoise masking, Marker followed,
-            QuestionPanel asking, OperatorView operators)
+            TextMesh asking, OperatorView operators)
         {
             settings = chosen;
             output = haptics;
@@ -93,23 +87,24 @@ namespace HaptoFlow.Samples.LatencyStudy
             View.Detail = Detail;
             View.Begin = Begin;
             View.Advice = number => StudyLog.NumbersLeftOut(settings.Folder, StudyKind.Latency, number);
-            string controller = ButtonPress.ControllerOppositeTo(settings.PenHand);
+            string controller = ButtonPress.ControllerOppositeTo(settings.penHand);
             yes = new ButtonPress("<Keyboard>/y", controller + "triggerPressed");
             no = new ButtonPress("<Keyboard>/n", controller + "gripPressed");
-            output.SetSignal(settings.ToneHertz, settings.ToneMps2);
+            output.SetSignal(settings.toneHertz, settings.toneMps2);
             output.Muted = true;
-            Panel.Welcome();
+            Panel.text = "Please wait for the operator.";
         }
 
         internal void AddPen(HapticStylus stylus) => pens.Add((stylus, new TrialContact(stylus)));
 
         private StudyDescription Describe(int participant)
         {
-            StudyPlan plan = StudyPlan.Latency(participant, settings.Seed, settings.LevelsMilliseconds);
+            StudyPlan plan = StudyPlan.Latency(participant, settings.Seed, settings.levelsMilliseconds);
             return new StudyDescription(plan, settings.Fields(), Delay)
             {
                 IsSimulated = settings.Simulated,
-                Environment = settings.Environment(),
+                Build = StudyPlayer.Build(),
+                Device = settings.Device(),
             };
         }
 
@@ -172,14 +167,14 @@ namespace HaptoFlow.Samples.LatencyStudy
                     BeginTrial(changed);
                     break;
                 case StudyPhase.Question:
-                    Panel.Ask(changed.Trial!);
+                    Panel.text = Question(changed.Trial!);
                     break;
                 case StudyPhase.Finished:
-                    Panel.Thank();
+                    Panel.text = "That was all. Thank you!";
                     break;
                 default:
                     Marker.Wait();
-                    Panel.Rest();
+                    Panel.text = "Please lift the pen and rest. The operator will continue.";
                     break;
             }
         }
@@ -196,7 +191,7 @@ namespace HaptoFlow.Samples.LatencyStudy
             }
             output.Processing.DelayMilliseconds = (float)Delay.ArtificialMilliseconds(planned);
             output.ApplyProcessing();
-            Panel.Instruct(begun.Trial);
+            Panel.text = Instruction(begun.Trial);
         }
 
         /// <summary>Checks the delay again: when the frame rate has fallen since the start, the set-up may be too slow
@@ -236,7 +231,7 @@ namespace HaptoFlow.Samples.LatencyStudy
             }
             else if (Marker.IsDone)
             {
-                double expectedMillimetres = settings.Strokes * settings.MoveSeconds * settings.MarkerSpeedMmps;
+                double expectedMillimetres = settings.strokes * settings.moveSeconds * settings.markerSpeedMmps;
                 bool hasFollowed = tracingContact.Starts > 0 && tracingContact.Stops > 0 &&
                     tracingContact.PathMillimetres >= FollowedShare * expectedMillimetres;
                 if (hasFollowed)
@@ -247,7 +242,8 @@ namespace HaptoFlow.Samples.LatencyStudy
                 else
                 {
                     WaitForThePen();
-                    Panel.AskToFollow(traced.Trial!);
+                    Panel.text = Instruction(traced.Trial!) +
+                        "\nStay on the surface, and stop when the marker stops.";
                 }
             }
         }
@@ -292,6 +288,17 @@ namespace HaptoFlow.Samples.LatencyStudy
             .AddTo(new TrialRecord().SetDelay(trial.DelayMilliseconds!.Value, Delay))
             .Set("starts", contact.Starts)
             .Set("stops", contact.Stops);
+
+        private static string Instruction(PlannedTrial trial) => (trial.IsPractice ? "Practice. " : "") +
+            (trial.Condition == StudyPlan.TurnOn
+                ? "Attend to the moments when you SET OFF."
+                : "Attend to the moments when you STOP.") +
+            "\nPut the pen on the green marker and follow it.";
+
+        private static string Question(PlannedTrial trial) => (trial.Condition == StudyPlan.TurnOn
+                ? "When you SET OFF: did the vibration begin late?"
+                : "When you STOPPED: did the vibration stop late?") +
+            "\ntrigger (or key Y): yes        grip (or key N): no";
 
         private string Detail()
         {

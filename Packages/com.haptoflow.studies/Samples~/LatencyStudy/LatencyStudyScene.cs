@@ -21,7 +21,6 @@ namespace HaptoFlow.Samples.LatencyStudy
         /// </summary>
         public LatencyStudySettings? Settings { get => settings; set => settings = value; }
 
-        /// <summary>The study's procedure.</summary>
         public LatencyStudy Study { get; private set; } = null!;
 
         /// <inheritdoc/>
@@ -39,7 +38,7 @@ namespace HaptoFlow.Samples.LatencyStudy
             HapticOutput output = chosen.AddOutput(View!.gameObject, out MaskingNoise noise);
             Study = gameObject.AddComponent<LatencyStudy>();
             Study.Prepare(chosen, output, noise, Marker.Create(chosen, Vector3.zero),
-                QuestionPanel.Create(new Vector3(0f, 0.14f, 0.24f), View.transform.rotation),
+                SceneObjects.AddText("", new Vector3(0f, 0.14f, 0.24f), View.transform.rotation),
                 gameObject.AddComponent<OperatorView>());
             MousePen mouse = MousePen.Create(View);
             mouse.Stylus.Output = output;
@@ -47,7 +46,7 @@ namespace HaptoFlow.Samples.LatencyStudy
 #if HAPTOFLOW_INPUT_SYSTEM && ENABLE_INPUT_SYSTEM
             XrRig rig = XrRig.Create(View);
             rig.MousePen = mouse;
-            HapticStylus held = rig.AddPen(chosen.PenHand).Stylus!;
+            HapticStylus held = rig.AddPen(chosen.penHand).Stylus!;
             held.Output = output;
             Study.AddPen(held);
 #endif

@@ -15,71 +15,39 @@ namespace HaptoFlow.Samples.LatencyStudy
         // The marker has to stop and move for longer than the longest delay, by this.
         private const double ReserveSeconds = 0.2;
 
-        [SerializeField, Tooltip("The levels are the delays between pen and vibration, in ms. Each may be listed " +
+        [Tooltip("The levels are the delays between pen and vibration, in ms. Each may be listed " +
             "once.")]
-        private double[] levelsMilliseconds = { 50, 70, 90, 110, 130, 150, 170, 190, 210, 230, 250 };
+        public double[] levelsMilliseconds = { 50, 70, 90, 110, 130, 150, 170, 190, 210, 230, 250 };
 
-        [SerializeField, Range((float)HapticVoice.MinimumSignalHz, (float)HapticVoice.MaximumSignalHz)]
+        [Range((float)HapticVoice.MinimumSignalHz, (float)HapticVoice.MaximumSignalHz)]
         [Tooltip("The vibration is a sine of this frequency, in Hz.")]
-        private float toneHertz = 200f;
+        public float toneHertz = 200f;
 
-        [SerializeField, Range(0.1f, (float)HapticVoice.MaximumSignalMps2)]
+        [Range(0.1f, (float)HapticVoice.MaximumSignalMps2)]
         [Tooltip("The vibration has this peak, in m/s^2. Set the level at the amplifier, and leave this value the " +
             "same for all participants.")]
-        private float toneMps2 = 20f;
+        public float toneMps2 = 20f;
 
-        [SerializeField, Min(1f), Tooltip("The marker moves at this speed, in mm/s.")]
-        private float markerSpeedMmps = 150f;
+        [Min(1f), Tooltip("The marker moves at this speed, in mm/s.")]
+        public float markerSpeedMmps = 150f;
 
-        [SerializeField, Range(20f, 100f), Tooltip("The marker moves on a circle of this radius, in mm.")]
-        private float markerRadiusMillimetres = 60f;
+        [Range(20f, 100f), Tooltip("The marker moves on a circle of this radius, in mm.")]
+        public float markerRadiusMillimetres = 60f;
 
-        [SerializeField, Min(0.2f), Tooltip("The marker moves for this time between two stops, in s. It has " +
+        [Min(0.2f), Tooltip("The marker moves for this time between two stops, in s. It has " +
             "to be longer than the longest level by 0.2 s.")]
-        private float moveSeconds = 1.5f;
+        public float moveSeconds = 1.5f;
 
-        [SerializeField, Min(0.2f), Tooltip("The marker stops for this time, in s. It has to be longer than " +
+        [Min(0.2f), Tooltip("The marker stops for this time, in s. It has to be longer than " +
             "the longest level by 0.2 s.")]
-        private float restSeconds = 1f;
+        public float restSeconds = 1f;
 
-        [SerializeField, Range(1, 20), Tooltip("The marker sets off and stops this often in a trial.")]
-        private int strokes = 3;
+        [Range(1, 20), Tooltip("The marker sets off and stops this often in a trial.")]
+        public int strokes = 3;
 
-        [SerializeField, Tooltip("This hand holds the pen. The other hand answers.")]
-        private PenHand penHand = PenHand.Right;
+        [Tooltip("This hand holds the pen. The other hand answers.")]
+        public PenHand penHand = PenHand.Right;
 
-        /// <summary>The delays between pen and vibration, in ms.</summary>
-        public IReadOnlyList<double> LevelsMilliseconds
-        {
-            get => levelsMilliseconds;
-            set => levelsMilliseconds = value.ToArray();
-        }
-
-        /// <summary>The frequency of the vibration, 20 to 500 Hz.</summary>
-        public float ToneHertz => toneHertz;
-
-        /// <summary>The peak of the vibration, above 0 to 60 m/s^2.</summary>
-        public float ToneMps2 { get => toneMps2; set => toneMps2 = value; }
-
-        /// <summary>The speed of the marker, in mm/s.</summary>
-        public float MarkerSpeedMmps => markerSpeedMmps;
-
-        /// <summary>The radius of the marker's circle, in mm.</summary>
-        public float MarkerRadiusMillimetres => markerRadiusMillimetres;
-
-        /// <summary>The time that the marker moves between two stops.</summary>
-        public float MoveSeconds { get => moveSeconds; set => moveSeconds = value; }
-
-        /// <summary>The time that the marker stops.</summary>
-        public float RestSeconds { get => restSeconds; set => restSeconds = value; }
-
-        /// <summary>How often the marker sets off and stops in a trial.</summary>
-        public int Strokes { get => strokes; set => strokes = value; }
-
-        /// <summary>The hand that holds the pen.</summary>
-        public PenHand PenHand => penHand;
-
-        /// <summary>The settings as the log holds them.</summary>
         public StudyFields Fields() => new StudyFields
         {
             { "levels_ms", levelsMilliseconds },

@@ -15,13 +15,11 @@ namespace HaptoFlow.Samples.LatencyStudy
         private double startSeconds;
         private bool isRunning;
 
-        /// <summary>Whether the marker moves; false at a stop.</summary>
         public bool IsMoving { get; private set; }
 
         /// <summary>Whether every stroke and the stop after the last one are over.</summary>
         public bool IsDone { get; private set; }
 
-        /// <summary>Creates a marker at rest.</summary>
         /// <param name="centre">The centre of the circle, on the surface.</param>
         public static Marker Create(LatencyStudySettings settings, Vector3 centre)
         {
@@ -57,15 +55,15 @@ namespace HaptoFlow.Samples.LatencyStudy
         /// <param name="isDone">Whether every stroke and the stop after the last one are over at that time.</param>
         public double DistanceAt(double seconds, out bool moves, out bool isDone)
         {
-            double cycle = settings.RestSeconds + settings.MoveSeconds;
-            double strokesDone = Math.Min(Math.Max(0.0, Math.Floor(seconds / cycle)), settings.Strokes);
-            double sinceRest = seconds - strokesDone * cycle - settings.RestSeconds;
-            double moving = Math.Min(Math.Max(0.0, sinceRest), settings.MoveSeconds);
-            isDone = strokesDone >= settings.Strokes && seconds >= strokesDone * cycle + settings.RestSeconds;
-            moves = strokesDone < settings.Strokes && moving > 0.0 && moving < settings.MoveSeconds;
+            double cycle = settings.restSeconds + settings.moveSeconds;
+            double strokesDone = Math.Min(Math.Max(0.0, Math.Floor(seconds / cycle)), settings.strokes);
+            double sinceRest = seconds - strokesDone * cycle - settings.restSeconds;
+            double moving = Math.Min(Math.Max(0.0, sinceRest), settings.moveSeconds);
+            isDone = strokesDone >= settings.strokes && seconds >= strokesDone * cycle + settings.restSeconds;
+            moves = strokesDone < settings.strokes && moving > 0.0 && moving < settings.moveSeconds;
             double movedSeconds =
-                strokesDone * settings.MoveSeconds + (strokesDone < settings.Strokes ? moving : 0.0);
-            return 0.001 * settings.MarkerSpeedMmps * movedSeconds;
+                strokesDone * settings.moveSeconds + (strokesDone < settings.strokes ? moving : 0.0);
+            return 0.001 * settings.markerSpeedMmps * movedSeconds;
         }
 
         private void Update()
@@ -82,7 +80,7 @@ namespace HaptoFlow.Samples.LatencyStudy
 
         private Vector3 PositionAt(double distanceMetres)
         {
-            double radius = 0.001 * settings.MarkerRadiusMillimetres;
+            double radius = 0.001 * settings.markerRadiusMillimetres;
             double angle = distanceMetres / radius;
             return centre + (float)radius * new Vector3((float)Math.Cos(angle), 0f, (float)Math.Sin(angle));
         }

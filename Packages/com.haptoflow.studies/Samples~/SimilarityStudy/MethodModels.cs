@@ -29,14 +29,14 @@ namespace HaptoFlow.Samples.SimilarityStudy
         {
             this.settings = settings;
             this.measure = measure;
-            foreach (StudyMethod each in settings.Methods)
+            foreach (StudyMethod each in settings.methods)
             {
-                loaded.Add(each.Name, Haptics.Load(each.Model!, each.Quality));
+                loaded.Add(each.name, Haptics.Load(each.model!, each.Quality));
             }
         }
 
         /// <summary>Whether every model is loaded, has every material, and is measured.</summary>
-        public bool IsReady => inferenceMilliseconds.Count == settings.Methods.Count;
+        public bool IsReady => inferenceMilliseconds.Count == settings.methods.Length;
 
         /// <summary>The current step of the preparation, for the operator.</summary>
         public string Doing { get; private set; } = "loading the models";
@@ -60,18 +60,15 @@ namespace HaptoFlow.Samples.SimilarityStudy
         /// <summary>Makes the pen use the method's model from the next frame on.</summary>
         public void Use(string method) => loaded[method].Use();
 
-        /// <summary>The model of a method.</summary>
         public HapticLoadedModel Of(string method) => loaded[method];
 
         /// <summary>The delay that a method adds, in ms.</summary>
         public double InferenceMilliseconds(string method) => inferenceMilliseconds[method];
 
-        /// <summary>The model file of each method, for the log.</summary>
-        public StudyModel[] ForLog() => settings.Methods
-            .Select(each => new StudyModel(each.Name, FileOf(each), Hash.Sha256(each.Model!.File)))
+        public StudyModel[] ForLog() => settings.methods
+            .Select(each => new StudyModel(each.name, FileOf(each), Hash.Sha256(each.model!.File)))
             .ToArray();
 
-        /// <summary>Closes the models.</summary>
         public void Dispose()
         {
             foreach (HapticLoadedModel each in loaded.Values)
@@ -84,50 +81,42 @@ namespace HaptoFlow.Samples.SimilarityStudy
         private bool AllAreLoaded()
         {
             bool all = true;
-            foreach (StudyMethod each in settings.Methods)
+            foreach (StudyMethod each in settings.methods)
             {
-                HapticLoadedModel model = loaded[each.Name];
+                HapticLoadedModel model = loaded[each.name];
                 string? problem = model.Problem;
                 if (problem != null)
                 {
-                    throw new StudyException($"method \"{each.Name}\": {FileOf(each)} cannot be used: {problem}");
+                    throw new StudyException($"method \"{each.name}\": {FileOf(each)} cannot be used: {problem}");
                 }
                 all &= model.IsReady;
             }
             return all;
         }
 
-        private bool AllMaterialsAreKnown()
-        {
-            bool all = true;
-            foreach (StudyMethod method in settings.Methods)
-            {
-                foreach (StudyMaterial material in settings.Materials)
-                {
-                    all &= IsKnown(method, material);
-                }
-            }
-            return all;
-        }
+        // Every pair is asked, so that all materials are prepared at once.
+        private bool AllMaterialsAreKnown() => settings.methods
+            .SelectMany(method => settings.materials.Select(material => IsKnown(method, material)))
+            .ToArray().All(isKnown => isKnown);
 
         private bool IsKnown(StudyMethod method, StudyMaterial material)
         {
-            HapticLoadedModel model = loaded[method.Name];
-            HapticMaterial? asset = material.Material;
+            HapticLoadedModel model = loaded[method.name];
+            HapticMaterial? asset = material.material;
             if (asset != null && asset.IsLearnt)
             {
-                Doing = $"preparing \"{material.Name}\" for \"{method.Name}\"";
+                Doing = $"preparing \"{material.name}\" for \"{method.name}\"";
                 bool isPrepared = model.TryPrepare(asset, out string? refusal);
                 return refusal == null
                     ? isPrepared
-                    : throw new StudyException($"material \"{material.Name}\": the model of method \"{method.Name}\" " +
+                    : throw new StudyException($"material \"{material.name}\": the model of method \"{method.name}\" " +
                         $"cannot generate it: {refusal}; learn it for that model too, or compare by label");
             }
             foreach (string label in LabelsOf(material))
             {
                 if (!model.Labels.Contains(label, LabelSpelling.Same))
                 {
-                    throw new StudyException($"material \"{material.Name}\": the model of method \"{method.Name}\" " +
+                    throw new StudyException($"material \"{material.name}\": the model of method \"{method.name}\" " +
                         $"has no label \"{label}\"; its labels are {string.Join(", ", model.Labels)}");
                 }
             }
@@ -136,37 +125,33 @@ namespace HaptoFlow.Samples.SimilarityStudy
 
         private static IEnumerable<string> LabelsOf(StudyMaterial material)
         {
-            if (material.Material == null)
+            if (material.material == null)
             {
-                return new[] { material.Label };
+                return new[] { material.label };
             }
-            MaterialDescription description = material.Material.Description;
+            MaterialDescription description = material.material.Description;
             return new[] { description.Label, description.SecondLabel }.Where(label => label.Length > 0);
         }
 
         /// <summary>Refuses two methods with one tier of one model, which would be compared with themselves.</summary>
         private void RefuseEqualMethods()
         {
-            var known = new Dictionary<string, string>(StringComparer.Ordinal);
-            foreach (StudyMethod each in settings.Methods)
+            var equal = settings.methods
+                .GroupBy(each => (File: Hash.Sha256(each.model!.File), Tier: loaded[each.name].TierName))
+                .FirstOrDefault(group => group.Count() > 1);
+            if (equal != null)
             {
-                string tier = loaded[each.Name].TierName;
-                string key = Hash.Sha256(each.Model!.File) + tier;
-                if (known.TryGetValue(key, out string other))
-                {
-                    throw new StudyException(
-                        $"the methods \"{other}\" and \"{each.Name}\" are the same tier \"{tier}\" of the same model; " +
-                        "leave one out, or choose another quality");
-                }
-                known.Add(key, each.Name);
+                string[] names = equal.Select(each => each.name).ToArray();
+                throw new StudyException($"the methods \"{names[0]}\" and \"{names[1]}\" are the same tier " +
+                    $"\"{equal.Key.Tier}\" of the same model; leave one out, or choose another quality");
             }
         }
 
         private void MeasureNext()
         {
-            StudyMethod next = settings.Methods[inferenceMilliseconds.Count];
-            Doing = $"measuring the delay of \"{next.Name}\"; keep the pen away";
-            measuring ??= measure(next, loaded[next.Name]);
+            StudyMethod next = settings.methods[inferenceMilliseconds.Count];
+            Doing = $"measuring the delay of \"{next.name}\"; keep the pen away";
+            measuring ??= measure(next, loaded[next.name]);
             if (!measuring.IsCompleted)
             {
                 return;
@@ -175,13 +160,13 @@ namespace HaptoFlow.Samples.SimilarityStudy
             measuring = null;
             if (ended.Status != TaskStatus.RanToCompletion)
             {
-                throw new StudyException($"method \"{next.Name}\": its delay could not be measured: " +
+                throw new StudyException($"method \"{next.name}\": its delay could not be measured: " +
                     (ended.Exception?.GetBaseException().Message ?? "the measurement was cancelled"));
             }
-            inferenceMilliseconds.Add(next.Name, ended.Result);
+            inferenceMilliseconds.Add(next.name, ended.Result);
         }
 
-        private static string FileOf(StudyMethod method) => method.Model!.name + ".haptoflow";
+        private static string FileOf(StudyMethod method) => method.model!.name + ".haptoflow";
     }
 
     /// <summary>Hashes that identify in a log which bytes a study used.</summary>

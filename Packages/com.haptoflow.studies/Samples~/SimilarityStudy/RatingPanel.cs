@@ -5,16 +5,12 @@ using UnityEngine;
 namespace HaptoFlow.Samples.SimilarityStudy
 {
     /// <summary>The question and its seven answers in front of the participant. An answer counts only when it has been
-    /// chosen and then confirmed, so that a single press by mistake does not count.</summary>
+    /// chosen and then confirmed, so that a single press by mistake does not count. The buttons are on the controller in the
+    /// hand without the pen and on the keyboard; without the Input System, only the keyboard answers.</summary>
     public sealed class RatingPanel : MonoBehaviour
     {
-        /// <summary>The lowest answer.</summary>
         public const int Lowest = 1;
-
-        /// <summary>The highest answer.</summary>
         public const int Highest = 7;
-
-        /// <summary>The question.</summary>
         public const string Question = "How similar are these objects?";
 
         private const float SpacingMetres = 0.035f;
@@ -22,6 +18,11 @@ namespace HaptoFlow.Samples.SimilarityStudy
         private static readonly Color ChosenColour = new Color(0.95f, 0.85f, 0.2f);
 
         private readonly TextMesh[] numbers = new TextMesh[Highest];
+        private readonly ButtonPress[] keys = new ButtonPress[Highest];
+        private GameObject texts = null!;
+        private ButtonPress lower = null!;
+        private ButtonPress higher = null!;
+        private ButtonPress confirm = null!;
 
         /// <summary>Raised when the participant confirms an answer, 1 to 7.</summary>
         public event Action<int>? Confirmed;
@@ -29,36 +30,40 @@ namespace HaptoFlow.Samples.SimilarityStudy
         /// <summary>The chosen answer, 1 to 7; null before one is chosen.</summary>
         public int? Choice { get; private set; }
 
-        /// <summary>Whether the question is shown.</summary>
-        public bool IsOpen => gameObject.activeSelf;
+        public bool IsOpen => texts.activeSelf;
 
-        /// <summary>Creates a closed panel.</summary>
-        public static RatingPanel Create(Vector3 position, Quaternion facing)
+        /// <param name="penHand">The hand that holds the pen; the other one answers.</param>
+        public static RatingPanel Create(Vector3 position, Quaternion facing, PenHand penHand)
         {
             var panel = new GameObject("Rating Panel").AddComponent<RatingPanel>();
             panel.transform.SetPositionAndRotation(position, facing);
+            panel.texts = new GameObject("Texts");
+            panel.texts.transform.SetParent(panel.transform, false);
             panel.Add(Question, new Vector3(0f, 0.035f, 0f));
             for (int answer = Lowest; answer <= Highest; ++answer)
             {
                 float x = (answer - 0.5f * (Lowest + Highest)) * SpacingMetres;
                 panel.numbers[answer - 1] = panel.Add($"{answer}", new Vector3(x, 0f, 0f));
+                panel.keys[answer - 1] = new ButtonPress("<Keyboard>/" + answer);
             }
             panel.Add("1: not similar at all          7: extremely similar", new Vector3(0f, -0.03f, 0f));
             panel.Add("two buttons, or 1 to 7: choose\ntrigger, or Enter: confirm", new Vector3(0f, -0.065f, 0f));
-            panel.gameObject.SetActive(false);
+            string hand = ButtonPress.ControllerOppositeTo(penHand);
+            panel.lower = new ButtonPress("<Keyboard>/leftArrow", hand + "primaryButton");
+            panel.higher = new ButtonPress("<Keyboard>/rightArrow", hand + "secondaryButton");
+            panel.confirm = new ButtonPress("<Keyboard>/enter", hand + "triggerPressed");
+            panel.Close();
             return panel;
         }
 
-        /// <summary>Shows the question without a chosen answer.</summary>
         public void Open()
         {
             Choice = null;
             Show();
-            gameObject.SetActive(true);
+            texts.SetActive(true);
         }
 
-        /// <summary>Hides the question.</summary>
-        public void Close() => gameObject.SetActive(false);
+        public void Close() => texts.SetActive(false);
 
         /// <summary>Chooses an answer while the question is shown, until one is confirmed.</summary>
         public void Choose(int answer)
@@ -87,10 +92,41 @@ namespace HaptoFlow.Samples.SimilarityStudy
             }
         }
 
+        private void Update()
+        {
+            for (int answer = Lowest; answer <= Highest; ++answer)
+            {
+                if (keys[answer - 1].IsNew())
+                {
+                    Choose(answer);
+                }
+            }
+            // All buttons are read in every frame, so that a button held while the panel opens does not count as new.
+            bool isLower = lower.IsNew();
+            bool isHigher = higher.IsNew();
+            bool isConfirmed = confirm.IsNew();
+            if (isLower != isHigher)
+            {
+                Move(isLower ? -1 : 1);
+            }
+            if (isConfirmed)
+            {
+                Confirm();
+            }
+        }
+
+        private void OnDestroy()
+        {
+            lower.Dispose();
+            higher.Dispose();
+            confirm.Dispose();
+            Array.ForEach(keys, each => each.Dispose());
+        }
+
         private TextMesh Add(string text, Vector3 place)
         {
             TextMesh made = SceneObjects.AddText(text, Vector3.zero, Quaternion.identity);
-            made.transform.SetParent(transform, false);
+            made.transform.SetParent(texts.transform, false);
             made.transform.localPosition = place;
             return made;
         }

@@ -16,17 +16,13 @@ namespace HaptoFlow.Samples.SimilarityStudy
         private CornerMarks? corners;
         private bool forceDecides;
 
-        /// <summary>The component that takes the points and moves the objects.</summary>
         public HapticAlignment Alignment { get; private set; } = null!;
-
-        /// <summary>The next step, for the operator.</summary>
         public string Text { get; private set; } = "";
 
         /// <summary>Whether the operator sees the buttons of the alignment. They are drawn with Unity's immediate mode,
         /// which the screen shows and the headset does not.</summary>
         public bool HasButtons { get; set; }
 
-        /// <summary>Adds the alignment to the pair of objects.</summary>
         /// <param name="pair">The object that moves. The plane y = 0 of its space is the top of both objects.</param>
         /// <param name="saveName">The name under which the alignment is kept; empty to keep nothing.</param>
         public static SampleAlignment Create(GameObject pair, XrRig rig, string saveName)
@@ -49,7 +45,6 @@ namespace HaptoFlow.Samples.SimilarityStudy
             corners = CornerMarks.Create(Alignment, new Vector3(-0.5f * size.x, 0f, -0.5f * size.z), size.x, size.z);
         }
 
-        /// <summary>Starts taking points with the pen in use.</summary>
         public void Begin()
         {
             HapticStylus pen = rig.PenInUse!;

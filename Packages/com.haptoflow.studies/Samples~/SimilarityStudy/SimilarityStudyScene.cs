@@ -22,9 +22,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
         [SerializeField, Tooltip("The settings hold the materials, the methods and the set-up.")]
         private SimilarityStudySettings? settings;
 
-        private TrialParts? parts;
         private GameObject pair = null!;
-        private TextMesh instruction = null!;
         private MaskingNoise noise = null!;
         private XrRig rig = null!;
         private bool isRefused;
@@ -40,10 +38,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
         /// measurement replaces it before the component wakes.</summary>
         public Func<StudyMethod, HapticLoadedModel, Task<double>> MeasureInference { get; set; } = MeasureLive;
 
-        /// <summary>Aligns the virtual object with the real sample.</summary>
         public SampleAlignment Alignment { get; private set; } = null!;
-
-        /// <summary>The view and the buttons of the operator.</summary>
         public OperatorView Operator { get; private set; } = null!;
 
         /// <summary>The session; null before <see cref="Begin"/>.</summary>
@@ -57,17 +52,14 @@ namespace HaptoFlow.Samples.SimilarityStudy
 
         /// <summary>The methods' models; null where the settings cannot be used.</summary>
         public MethodModels? Models { get; private set; }
-
-        /// <summary>The question and its answers.</summary>
         public RatingPanel Panel { get; private set; } = null!;
+        public TextMesh Instruction { get; private set; } = null!;
 
         /// <summary>The object in the place of the real sample; null where the settings cannot be used.</summary>
         public StudyObject Real { get; private set; } = null!;
 
         /// <summary>The virtual object beside it; null where the settings cannot be used.</summary>
         public StudyObject Virtual { get; private set; } = null!;
-
-        /// <summary>The output that drives the actuator.</summary>
         public HapticOutput Output { get; private set; } = null!;
 
         /// <summary>Why the study cannot begin or continue; null when nothing is wrong.</summary>
@@ -96,11 +88,9 @@ namespace HaptoFlow.Samples.SimilarityStudy
                     throw new StudyException(missing);
                 }
                 StudyLog log = OpenLog(participant);
-                parts = new TrialParts(
-                    settings!, Models!, Delay!, Real, Virtual, rig, Output, Panel, instruction);
                 Session = new StudySession(log);
                 Alignment.HasButtons = false;
-                Procedure = SimilarityProcedure.Create(Session, parts);
+                Procedure = SimilarityProcedure.Create(Session, this);
                 Operator.Session = Session;
                 Operator.Problem = null;
             }
@@ -115,10 +105,10 @@ namespace HaptoFlow.Samples.SimilarityStudy
         {
             if (settings != null)
             {
-                Vector3 size = settings.SampleMetres;
+                Vector3 size = settings.sampleMetres;
                 var down = new Vector3(0f, -0.5f * size.y, 0f);
                 SceneSketch.DrawBox(down, size, StudyObject.Grey);
-                SceneSketch.DrawBox(settings.VirtualMetres + down, size, StudyObject.Grey);
+                SceneSketch.DrawBox(settings.virtualMetres + down, size, StudyObject.Grey);
             }
         }
 
@@ -127,7 +117,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
             // Before the first trial, the pen feels by the model of the project's settings, if they name one.
             if (Model == null && settings != null)
             {
-                Model = settings.Methods.Select(each => each.Model).FirstOrDefault(each => each != null);
+                Model = settings.methods.Select(each => each.model).FirstOrDefault(each => each != null);
             }
             UseModelIfNoneIsSet();
             Camera view = View!;
@@ -140,10 +130,9 @@ namespace HaptoFlow.Samples.SimilarityStudy
             rig = XrRig.Create(view);
             rig.MousePen = MousePen.Create(view);
             rig.MousePen.Stylus.Output = Output;
-            rig.AddPen(chosen.PenHand).Stylus!.Output = Output;
-            instruction = SceneObjects.AddText("Please wait.", InstructionPlace, facing);
-            Panel = RatingPanel.Create(PanelPlace, facing);
-            RatingButtons.Create(Panel, chosen.PenHand);
+            rig.AddPen(chosen.penHand).Stylus!.Output = Output;
+            Instruction = SceneObjects.AddText("Please wait.", InstructionPlace, facing);
+            Panel = RatingPanel.Create(PanelPlace, facing, chosen.penHand);
             Operator = gameObject.AddComponent<OperatorView>();
             Operator.Output = Output;
             Operator.Detail = Detail;
@@ -165,7 +154,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
                 }
                 settings.Check();
                 MakeObjects(settings);
-                Alignment.SetSample(settings.SampleMetres, settings.PlateUnderVirtual);
+                Alignment.SetSample(settings.sampleMetres, settings.plateUnderVirtual);
                 Models = new MethodModels(settings, MeasureInference);
                 Alignment.HasButtons = true;
             }
@@ -213,7 +202,6 @@ namespace HaptoFlow.Samples.SimilarityStudy
             {
                 Destroy(Procedure.gameObject);
             }
-            parts?.Dispose();
             Models?.Dispose();
         }
 
@@ -227,37 +215,38 @@ namespace HaptoFlow.Samples.SimilarityStudy
         {
             StudyPlan plan = settings!.PlanFor(participant);
             double? milliseconds = EqualDelay.OfInterrupted(settings.Folder, participant);
-            if (milliseconds == null && settings.EqualDelayMilliseconds > 0f)
+            if (milliseconds == null && settings.equalDelayMilliseconds > 0f)
             {
-                milliseconds = settings.EqualDelayMilliseconds;
+                milliseconds = settings.equalDelayMilliseconds;
             }
             Delay = new EqualDelay(DelaysOfMethods(), milliseconds);
             var description = new StudyDescription(plan, settings.ForLog(), Delay.Of(Delay.Slowest))
             {
                 IsSimulated = settings.Simulated,
-                Environment = settings.Environment(),
+                Build = StudyPlayer.Build(),
+                Device = settings.Device(),
                 Models = Models!.ForLog(),
             };
             return StudyLog.Open(settings.Folder, description);
         }
 
-        private Dictionary<string, SystemDelay> DelaysOfMethods() => settings!.Methods.ToDictionary(
-            each => each.Name,
-            each => new SystemDelay(poseInterval.MedianMilliseconds, Models!.InferenceMilliseconds(each.Name),
+        private Dictionary<string, SystemDelay> DelaysOfMethods() => settings!.methods.ToDictionary(
+            each => each.name,
+            each => new SystemDelay(poseInterval.MedianMilliseconds, Models!.InferenceMilliseconds(each.name),
                 StudyPlayer.BlockMilliseconds, settings.DeviceDelayMilliseconds),
             StringComparer.Ordinal);
 
         private void MakeObjects(SimilarityStudySettings chosen)
         {
-            Real = new StudyObject("Left Object", pair.transform, Vector3.zero, chosen.SampleMetres,
-                chosen.RealHeightMetres, NewTracing(chosen));
+            Real = new StudyObject("Left Object", pair.transform, Vector3.zero, chosen.sampleMetres,
+                chosen.realHeightMetres, NewTracing(chosen));
             Real.Surface.Material.Effects = HapticEffects.Nothing;
-            Virtual = new StudyObject("Right Object", pair.transform, chosen.VirtualMetres, chosen.SampleMetres, 0f,
+            Virtual = new StudyObject("Right Object", pair.transform, chosen.virtualMetres, chosen.sampleMetres, 0f,
                 NewTracing(chosen));
         }
 
         private static EdgeTracing NewTracing(SimilarityStudySettings chosen) => new EdgeTracing(
-            chosen.SampleMetres.x, chosen.SampleMetres.z, chosen.EdgeToleranceMetres, chosen.EdgeShare);
+            chosen.sampleMetres.x, chosen.sampleMetres.z, chosen.edgeToleranceMetres, chosen.edgeShare);
 
         private string? WhatIsMissing()
         {
@@ -269,7 +258,7 @@ namespace HaptoFlow.Samples.SimilarityStudy
             {
                 return "measuring the frame rate";
             }
-            return settings!.NeedsAlignment && !Alignment.Alignment.IsAligned
+            return settings!.needsAlignment && !Alignment.Alignment.IsAligned
                 ? "put the virtual object beside the real sample: press Align"
                 : null;
         }

@@ -13,99 +13,55 @@ namespace HaptoFlow.Samples.SimilarityStudy
     [CreateAssetMenu(menuName = "HaptoFlow/Similarity Study Settings", fileName = "SimilarityStudySettings")]
     public sealed class SimilarityStudySettings : StudySettings
     {
-        [SerializeField, Tooltip("The materials are the real samples, any number of them. The first one is used for " +
+        [Tooltip("The materials are the real samples, any number of them. The first one is used for " +
             "practice.")]
-        private StudyMaterial[] materials = Array.Empty<StudyMaterial>();
+        public StudyMaterial[] materials = Array.Empty<StudyMaterial>();
 
-        [SerializeField, Tooltip("The methods generate the vibration. There may be any number of them.")]
-        private StudyMethod[] methods = Array.Empty<StudyMethod>();
+        [Tooltip("The methods generate the vibration. There may be any number of them.")]
+        public StudyMethod[] methods = Array.Empty<StudyMethod>();
 
-        [SerializeField, Tooltip("The mounted samples have this width, height and depth, in metres.")]
-        private Vector3 sampleMetres = new Vector3(0.2f, 0.01f, 0.15f);
+        [Tooltip("The mounted samples have this width, height and depth, in metres.")]
+        public Vector3 sampleMetres = new Vector3(0.2f, 0.01f, 0.15f);
 
-        [SerializeField, Tooltip("The virtual object lies this far from the real sample, from middle to middle, in " +
+        [Tooltip("The virtual object lies this far from the real sample, from middle to middle, in " +
             "metres.")]
-        private Vector3 virtualMetres = new Vector3(0.26f, 0f, 0f);
+        public Vector3 virtualMetres = new Vector3(0.26f, 0f, 0f);
 
-        [SerializeField, Range(0.002f, 0.03f), Tooltip("A tip traces an edge when it is no farther away than " +
+        [Range(0.002f, 0.03f), Tooltip("A tip traces an edge when it is no farther away than " +
             "this, in metres.")]
-        private float edgeToleranceMetres = 0.012f;
+        public float edgeToleranceMetres = 0.012f;
 
-        [SerializeField, Range(0.1f, 1f), Tooltip("The participant has to trace this share of each edge.")]
-        private float edgeShare = 0.9f;
+        [Range(0.1f, 1f), Tooltip("The participant has to trace this share of each edge.")]
+        public float edgeShare = 0.9f;
 
-        [SerializeField, Range(0f, 0.01f), Tooltip("The tip counts as touching the real sample below this height " +
+        [Range(0f, 0.01f), Tooltip("The tip counts as touching the real sample below this height " +
             "above it, in metres. The height makes up for errors of the tracking.")]
-        private float realHeightMetres = 0.004f;
+        public float realHeightMetres = 0.004f;
 
-        [SerializeField, Tooltip("A blank plate lies under the virtual object. The force that a pen measures then " +
+        [Tooltip("A blank plate lies under the virtual object. The force that a pen measures then " +
             "decides what it touches.")]
-        private bool plateUnderVirtual = true;
+        public bool plateUnderVirtual = true;
 
-        [SerializeField, Tooltip("The study begins only after the virtual object has been aligned with the real " +
+        [Tooltip("The study begins only after the virtual object has been aligned with the real " +
             "sample.")]
-        private bool needsAlignment = true;
+        public bool needsAlignment = true;
 
-        [SerializeField, Tooltip("This hand holds the pen. The other hand answers.")]
-        private PenHand penHand = PenHand.Right;
+        [Tooltip("This hand holds the pen. The other hand answers.")]
+        public PenHand penHand = PenHand.Right;
 
-        [SerializeField, Min(0f), Tooltip("Every method gets this total delay, in ms. With 0, every method gets " +
+        [Min(0f), Tooltip("Every method gets this total delay, in ms. With 0, every method gets " +
             "the delay of the slowest one, measured before each session. Enter a measured value, so that all " +
             "participants have the same delay.")]
-        private float equalDelayMilliseconds;
+        public float equalDelayMilliseconds;
 
-        [SerializeField, Range(0.1f, 3f), Tooltip("Two methods count as equally similar when their ratings differ by " +
+        [Range(0.1f, 3f), Tooltip("Two methods count as equally similar when their ratings differ by " +
             "less than this, in points of the scale. Decide before the first participant; the log records it, and " +
             "the analysis tests against it.")]
-        private float equivalencePoints = 0.5f;
+        public float equivalencePoints = 0.5f;
 
-        /// <summary>The real samples; the first one is used for practice.</summary>
-        public IReadOnlyList<StudyMaterial> Materials => materials;
-
-        /// <summary>The methods that generate the vibration.</summary>
-        public IReadOnlyList<StudyMethod> Methods => methods;
-
-        /// <summary>Width, height and depth of the mounted samples, in metres.</summary>
-        public Vector3 SampleMetres => sampleMetres;
-
-        /// <summary>From the middle of the real sample to that of the virtual one, in metres.</summary>
-        public Vector3 VirtualMetres => virtualMetres;
-
-        /// <summary>The largest distance from an edge at which the tip traces it, in metres.</summary>
-        public float EdgeToleranceMetres => edgeToleranceMetres;
-
-        /// <summary>The share of each edge that has to be traced.</summary>
-        public float EdgeShare => edgeShare;
-
-        /// <summary>The height below which the tip counts as touching the real sample, in metres.</summary>
-        public float RealHeightMetres => realHeightMetres;
-
-        /// <summary>Whether a blank plate lies under the virtual object.</summary>
-        public bool PlateUnderVirtual => plateUnderVirtual;
-
-        /// <summary>Whether the study begins only after the alignment.</summary>
-        public bool NeedsAlignment { get => needsAlignment; set => needsAlignment = value; }
-
-        /// <summary>The hand that holds the pen.</summary>
-        public PenHand PenHand => penHand;
-
-        /// <summary>The delay of every method, in ms; 0 for the delay of the slowest method.</summary>
-        public float EqualDelayMilliseconds { get => equalDelayMilliseconds; set => equalDelayMilliseconds = value; }
-
-        /// <summary>Ratings that differ by less count as equal, in points of the scale.</summary>
-        public float EquivalencePoints => equivalencePoints;
-
-        /// <summary>Sets materials and methods. Call it before the component of the scene wakes.</summary>
-        public void Compare(IEnumerable<StudyMaterial> chosenMaterials, IEnumerable<StudyMethod> chosenMethods)
-        {
-            materials = chosenMaterials.ToArray();
-            methods = chosenMethods.ToArray();
-        }
-
-        /// <summary>A participant's trials.</summary>
         /// <exception cref="StudyException">A name or the participant is unusable; the message names it.</exception>
         public StudyPlan PlanFor(int participant) => StudyPlan.Similarity(participant, Seed,
-            materials.Select(each => each.Name).ToArray(), methods.Select(each => each.Name).ToArray());
+            materials.Select(each => each.name).ToArray(), methods.Select(each => each.name).ToArray());
 
         /// <summary>Refuses settings that no study can run with, before anything is loaded.</summary>
         /// <exception cref="StudyException">The message names the setting and what to do.</exception>
@@ -114,14 +70,14 @@ namespace HaptoFlow.Samples.SimilarityStudy
             PlanFor(1);
             foreach (StudyMaterial each in materials)
             {
-                Require(each.Material != null || each.Label.Trim().Length > 0, $"material \"{each.Name}\"",
+                Require(each.material != null || each.label.Trim().Length > 0, $"material \"{each.name}\"",
                     "has neither a label nor a Haptic Material; choose one of them");
             }
             foreach (StudyMethod each in methods)
             {
-                Require(each.Model != null, $"method \"{each.Name}\"",
+                Require(each.model != null, $"method \"{each.name}\"",
                     "has no model; choose a .haptoflow asset in its field Model");
-                Require(each.Quality != HapticQuality.Auto, $"method \"{each.Name}\"",
+                Require(each.Quality != HapticQuality.Auto, $"method \"{each.name}\"",
                     "has the quality Auto, which changes the tier while participants feel it; choose Sketch, " +
                     "Draft or Standard");
             }
@@ -137,13 +93,12 @@ namespace HaptoFlow.Samples.SimilarityStudy
             Require(HapticChannel >= 0, "Haptic Channel", "expected a channel from 0");
         }
 
-        /// <summary>The settings as the log holds them.</summary>
         public StudyFields ForLog() => new StudyFields
         {
             { "materials", materials.Select(each => each.ForLog()).ToArray() },
             { "methods", methods.Select(each => new StudyFields
             {
-                { "name", each.Name }, { "quality", each.Quality.ToString().ToLowerInvariant() },
+                { "name", each.name }, { "quality", each.Quality.ToString().ToLowerInvariant() },
             }).ToArray() },
             { "sample_metres", new[] { sampleMetres.x, sampleMetres.y, sampleMetres.z } },
             { "virtual_metres", new[] { virtualMetres.x, virtualMetres.y, virtualMetres.z } },
@@ -172,35 +127,17 @@ namespace HaptoFlow.Samples.SimilarityStudy
     [Serializable]
     public sealed class StudyMaterial
     {
-        [SerializeField, Tooltip("Logs and reports list the material under this name, and the operator mounts the " +
+        [Tooltip("Logs and reports list the material under this name, and the operator mounts the " +
             "sample of this name.")]
-        private string name = "";
+        public string name = "";
 
-        [SerializeField, Tooltip("The virtual object has the texture of this label, without other effects. The label " +
+        [Tooltip("The virtual object has the texture of this label, without other effects. The label " +
             "is used when Material is empty.")]
-        private string label = "";
+        public string label = "";
 
-        [SerializeField, Tooltip("The virtual object feels as this Haptic Material describes. The material may have " +
+        [Tooltip("The virtual object feels as this Haptic Material describes. The material may have " +
             "been learnt from a recording.")]
-        private HapticMaterial? material;
-
-        /// <summary>Used by Unity's serialisation.</summary>
-        public StudyMaterial()
-        {
-        }
-
-        /// <summary>Creates a material from a script.</summary>
-        public StudyMaterial(string name, string label, HapticMaterial? material = null) =>
-            (this.name, this.label, this.material) = (name, label, material);
-
-        /// <summary>The name in logs and reports.</summary>
-        public string Name => name;
-
-        /// <summary>The label of the models; used when <see cref="Material"/> is null.</summary>
-        public string Label => label;
-
-        /// <summary>The Haptic Material; null for the label alone.</summary>
-        public HapticMaterial? Material => material;
+        public HapticMaterial? material;
 
         /// <summary>The material as the log holds it. A session can be resumed only with the same material.</summary>
         public StudyFields ForLog()
@@ -229,33 +166,17 @@ namespace HaptoFlow.Samples.SimilarityStudy
     [Serializable]
     public sealed class StudyMethod
     {
-        [SerializeField, Tooltip("Logs and reports list the method under this name, for example ours or DSTN.")]
-        private string name = "";
+        [Tooltip("Logs and reports list the method under this name, for example ours or DSTN.")]
+        public string name = "";
 
-        [SerializeField, Tooltip("The vibration comes from this .haptoflow file: the package's model, or a rival " +
+        [Tooltip("The vibration comes from this .haptoflow file: the package's model, or a rival " +
             "that npm run evaluate exports.")]
-        private HapticModelAsset? model;
+        public HapticModelAsset? model;
 
-        [SerializeField, Tooltip("The vibration comes from this tier of the model. Auto is refused, because it " +
+        [Tooltip("The vibration comes from this tier of the model. Auto is refused, because it " +
             "changes the tier while participants feel it.")]
-        private HapticQuality quality = HapticQuality.Standard;
+        public HapticQuality quality = HapticQuality.Standard;
 
-        /// <summary>Used by Unity's serialisation.</summary>
-        public StudyMethod()
-        {
-        }
-
-        /// <summary>Creates a method from a script.</summary>
-        public StudyMethod(string name, HapticModelAsset? model, HapticQuality quality) =>
-            (this.name, this.model, this.quality) = (name, model, quality);
-
-        /// <summary>The name in logs and reports.</summary>
-        public string Name => name;
-
-        /// <summary>The model; null when none is chosen.</summary>
-        public HapticModelAsset? Model => model;
-
-        /// <summary>The quality, which chooses the tier of the model.</summary>
         public HapticQuality Quality => quality.OrStandard();
     }
 }

@@ -43,17 +43,9 @@ namespace HaptoFlow.Samples.SimilarityStudy
 
         /// <summary>The local space whose origin is the middle of the top.</summary>
         public Transform Frame { get; }
-
-        /// <summary>The collider that the pen touches.</summary>
         public Collider Collider { get; }
-
-        /// <summary>The renderer of the object.</summary>
         public MeshRenderer Renderer { get; }
-
-        /// <summary>The surface with the material of the object.</summary>
         public HapticSurface Surface { get; }
-
-        /// <summary>The edges that the pen has traced.</summary>
         public EdgeTracing Tracing { get; }
 
         /// <summary>Records where a pen touches this object. Call it once a frame.</summary>
@@ -68,7 +60,6 @@ namespace HaptoFlow.Samples.SimilarityStudy
             Tracing.Add(place.x, place.z);
         }
 
-        /// <summary>Shows the edges that are still to be traced.</summary>
         public void ShowEdges(bool isShown)
         {
             for (int edge = 0; edge < marks.Length; ++edge)
@@ -130,10 +121,8 @@ namespace HaptoFlow.Samples.SimilarityStudy
             requiredParts = Math.Max(1, (int)Math.Ceiling(share * PartsOfAnEdge - 1e-9));
         }
 
-        /// <summary>Whether every edge is traced.</summary>
         public bool IsComplete => TracedEdges == EdgeCount;
 
-        /// <summary>The number of traced edges.</summary>
         public int TracedEdges
         {
             get

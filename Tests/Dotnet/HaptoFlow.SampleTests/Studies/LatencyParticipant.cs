@@ -65,7 +65,7 @@ namespace HaptoFlow.SampleTests
                 if (Clock.UnscaledSeconds > end)
                 {
                     throw new TimeoutException($"nothing came of it in {patienceSeconds} s; the panel says: " +
-                        $"{study.Panel.Text}; the operator reads: {string.Join(" | ", study.View.Lines)}");
+                        $"{study.Panel.text}; the operator reads: {string.Join(" | ", study.View.Lines)}");
                 }
                 Frame();
             }

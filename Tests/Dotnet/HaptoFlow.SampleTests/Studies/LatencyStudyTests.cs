@@ -37,9 +37,9 @@ namespace HaptoFlow.SampleTests
             settings.Folder = folder;
             settings.Simulated = true;
             settings.DeviceDelayMilliseconds = 10f;
-            settings.Strokes = 2;
-            settings.MoveSeconds = 0.5f;
-            settings.RestSeconds = 0.5f;
+            settings.strokes = 2;
+            settings.moveSeconds = 0.5f;
+            settings.restSeconds = 0.5f;
             AudioDevice.ChangeDevice((int)DeviceRateHz, BlockFrames, AudioSpeakerMode.Stereo);
             OpenScene();
         }
@@ -68,9 +68,9 @@ namespace HaptoFlow.SampleTests
             Begin(7);
             Assert.That(study.Session!.Trial!.Trial, Is.EqualTo(10));
             participant.Until(() => study.Session.Phase == StudyPhase.Finished, 240.0);
-            Assert.That(study.Panel.Text, Does.StartWith("That was all"));
+            Assert.That(study.Panel.text, Does.StartWith("That was all"));
 
-            StudyPlan plan = StudyPlan.Latency(7, settings.Seed, settings.LevelsMilliseconds);
+            StudyPlan plan = StudyPlan.Latency(7, settings.Seed, settings.levelsMilliseconds);
             string[] rows = Rows();
             Assert.That(rows, Has.Length.EqualTo(26));
             for (int index = 0; index < rows.Length; ++index)
@@ -150,7 +150,7 @@ namespace HaptoFlow.SampleTests
             Assert.That(study.View.Problem, Does.StartWith("the delay level 50, 70 ms cannot be reached").And
                 .Contain("device 60.0"));
             Assert.That(Directory.Exists(folder), Is.False);
-            settings.LevelsMilliseconds = new[] { 90.0, 130.0, 250.0 };
+            settings.levelsMilliseconds = new[] { 90.0, 130.0, 250.0 };
             Press(3);
             Assert.That(study.View.Problem, Is.Null);
             Assert.That(study.Session, Is.Not.Null);
@@ -177,7 +177,7 @@ namespace HaptoFlow.SampleTests
         {
             Begin(1);
             participant.Follows = false;
-            participant.Until(() => study.Panel.Text.Contains("Stay on the surface"));
+            participant.Until(() => study.Panel.text.Contains("Stay on the surface"));
             Assert.That(study.Session!.Phase, Is.EqualTo(StudyPhase.Task));
             participant.Follows = true;
             participant.Until(() => Rows().Length == 1);
@@ -191,7 +191,7 @@ namespace HaptoFlow.SampleTests
             participant.Until(() => study.Marker.IsMoving);
             study.SendMessage("OnApplicationPause", true);
             Assert.That(study.Session!.Phase, Is.EqualTo(StudyPhase.Paused));
-            Assert.That(study.Panel.Text, Does.Contain("rest"));
+            Assert.That(study.Panel.text, Does.Contain("rest"));
             participant.Until(() => Rows().Length == 1);
             Assert.That(Field(Rows()[0], "attempt"), Is.EqualTo("2"));
         }
@@ -202,8 +202,9 @@ namespace HaptoFlow.SampleTests
             string[] lines = File.ReadAllLines(SampleFiles.In("LatencyStudy", "LatencyStudySettings.asset"));
             object fresh = ScriptableObject.CreateInstance<LatencyStudySettings>();
             FieldInfo[] fields = new[] { typeof(LatencyStudySettings), typeof(StudySettings) }
-                .SelectMany(type => type.GetFields(BindingFlags.Instance | BindingFlags.NonPublic))
-                .Where(field => field.GetCustomAttribute<SerializeField>() != null).ToArray();
+                .SelectMany(type => type.GetFields(
+                    BindingFlags.Instance | BindingFlags.DeclaredOnly | BindingFlags.Public | BindingFlags.NonPublic))
+                .Where(field => field.IsPublic || field.GetCustomAttribute<SerializeField>() != null).ToArray();
             Assert.That(fields, Has.Length.GreaterThan(12));
             foreach (FieldInfo field in fields)
             {
@@ -230,7 +231,7 @@ namespace HaptoFlow.SampleTests
         [Test]
         public void AStopShorterThanTheLongestDelayIsRefused()
         {
-            settings.RestSeconds = 0.4f;
+            settings.restSeconds = 0.4f;
             Press(1);
             Assert.That(study.View.Problem, Does.Contain("rest_seconds is 0.4").And.Contain("at least 0.45"));
         }
@@ -261,7 +262,7 @@ namespace HaptoFlow.SampleTests
                 SimulatedInput.MouseButton = true;
                 World.Frame();
             }
-            Assert.That(session.Phase, Is.EqualTo(StudyPhase.Question), study.Panel.Text);
+            Assert.That(session.Phase, Is.EqualTo(StudyPhase.Question), study.Panel.text);
             SimulatedInput.SetControl("<Keyboard>/y", 1f);
             World.Frame();
             Assert.That(Field(Rows()[0], "answer"), Is.EqualTo("yes"));

@@ -19,7 +19,7 @@ namespace HaptoFlow.SampleTests
         public void OpenUnaligned()
         {
             settings = Settings(1, 2);
-            settings.NeedsAlignment = true;
+            settings.needsAlignment = true;
             Open(settings, "similarity test " + Guid.NewGuid());
             SimulatedInput.SetControl(Right + "tip", 0f);
             PrepareWithoutAlignment();
@@ -44,7 +44,7 @@ namespace HaptoFlow.SampleTests
             Align();
             Assert.That(scene.Alignment.Text, Does.StartWith("Aligned; 0."));
             Assert.That(Vector3.Distance(scene.Real.Frame.position, place), Is.LessThan(1e-3f));
-            Vector3 aside = place + turn * settings.VirtualMetres;
+            Vector3 aside = place + turn * settings.virtualMetres;
             Assert.That(Vector3.Distance(scene.Virtual.Frame.position, aside), Is.LessThan(1e-3f));
             Assert.That(scene.Pen.TouchBy, Is.EqualTo(TouchDecision.MeasuredForce));
             scene.Begin(7);
@@ -112,7 +112,7 @@ namespace HaptoFlow.SampleTests
 
         private Vector3[] Corners()
         {
-            Vector3 half = 0.5f * settings.SampleMetres;
+            Vector3 half = 0.5f * settings.sampleMetres;
             return new[] { new Vector3(-half.x, 0f, -half.z), new Vector3(half.x, 0f, -half.z),
                 new Vector3(-half.x, 0f, half.z) }.Select(each => place + turn * each).ToArray();
         }

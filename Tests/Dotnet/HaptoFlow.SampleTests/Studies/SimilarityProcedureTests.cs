@@ -70,12 +70,12 @@ namespace HaptoFlow.SampleTests
             string sidecar = File.ReadAllText(Path.ChangeExtension(Csv, ".json"));
             Assert.That(sidecar, Does.Contain("\"finished\": true").Or.Contain("\"finished\":true"));
             Assert.That(sidecar, Does.Match("\"resumptions\": ?1").And.Match("\"simulated\": ?true"));
-            foreach (StudyMethod method in settings.Methods)
+            foreach (StudyMethod method in settings.methods)
             {
                 using var sha256 = System.Security.Cryptography.SHA256.Create();
-                string hash = BitConverter.ToString(sha256.ComputeHash(method.Model!.File)).Replace("-", "");
+                string hash = BitConverter.ToString(sha256.ComputeHash(method.model!.File)).Replace("-", "");
                 Assert.That(sidecar, Does.Contain(hash.ToLowerInvariant()));
-                Assert.That(sidecar, Does.Contain(method.Model.name + ".haptoflow"));
+                Assert.That(sidecar, Does.Contain(method.model.name + ".haptoflow"));
             }
             Assert.That(Directory.GetFiles(folder), Has.Length.EqualTo(2));
             Assert.That(Log.Lines.Where(line => line.Type != LogType.Log), Is.Empty);
@@ -213,8 +213,8 @@ namespace HaptoFlow.SampleTests
         public void NothingVisibleRevealsMaterialOrMethod()
         {
             SimilarityStudySettings settings = Settings(3, 4);
-            string[] words = settings.Materials.SelectMany(each => new[] { each.Name, each.Label })
-                .Concat(settings.Methods.SelectMany(each => new[] { each.Name, each.Model!.name, $"{each.Quality}" }))
+            string[] words = settings.materials.SelectMany(each => new[] { each.name, each.label })
+                .Concat(settings.methods.SelectMany(each => new[] { each.name, each.model!.name, $"{each.Quality}" }))
                 .ToArray();
             Begin(settings);
             var looks = new HashSet<string>();

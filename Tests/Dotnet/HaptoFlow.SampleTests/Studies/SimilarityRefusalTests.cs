@@ -23,21 +23,21 @@ namespace HaptoFlow.SampleTests
         {
             TestCaseData Case(string name, Func<StudyMethod> method, params string[] words) =>
                 new TestCaseData(method, words).SetArgDisplayNames(name);
-            yield return Case("damaged file", () => new StudyMethod("DSTN", Named(EditedModel.Damaged(), "dstn-1"),
+            yield return Case("damaged file", () => Method("DSTN", Named(EditedModel.Damaged(), "dstn-1"),
                 HapticQuality.Standard), "method \"DSTN\"", "dstn-1.haptoflow", "checksum");
-            yield return Case("no model", () => new StudyMethod("SPSI", null, HapticQuality.Standard),
+            yield return Case("no model", () => Method("SPSI", null, HapticQuality.Standard),
                 "method \"SPSI\"", "has no model");
-            yield return Case("Auto", () => new StudyMethod("SPSI", DefaultModel.Asset(), HapticQuality.Auto),
+            yield return Case("Auto", () => Method("SPSI", DefaultModel.Asset(), HapticQuality.Auto),
                 "method \"SPSI\"", "quality Auto");
             // The second is the quality of a settings asset of an earlier version.
             foreach (HapticQuality quality in new[] { HapticQuality.Standard, (HapticQuality)3 })
             {
-                yield return Case("twice, " + quality, () => new StudyMethod("Best", DefaultModel.Asset(), quality),
+                yield return Case("twice, " + quality, () => Method("Best", DefaultModel.Asset(), quality),
                     "\"Ours\" and \"Best\" are the same tier \"standard\"");
             }
             foreach (string name in new[] { "Ours", "", "a,b" })
             {
-                yield return Case("name " + name, () => new StudyMethod(name, EditedModel.OfAnotherSpace(),
+                yield return Case("name " + name, () => Method(name, EditedModel.OfAnotherSpace(),
                     HapticQuality.Standard), $"\"{name}\"");
             }
         }
@@ -46,7 +46,7 @@ namespace HaptoFlow.SampleTests
         public void AMethodThatCannotBeComparedStopsTheStudy(Func<StudyMethod> method, string[] words)
         {
             SimilarityStudySettings settings = Settings(1, 3);
-            settings.Compare(settings.Materials, settings.Methods.Append(method()));
+            settings.methods = settings.methods.Append(method()).ToArray();
             Refused(settings, words);
         }
 
@@ -55,7 +55,7 @@ namespace HaptoFlow.SampleTests
         public void AMaterialThatNoModelHasStopsTheStudy(string name, string label, params string[] words)
         {
             SimilarityStudySettings settings = Settings(1, 2);
-            settings.Compare(settings.Materials.Append(new StudyMaterial(name, label)), settings.Methods);
+            settings.materials = settings.materials.Append(new StudyMaterial { name = name, label = label }).ToArray();
             Refused(settings, words);
         }
 
@@ -65,7 +65,7 @@ namespace HaptoFlow.SampleTests
             HapticMaterial denim =
                 HapticMaterial.Create(MaterialText.OfLabel(DefaultModel.Asset().File, "glass"), "cotton");
             SimilarityStudySettings settings = Settings(
-                new[] { new StudyMaterial("Denim", "", denim) }, Settings(1, 2).Methods);
+                new[] { new StudyMaterial { name = "Denim", material = denim } }, Settings(1, 2).methods);
             Begin(settings);
             scene.Session!.Continue();
             TraceReal();
@@ -75,8 +75,8 @@ namespace HaptoFlow.SampleTests
             Assert.That(LoudestFelt(), Is.GreaterThan(Audible));
             Crash();
             Directory.Delete(folder, true);
-            settings.Compare(settings.Materials, settings.Methods.Append(
-                new StudyMethod("Foreign", EditedModel.OfAnotherSpace(), HapticQuality.Standard)));
+            settings.methods = settings.methods.Append(
+                Method("Foreign", EditedModel.OfAnotherSpace(), HapticQuality.Standard)).ToArray();
             Refused(settings, "material \"Denim\"", "method \"Foreign\"", "another model");
             UnityEngine.Object.DestroyImmediate(denim);
         }
@@ -95,7 +95,7 @@ namespace HaptoFlow.SampleTests
         public void AMethodSlowerThanTheEqualDelayStopsTheStudyAndIsNamed()
         {
             SimilarityStudySettings settings = Settings(1, 2);
-            settings.EqualDelayMilliseconds = 60f;
+            settings.equalDelayMilliseconds = 60f;
             inference = new Dictionary<string, double> { ["Rival quick"] = 80.0 };
             Open(settings);
             Prepare();
@@ -180,8 +180,8 @@ namespace HaptoFlow.SampleTests
         public void ObjectsThatCannotBeTracedStopTheStudy(float width, float aside, string expected)
         {
             SimilarityStudySettings settings = Settings(1, 2);
-            Set(settings, "sampleMetres", new Vector3(width, 0.01f, 0.15f));
-            Set(settings, "virtualMetres", new Vector3(aside, 0f, 0f));
+            settings.sampleMetres = new Vector3(width, 0.01f, 0.15f);
+            settings.virtualMetres = new Vector3(aside, 0f, 0f);
             Refused(settings, expected);
         }
 
@@ -200,10 +200,6 @@ namespace HaptoFlow.SampleTests
             Assert.That(scene.Operator.Lines, Has.Some.StartsWith("STOPPED: "));
             Assert.That(Directory.Exists(folder), Is.False, "nothing was begun");
         }
-
-        private static void Set(SimilarityStudySettings settings, string field, object value) => settings.GetType()
-            .GetField(field, System.Reflection.BindingFlags.NonPublic | System.Reflection.BindingFlags.Instance)!
-            .SetValue(settings, value);
     }
 
     /// <summary>The scene file and the settings asset of the sample.</summary>
@@ -239,7 +235,7 @@ namespace HaptoFlow.SampleTests
         }
 
         private static IEnumerable<string> FieldsOf<T>() => typeof(T)
-            .GetFields(BindingFlags.Instance | BindingFlags.NonPublic)
-            .Where(field => field.GetCustomAttribute<SerializeField>() != null).Select(field => field.Name);
+            .GetFields(BindingFlags.Instance | BindingFlags.DeclaredOnly | BindingFlags.Public | BindingFlags.NonPublic)
+            .Where(field => field.IsPublic || field.GetCustomAttribute<SerializeField>() != null).Select(field => field.Name);
     }
 }

@@ -35,14 +35,14 @@ namespace HaptoFlow.SampleTests
                 ulong segments = before.Statistics().Segments;
                 TraceVirtual();
                 HapticLoadedModel planned = scene.Models!.Of(trial.Method!);
-                StudyMethod method = scene.Settings!.Methods.Single(each => each.Name == trial.Method);
+                StudyMethod method = scene.Settings!.methods.Single(each => each.name == trial.Method);
                 Assert.That(planned.IsInUse, Is.True, $"trial {trial.Trial}");
-                Assert.That(planned.Model, Is.SameAs(method.Model));
+                Assert.That(planned.Model, Is.SameAs(method.model));
                 Assert.That(planned.TierName, Is.EqualTo(method.Quality == HapticQuality.Draft ? "draft" : "standard"));
                 Assert.That(HapticSession.Current.Engine, Is.SameAs(before));
                 Assert.That(before.Statistics().Segments, Is.GreaterThan(segments), $"trial {trial.Trial}");
-                StudyMaterial material = scene.Settings.Materials.Single(each => each.Name == trial.Material);
-                Assert.That(scene.Pen.Contact.Material!.Label, Is.EqualTo(material.Label));
+                StudyMaterial material = scene.Settings.materials.Single(each => each.name == trial.Material);
+                Assert.That(scene.Pen.Contact.Material!.Label, Is.EqualTo(material.label));
                 Assert.That(scene.Virtual.Surface.SharedDescription.Effects, Is.EqualTo(HapticEffects.Texture));
                 Answer(4);
                 ++trials;
@@ -91,14 +91,14 @@ namespace HaptoFlow.SampleTests
         public void EveryMethodIsMeasuredLiveByDefault()
         {
             measure = null;
-            Open(Settings(1, 2));
+            Open(Settings(1, 1));
             Prepare();
             scene.Begin(7);
-            foreach (StudyMethod method in scene.Settings!.Methods)
+            foreach (StudyMethod method in scene.Settings!.methods)
             {
-                Assert.That(scene.Models!.InferenceMilliseconds(method.Name), Is.GreaterThan(0.0), method.Name);
+                Assert.That(scene.Models!.InferenceMilliseconds(method.name), Is.GreaterThan(0.0), method.name);
             }
-            double slowest = scene.Settings.Methods.Max(each => scene.Delay!.Of(each.Name).TotalMilliseconds);
+            double slowest = scene.Settings.methods.Max(each => scene.Delay!.Of(each.name).TotalMilliseconds);
             Assert.That(scene.Delay!.Milliseconds, Is.InRange(slowest + 2.0, slowest + 3.0));
         }
 

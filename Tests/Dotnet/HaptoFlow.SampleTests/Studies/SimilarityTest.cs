@@ -42,7 +42,7 @@ namespace HaptoFlow.SampleTests
             folder = Path.Combine(Path.GetTempPath(), "haptoflow-similarity-" + Guid.NewGuid().ToString("N"));
             inference = new Dictionary<string, double>();
             measure = (method, _) => Task.FromResult(
-                inference.TryGetValue(method.Name, out double milliseconds) ? milliseconds : 6.0);
+                inference.TryGetValue(method.name, out double milliseconds) ? milliseconds : 6.0);
         }
 
         [TearDown]
@@ -57,24 +57,28 @@ namespace HaptoFlow.SampleTests
         /// <summary>Creates settings with up to six labels and up to four methods, which are two tiers of two models.
         /// </summary>
         private protected SimilarityStudySettings Settings(int materials, int methods) => Settings(
-            Labels.Take(materials).Select(label => new StudyMaterial("Sample of " + label, label)),
+            Labels.Take(materials).Select(label => new StudyMaterial { name = "Sample of " + label, label = label }),
             new[]
             {
-                new StudyMethod("Ours quick", Named(DefaultModel.Asset(), "ours"), HapticQuality.Draft),
-                new StudyMethod("Rival quick", Named(EditedModel.WithLabelsReversed(), "rival"), HapticQuality.Draft),
-                new StudyMethod("Ours", Named(DefaultModel.Asset(), "ours"), HapticQuality.Standard),
-                new StudyMethod("Rival", Named(EditedModel.WithLabelsReversed(), "rival"), HapticQuality.Standard),
+                Method("Ours quick", Named(DefaultModel.Asset(), "ours"), HapticQuality.Draft),
+                Method("Rival quick", Named(EditedModel.WithLabelsReversed(), "rival"), HapticQuality.Draft),
+                Method("Ours", Named(DefaultModel.Asset(), "ours"), HapticQuality.Standard),
+                Method("Rival", Named(EditedModel.WithLabelsReversed(), "rival"), HapticQuality.Standard),
             }.Take(methods));
+
+        private protected static StudyMethod Method(string name, HapticModelAsset? model, HapticQuality quality) =>
+            new StudyMethod { name = name, model = model, quality = quality };
 
         private protected SimilarityStudySettings Settings(
             IEnumerable<StudyMaterial> materials, IEnumerable<StudyMethod> methods)
         {
             var settings = ScriptableObject.CreateInstance<SimilarityStudySettings>();
             settings.name = "Test Study";
-            settings.Compare(materials, methods);
+            settings.materials = materials.ToArray();
+            settings.methods = methods.ToArray();
             settings.Folder = folder;
             settings.Seed = 5;
-            settings.NeedsAlignment = false;
+            settings.needsAlignment = false;
             return settings;
         }
 
@@ -195,7 +199,7 @@ namespace HaptoFlow.SampleTests
         /// </summary>
         private protected Vector3 Corner(Transform frame, int corner)
         {
-            Vector3 size = scene.Settings!.SampleMetres;
+            Vector3 size = scene.Settings!.sampleMetres;
             float x = (corner == 1 || corner == 2 ? 0.5f : -0.5f) * (size.x - 2f * InsetMetres);
             float z = (corner >= 2 ? 0.5f : -0.5f) * (size.z - 2f * InsetMetres);
             return frame.TransformPoint(new Vector3(x, 0f, z));

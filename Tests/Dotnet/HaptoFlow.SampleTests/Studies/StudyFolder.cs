@@ -1,6 +1,5 @@
 #nullable enable
 using System;
-using System.Collections.Generic;
 using System.IO;
 using System.Linq;
 using HaptoFlow.Studies;
@@ -22,13 +21,18 @@ namespace HaptoFlow.SampleTests
         public string[] Rows => File.ReadAllText(Csv).TrimEnd('\n').Split('\n').Skip(1).ToArray();
 
         public static StudyDescription Description(
-            int participant = 7, ulong seed = 1, double amplitude = 20.0, double deviceMilliseconds = 5.0)
+            int participant = 7, ulong seed = 1, double amplitude = 20.0, double deviceMilliseconds = 5.0,
+            string deviceDelaySource = "estimated")
         {
             StudyPlan plan = StudyPlan.Latency(participant, seed, new[] { 50.0, 70.0 });
             var settings = new StudyFields { { "tone", new StudyFields { { "amplitude_mps2", amplitude } } } };
             return new StudyDescription(plan, settings, new SystemDelay(11.1, 0.0, 10.7, deviceMilliseconds))
             {
-                Environment = new StudyEnvironment { DeviceDelayNote = "made up" },
+                Device = new StudyFields
+                {
+                    { "device_delay_ms", deviceMilliseconds }, { "device_delay_source", deviceDelaySource },
+                    { "device_delay_note", "made up" },
+                },
             };
         }
 
@@ -57,10 +61,8 @@ namespace HaptoFlow.SampleTests
     }
 
     /// <summary>A file system whose writes can be made to fail.</summary>
-    internal sealed class FailingFiles : IStudyFiles
+    internal sealed class FailingFiles : LogWriter
     {
-        private readonly DiskFiles disk = new DiskFiles();
-
         /// <summary>The error of every write; null for a disk that works.</summary>
         public Exception? Failure { get; set; }
 
@@ -70,26 +72,20 @@ namespace HaptoFlow.SampleTests
         /// <summary>Number of attempts to write.</summary>
         public int Attempts { get; private set; }
 
-        public IReadOnlyList<string> Find(string folder, string pattern) => disk.Find(folder, pattern);
-
-        public bool Exists(string path) => disk.Exists(path);
-
-        public byte[] Read(string path) => disk.Read(path);
-
-        public void Replace(string path, string text)
+        public override void Replace(string path, string text)
         {
             Fail();
-            disk.Replace(path, text);
+            base.Replace(path, text);
         }
 
-        public void AddLine(string path, byte[] before, byte[] line)
+        public override void AddLine(string path, byte[] before, byte[] line)
         {
             if (Failure != null)
             {
-                disk.AddLine(path, before, line.AsSpan(0, Math.Min(RoomBytes, line.Length)).ToArray());
+                base.AddLine(path, before, line.AsSpan(0, Math.Min(RoomBytes, line.Length)).ToArray());
             }
             Fail();
-            disk.AddLine(path, before, line);
+            base.AddLine(path, before, line);
         }
 
         private void Fail()

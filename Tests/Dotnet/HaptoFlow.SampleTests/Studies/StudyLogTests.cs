@@ -186,9 +186,7 @@ namespace HaptoFlow.SampleTests
             StudyDescription simulated = StudyFolder.Description();
             simulated.IsSimulated = true;
             AssertRefused(simulated, "simulated = false", "true");
-            StudyDescription measured = StudyFolder.Description();
-            measured.Environment.DeviceDelaySource = DeviceDelaySource.Measured;
-            AssertRefused(measured, "device_delay_source = \"estimated\"", "\"measured\"");
+            AssertRefused(StudyFolder.Description(deviceDelaySource: "measured"), "device_delay_source = \"estimated\"", "\"measured\"");
             StudyDescription model = StudyFolder.Description();
             model.Models = new[] { new StudyModel("ours", "default.haptoflow", new string('a', 64)) };
             AssertRefused(model, "models = 0 long", "1 long");

@@ -35,6 +35,17 @@ namespace HaptoFlow.Tests
             return MeshOf(vertices.ToArray(), triangles.ToArray());
         }
 
+        /// <summary>A step along z without anything below: a floor of 20 cm at y = 0 that ends at x = 0, and a wall down from
+        /// there.</summary>
+        public static Mesh Step()
+        {
+            var vertices = new List<Vector3>();
+            var triangles = new List<int>();
+            AddStrip(vertices, triangles, new Vector3(-0.2f, 0f, 0f), Vector3.zero);
+            AddStrip(vertices, triangles, Vector3.zero, new Vector3(0f, -0.1f, 0f));
+            return MeshOf(vertices.ToArray(), triangles.ToArray());
+        }
+
         /// <summary>20 cm along z, between two of its edges' middles; its front is on the left of the way.</summary>
         private static void AddStrip(List<Vector3> vertices, List<int> triangles, Vector3 from, Vector3 to)
         {

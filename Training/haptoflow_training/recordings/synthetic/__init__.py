@@ -1,11 +1,11 @@
 """The synthetic recorder: a stylus dragged over a height profile, and the sensors mounted on it."""
 
 from haptoflow_training.recordings.synthetic.materials import Material, load_materials
-from haptoflow_training.recordings.synthetic.protocols import (
-    hand_conditions, machine_conditions, record_condition_of, record_hand_condition, record_machine_condition
+from haptoflow_training.recordings.synthetic.recorder import (
+    hand_conditions, machine_conditions, record_condition, record_condition_of, record_hand_condition,
+    record_machine_condition
 )
-from haptoflow_training.recordings.synthetic.recorder import record_condition
-from haptoflow_training.recordings.synthetic.specimens import (
+from haptoflow_training.recordings.synthetic.surface import (
     FURTHER_SPECIMENS, HELD_OUT_SPECIMEN, TRAINING_SPECIMENS, training_specimen
 )
 

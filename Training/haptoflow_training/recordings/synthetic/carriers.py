@@ -10,8 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.signal import sosfilt
 
-from haptoflow_training.recordings.synthetic import filters
-from haptoflow_training.recordings.synthetic.contact import SIMULATION_RATE_HZ
+from haptoflow_training.recordings.synthetic.contact import SIMULATION_RATE_HZ, contact_from_acceleration
 from haptoflow_training.recordings.synthetic.surface import TipPath
 from haptoflow_training.hand_stroke import force_profile, random_planar_stroke, tremor
 
@@ -155,7 +154,7 @@ def _frame_vibration(rng: np.random.Generator, path: TipPath) -> NDArray[np.floa
     count = len(path.velocity_mmps)
     speed = np.hypot(*path.velocity_mmps.T)
     time = np.arange(count) / SIMULATION_RATE_HZ
-    resonance = filters.contact_from_acceleration(*_FRAME_RESONANCE, SIMULATION_RATE_HZ)
+    resonance = contact_from_acceleration(*_FRAME_RESONANCE, SIMULATION_RATE_HZ)
     fan = sosfilt(resonance, rng.standard_normal((count, 3)), axis=0)
     shares = np.array([1.0, 0.8, 0.6])
     level = 0.012 + 0.02 * speed / 60.0

@@ -9,13 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.signal import sosfilt
 
-from haptoflow_training.recordings.synthetic import filters
 from haptoflow_training.recordings.synthetic.features import (
     impact_acceleration, rib_wander_turns, ruling_height, slip_acceleration, slips_of
 )
 from haptoflow_training.recordings.synthetic.materials import MAXIMUM_RULINGS, Material
-from haptoflow_training.recordings.synthetic.specimens import character_of, surface_gain
-from haptoflow_training.recordings.synthetic.surface import TipPath, random_height
+from haptoflow_training.recordings.synthetic.surface import TipPath, character_of, random_height, surface_gain
 
 SIMULATION_RATE_HZ = 8000.0
 # A Hertzian contact's stiffness grows as F^(1/3), and its resonance as the root of the stiffness.
@@ -97,8 +95,8 @@ def tool_vibration(
 
 
 def _shared_sections(material: Material, tilt_db_per_octave: float, rate_hz: float) -> NDArray[np.float64]:
-    sections = [filters.absorption(material.calibrated.absorption_db_per_octave + tilt_db_per_octave, rate_hz)]
-    sections += [filters.peak(*mode, rate_hz) for mode in material.tool_modes]
+    sections = [absorption(material.calibrated.absorption_db_per_octave + tilt_db_per_octave, rate_hz)]
+    sections += [peak(*mode, rate_hz) for mode in material.tool_modes]
     return np.concatenate(sections)
 
 
@@ -133,10 +131,10 @@ def _through_contact(
     for step in range(math.floor(stiffening.min()), math.ceil(stiffening.max()) + 1):
         share = np.clip(1.0 - np.abs(stiffening - step), 0.0, 1.0)
         resonance = material.calibrated.contact_resonance_hz * relative_resonance * _RESONANCE_STEP**step
-        from_height = filters.contact_from_height(resonance, damping, rate)
+        from_height = contact_from_height(resonance, damping, rate)
         part = sosfilt(from_height, height_metres - height_metres[0])
         if struck:
-            part += sosfilt(filters.contact_from_acceleration(resonance, damping, rate), acceleration)
+            part += sosfilt(contact_from_acceleration(resonance, damping, rate), acceleration)
         blended += share * part
     return sosfilt(tail, blended)
 
@@ -156,3 +154,58 @@ def _pressed(normal: NDArray[np.float64], force_newtons: NDArray[np.float64]) ->
     floor = np.maximum(force_newtons, 0.0) / _EFFECTIVE_MASS_KG + 9.81
     falling = np.minimum(normal, 0.0) / floor
     return np.maximum(normal, 0.0) + floor * falling / (1.0 + falling**4) ** 0.25
+
+
+Section = NDArray[np.float64]
+
+_TILT_CORNERS_HZ = tuple(30.0 * 2.0**index for index in range(6))
+
+
+def _denominator(frequency_hz: float, damping: float, rate_hz: float) -> tuple[float, float, float, float]:
+    k = math.tan(math.pi * min(frequency_hz, 0.45 * rate_hz) / rate_hz)
+    a0 = 1.0 + 2.0 * damping * k + k * k
+    return k, a0, 2.0 * (k * k - 1.0) / a0, (1.0 - 2.0 * damping * k + k * k) / a0
+
+
+def contact_from_acceleration(frequency_hz: float, damping: float, rate_hz: float) -> Section:
+    """A mass on its contact spring: w^2 / (s^2 + 2 d w s + w^2), unity at rest."""
+    k, a0, a1, a2 = _denominator(frequency_hz, damping, rate_hz)
+    gain = k * k / a0
+    return np.array([[gain, 2.0 * gain, gain, 1.0, a1, a2]])
+
+
+def contact_from_height(frequency_hz: float, damping: float, rate_hz: float) -> Section:
+    """The same contact fed by a height in metres: s^2 w^2 / (...), acceleration without a derivative."""
+    k, a0, a1, a2 = _denominator(frequency_hz, damping, rate_hz)
+    gain = (2.0 * rate_hz * k) ** 2 / a0
+    return np.array([[gain, -2.0 * gain, gain, 1.0, a1, a2]])
+
+
+def absorption(db_per_octave: float, rate_hz: float) -> Section:
+    """A tilt of `db_per_octave` between 20 Hz and 1 kHz, 0 dB at 100 Hz: pole-zero pairs an octave apart."""
+    ratio = 2.0 ** (db_per_octave / 6.0206)
+    sections = []
+    gain_at_100 = 1.0
+    for corner in _TILT_CORNERS_HZ:
+        zero, pole = corner / math.sqrt(ratio), corner * math.sqrt(ratio)
+        wz, wp = (math.tan(math.pi * min(each, 0.45 * rate_hz) / rate_hz) for each in (zero, pole))
+        b0, b1, a0, a1 = (1.0 + wz) / wz, (wz - 1.0) / wz, (1.0 + wp) / wp, (wp - 1.0) / wp
+        sections.append([b0 / a0, b1 / a0, 0.0, 1.0, a1 / a0, 0.0])
+        turn = np.exp(-2j * math.pi * 100.0 / rate_hz)
+        gain_at_100 *= abs((b0 + b1 * turn) / (a0 + a1 * turn))
+    result = np.array(sections)
+    result[0, :3] /= gain_at_100
+    return result
+
+
+def peak(frequency_hz: float, gain_db: float, q: float, rate_hz: float) -> Section:
+    """A resonance (or an absorption, with negative gain) of a tool or a sensor mount; 0 dB far away."""
+    w = 2.0 * math.pi * min(frequency_hz, 0.45 * rate_hz) / rate_hz
+    amplitude, alpha = 10.0 ** (gain_db / 40.0), math.sin(w) / (2.0 * q)
+    a0 = 1.0 + alpha / amplitude
+    return np.array(
+        [[
+            (1.0 + alpha * amplitude) / a0, -2.0 * math.cos(w) / a0, (1.0 - alpha * amplitude) / a0,
+            1.0, -2.0 * math.cos(w) / a0, (1.0 - alpha / amplitude) / a0,
+        ]]
+    )

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 import re
-import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import Any
 
 from haptoflow_training.errors import InputError
+from haptoflow_training.whole_file import read_toml
 
 DEFAULT_MATERIALS_PATH = Path(__file__).resolve().parents[3] / "configs" / "materials.toml"
 
@@ -117,12 +117,7 @@ class Material:
 def load_materials(path: Path | str | None = None) -> tuple[Material, ...]:
     """All materials in the order of their texture ids. InputError names the file, the key and the remedy."""
     source = DEFAULT_MATERIALS_PATH if path is None else Path(path)
-    try:
-        document = tomllib.loads(source.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise InputError(f"{source}: cannot be read ({error.strerror}); expected a materials.toml") from error
-    except tomllib.TOMLDecodeError as error:
-        raise InputError(f"{source}: not valid TOML: {error}") from error
+    document = read_toml(source, "a materials.toml")
     entries = document.get("material")
     if not isinstance(entries, list) or not entries:
         raise InputError(f"{source}: no [[material]] entries; expected one for each label")

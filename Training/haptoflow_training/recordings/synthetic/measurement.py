@@ -14,11 +14,10 @@ from scipy.stats import skew
 
 from haptoflow_training.preprocessing.pipeline import preprocess_recording
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
-from haptoflow_training.recordings.synthetic import filters
-from haptoflow_training.recordings.synthetic.contact import SIMULATION_RATE_HZ
+from haptoflow_training.recordings.synthetic.contact import SIMULATION_RATE_HZ, absorption, contact_from_acceleration
 from haptoflow_training.recordings.synthetic.materials import Calibrated, Material, Targets
 from haptoflow_training.recordings.synthetic.recorder import record_condition
-from haptoflow_training.recordings.synthetic.specimens import HELD_OUT_SPECIMEN, TRAINING_SPECIMENS
+from haptoflow_training.recordings.synthetic.surface import HELD_OUT_SPECIMEN, TRAINING_SPECIMENS
 
 REFERENCE_SPEED_MMPS, REFERENCE_FORCE_NEWTONS = 100.0, 1.0
 _LEVEL_BAND_HZ = (20.0, 500.0)
@@ -279,11 +278,11 @@ def _reweighting(
 
 
 def _response(
-    material: Material, frequency_hz: NDArray[np.float64], resonance_hz: float, absorption: float
+    material: Material, frequency_hz: NDArray[np.float64], resonance_hz: float, absorption_db_per_octave: float
 ) -> NDArray[np.float64]:
     rate = SIMULATION_RATE_HZ
-    contact = filters.contact_from_acceleration(resonance_hz, material.contact_damping, rate)
-    sections = np.concatenate([contact, filters.absorption(absorption, rate)])
+    contact = contact_from_acceleration(resonance_hz, material.contact_damping, rate)
+    sections = np.concatenate([contact, absorption(absorption_db_per_octave, rate)])
     return np.abs(sosfreqz(sections, frequency_hz, fs=rate)[1]) ** 2
 
 

@@ -1,4 +1,5 @@
 #nullable enable
+using System;
 using HaptoFlow.Numerics;
 
 namespace HaptoFlow.Contact
@@ -55,10 +56,8 @@ namespace HaptoFlow.Contact
     /// <summary>A sample of the stylus tip.</summary>
     internal readonly struct TipSample
     {
-        /// <summary>Time on any monotonic clock.</summary>
         public readonly double TimeSeconds;
 
-        /// <summary>Centre of the tip sphere.</summary>
         public readonly Double3 PositionMetres;
 
         /// <summary>Measured tip force, which replaces the spring force; null without one.</summary>
@@ -76,12 +75,10 @@ namespace HaptoFlow.Contact
         private Double3 place;
         private Double3 velocity;
 
-        /// <summary>Places so far.</summary>
         public int Count { get; private set; }
 
         public double Squares { get; private set; }
 
-        /// <summary>Adds a place, later than the last.</summary>
         public void Add(double timeSeconds, Double3 placeMetres)
         {
             if (Count > 0)
@@ -108,7 +105,6 @@ namespace HaptoFlow.Contact
             StiffnessNewtonsPerMetre = stiffnessNewtonsPerMetre;
         }
 
-        /// <summary>Recent poses, recorded by the caller.</summary>
         public PoseHistory Track { get; } = new PoseHistory();
 
         public double StiffnessNewtonsPerMetre { get; set; }
@@ -126,7 +122,6 @@ namespace HaptoFlow.Contact
         /// <summary>The speed with which the tip came there; infinite where it is not known.</summary>
         internal double TipSpeedMps { get; set; } = double.PositiveInfinity;
 
-        /// <summary>Resets the state for another surface.</summary>
         public void Restart(Double3 grain, double stiffnessNewtonsPerMetre)
         {
             Frame.Restart(grain);
@@ -160,8 +155,67 @@ namespace HaptoFlow.Contact
     internal interface IContactGeometry
     {
         /// <summary>The point of a surface closest to a tip, in the surface's local frame.</summary>
-        /// <param name="surface">A surface that was considered in this frame.</param>
         /// <returns>False where there is none.</returns>
         bool TryClosest(ContactBody surface, Double3 tipMetres, out SurfacePoint found);
+    }
+
+    /// <summary>Limits for the velocity from tracked positions. See <see cref="TipPath"/>.</summary>
+    internal static class VelocitySettings
+    {
+        /// <summary>The longest time from which positions are taken, no whole number of usual frames, so that rounding
+        /// does not decide how many; two positions are always taken.</summary>
+        public const double WindowSeconds = 0.105;
+
+        /// <summary>The time over which the speed of an approach is averaged, or three positions if they are sparser:
+        /// what a tip meets has turned it by the time that it is noticed.</summary>
+        public const double ApproachSeconds = 0.035;
+
+        /// <summary>A position repeated for up to this long counts as held by a tracker that repeats itself; then the
+        /// velocity fades.</summary>
+        public const double HoldSeconds = 0.030;
+
+        /// <summary>A position repeated for this long by such a tracker counts as a stop.</summary>
+        public const double StopSeconds = 0.050;
+
+        /// <summary>After a longer pause the history is discarded.</summary>
+        public const double MaximumGapSeconds = 0.250;
+
+        /// <summary>Samples closer in time than this are skipped: they would add only noise.</summary>
+        public const double MinimumStepSeconds = 0.0005;
+
+        /// <summary>A move shorter than this counts as a repeated position.</summary>
+        public const double MinimumMoveMetres = 1e-7;
+
+        /// <summary>A faster move over the surface is a jump. Hands reach a quarter of this speed.</summary>
+        public const double MaximumSpeedMps = 20.0;
+
+        /// <summary>A tip that gains more speed from one measurement to the next, and more than <see
+        /// cref="JumpAccelerationMps2"/> gives in the time, has jumped. Strokes of people gain 2 m/s at 200 Hz and 1.4
+        /// m/s at 72 Hz at most, 100 m/s^2.</summary>
+        public const double JumpGainMps = 2.5;
+
+        /// <summary>See <see cref="JumpGainMps"/>.</summary>
+        public const double JumpAccelerationMps2 = 150.0;
+
+        /// <summary>Shortest time for the speed of a jump, so that jittering time stamps do not count as
+        /// jumps.</summary>
+        public const double MinimumJumpSeconds = 0.005;
+
+        /// <summary>The longest move in a time that is not a jump. A small margin keeps moves at exactly the maximum
+        /// speed from counting as jumps by rounding.</summary>
+        public static double MaximumMoveMetres(double seconds) =>
+            (1.0 + 1e-6) * MaximumSpeedMps * Math.Max(seconds, MinimumJumpSeconds);
+
+        /// <summary>The most speed that a hand gains in a time.</summary>
+        public static double MaximumGainMps(double seconds) => Math.Max(JumpGainMps, JumpAccelerationMps2 * seconds);
+
+        /// <summary>True if the tip moved further than a hand can in this time: it was put there, as by a
+        /// teleport.</summary>
+        public static bool IsJump(double movedMetres, double seconds, double speedBeforeMps)
+        {
+            double step = Math.Max(seconds, MinimumJumpSeconds);
+            return movedMetres > MaximumMoveMetres(step) ||
+                movedMetres > (speedBeforeMps + MaximumGainMps(step)) * step;
+        }
     }
 }

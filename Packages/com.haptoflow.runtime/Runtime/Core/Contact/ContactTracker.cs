@@ -24,9 +24,22 @@ namespace HaptoFlow.Contact
         private const double MaximumFrameSeconds = 0.05;
 
         private const double HandSpeedMps = 4.0;
+        private const double MaximumForceNewtons = 5.0;
+
+        // Of surfaces that have none of their own and no label that gives one.
+        private const double DefaultStiffnessNewtonsPerMetre = 500.0;
+
+        // A touch ends when the gap between tip and surface exceeds this distance.
+        private const double ReleaseDistanceMetres = 0.0005;
+
+        // Another surface, or another face of the same one, is taken only when it is ahead by this distance.
+        private const double SwitchMarginMetres = 0.0005;
+
+        // A touch ends when the tip's position has been unusable for longer than this time.
+        private const double LostSeconds = 0.100;
         private const double MaximumPathSeconds = 0.1;
 
-        private readonly TipHistory history;
+        private readonly TipHistory history = new TipHistory();
         private readonly TouchedPath path;
         private readonly ContactTransitions transitions = new ContactTransitions();
 
@@ -55,28 +68,20 @@ namespace HaptoFlow.Contact
         // Candidates of this frame, up to the capacity; only surfaces that lie side by side need them.
         private readonly ContactCandidate[] considered = new ContactCandidate[16];
         private int consideredCount;
-        private ContactCandidate current;
-        private ContactCandidate deepest;
-        private ContactCandidate first;
-        private ContactCandidate nearest;
-        private bool hasCurrent;
-        private bool hasDeepest;
-        private bool hasFirst;
-        private bool hasNearest;
+        private ContactCandidate? current;
+        private ContactCandidate? deepest;
+        private ContactCandidate? first;
+        private ContactCandidate? nearest;
         private bool hasContinued;
         private ForceVerdict verdict;
         private ContactStatistics statistics;
 
         /// <exception cref="ArgumentOutOfRangeException">The tip radius is out of range.</exception>
-        public ContactTracker(ContactSettings settings, double tipRadiusMetres)
+        public ContactTracker(double tipRadiusMetres)
         {
-            Settings = settings;
-            history = new TipHistory(settings.Velocity);
-            path = new TouchedPath(settings.Velocity, history);
+            path = new TouchedPath(history);
             TipRadiusMetres = tipRadiusMetres;
         }
-
-        public ContactSettings Settings { get; }
 
         /// <summary>Radius of the tip in metres, 0 or more.</summary>
         public double TipRadiusMetres
@@ -101,8 +106,8 @@ namespace HaptoFlow.Contact
 
         /// <summary>Surfaces farther from the tip's centre than this are ignored.</summary>
         public double ReachMetres => TipRadiusMetres + (verdict == ForceVerdict.Pressed
-            ? Force!.Settings.NearMetres + Force.Settings.NearMarginMetres
-            : Settings.ReleaseDistanceMetres);
+            ? Force!.ReachMetres
+            : ReleaseDistanceMetres);
 
         /// <summary>The reach for one surface. The touched surface has a longer one, to distinguish a tip that slid off
         /// from one that was lifted.</summary>
@@ -130,10 +135,7 @@ namespace HaptoFlow.Contact
         public bool BeginFrame(in TipSample tipSample)
         {
             sample = tipSample;
-            hasCurrent = false;
-            hasDeepest = false;
-            hasFirst = false;
-            hasNearest = false;
+            current = deepest = first = nearest = null;
             hasContinued = false;
             consideredCount = 0;
             ++statistics.Samples;
@@ -160,7 +162,7 @@ namespace HaptoFlow.Contact
                 tipSeconds = nowSeconds;
             }
             else if (tipMetres.HasValue &&
-                     (!timeUsable || Math.Abs(nowSeconds - tipSeconds) > Settings.LostSeconds))
+                     (!timeUsable || Math.Abs(nowSeconds - tipSeconds) > LostSeconds))
             {
                 tipMetres = null;
                 history.Clear();
@@ -191,13 +193,12 @@ namespace HaptoFlow.Contact
                 ContinuePath();
             }
             return new HeldFace(isTouched ? localNormal : null, touched == null || (isTouched && beganHere),
-                Settings.SwitchMarginMetres, isTouched);
+                SwitchMarginMetres, isTouched);
         }
 
         /// <summary>Where the tip was in the last frame, in the surface's own frame: the motion of the world that both
         /// share is no path. Null for a surface that was not near then, and after a jump of the tip or of the surface.
         /// To be called once a frame for every surface near the tip.</summary>
-        /// <param name="pose">The surface's pose in this frame.</param>
         public Double3? AdvancePath(ContactBody surface, in RigidPose pose)
         {
             Double3 from = surface.TipMetres;
@@ -206,10 +207,10 @@ namespace HaptoFlow.Contact
                 !double.IsNaN(pathSeconds);
             double seconds = nowSeconds - pathSeconds;
             double moved = Double3.Distance(from, tip);
-            bool isPath = isKnown && !Settings.Velocity.IsJump(moved, seconds, surface.TipSpeedMps);
+            bool isPath = isKnown && !VelocitySettings.IsJump(moved, seconds, surface.TipSpeedMps);
             surface.TipMetres = tip;
             surface.TipSpeedMps = isKnown
-                ? moved / Math.Max(seconds, Settings.Velocity.MinimumJumpSeconds)
+                ? moved / Math.Max(seconds, VelocitySettings.MinimumJumpSeconds)
                 : double.PositiveInfinity;
             surface.TipFrame = statistics.Samples;
             return isPath ? from : (Double3?)null;
@@ -221,40 +222,36 @@ namespace HaptoFlow.Contact
             bool isCurrent = ReferenceEquals(candidate.Surface, touched);
             bool isIn = isCurrent || candidate.Local.BeyondMetres <= 0.0;
             if (isIn && consideredCount < considered.Length &&
-                candidate.Local.SignedDistanceMetres <= TipRadiusMetres + Settings.ReleaseDistanceMetres)
+                candidate.Local.SignedDistanceMetres <= TipRadiusMetres + ReleaseDistanceMetres)
             {
                 considered[consideredCount++] = candidate;
             }
             if (isCurrent)
             {
                 current = candidate;
-                hasCurrent = true;
             }
             else
             {
                 ConsiderOther(candidate, isIn);
             }
             bool isNear = isIn && verdict == ForceVerdict.Pressed && Force!.IsNear(-PenetrationOf(candidate), false);
-            if (isNear && (!hasNearest || GapOf(candidate) < GapOf(nearest)))
+            if (isNear && (nearest is not { } before || GapOf(candidate) < GapOf(before)))
             {
                 nearest = candidate;
-                hasNearest = true;
             }
         }
 
         private void ConsiderOther(in ContactCandidate candidate, bool isIn)
         {
-            if (isIn && (!hasDeepest || PenetrationOf(candidate) > PenetrationOf(deepest)))
+            if (isIn && (deepest is not { } other || PenetrationOf(candidate) > PenetrationOf(other)))
             {
                 deepest = candidate;
-                hasDeepest = true;
             }
-            bool isBefore = !hasFirst || candidate.EntryShare < first.EntryShare ||
-                (candidate.EntryShare == first.EntryShare && PenetrationOf(candidate) > PenetrationOf(first));
+            bool isBefore = first is not { } before || candidate.EntryShare < before.EntryShare ||
+                (candidate.EntryShare == before.EntryShare && PenetrationOf(candidate) > PenetrationOf(before));
             if (isBefore && PenetrationOf(candidate) > 0.0)
             {
                 first = candidate;
-                hasFirst = true;
             }
         }
 
@@ -372,24 +369,26 @@ namespace HaptoFlow.Contact
 
         private bool ChooseNearest(out ContactCandidate contact)
         {
-            bool kept = hasCurrent && Force!.IsNear(-PenetrationOf(current), true);
-            bool ahead = hasNearest && (!kept || (GapOf(current) - GapOf(nearest) > Settings.SwitchMarginMetres &&
-                IsAheadAtRest(nearest)));
-            contact = ahead ? nearest : current;
-            return kept || ahead;
+            ContactCandidate? kept = current is { } held && Force!.IsNear(-PenetrationOf(held), true) ? current : null;
+            bool isAhead = nearest is { } other && (kept is not { } own ||
+                (GapOf(own) - GapOf(other) > SwitchMarginMetres && IsAheadAtRest(own, other)));
+            ContactCandidate? chosen = isAhead ? nearest : kept;
+            contact = chosen ?? default;
+            return chosen.HasValue;
         }
 
         private bool ChooseDeepest(out ContactCandidate contact)
         {
-            if (!hasCurrent || PenetrationOf(current) < -Settings.ReleaseDistanceMetres || HasLeft())
+            if (current is not { } own || PenetrationOf(own) < -ReleaseDistanceMetres || HasLeft(own))
             {
                 // A tip that slides from one surface to another touches where it is, not what it passed on the way.
-                bool isIn = touched != null && hasDeepest && PenetrationOf(deepest) > 0.0;
-                contact = isIn ? deepest : first;
-                return isIn || hasFirst;
+                bool isIn = touched != null && deepest is { } next && PenetrationOf(next) > 0.0;
+                ContactCandidate? chosen = isIn ? deepest : first;
+                contact = chosen ?? default;
+                return chosen.HasValue;
             }
-            contact = current;
-            if (!hasDeepest || !IsAhead(deepest))
+            contact = own;
+            if (deepest is not { } below || !IsAhead(own, below))
             {
                 return true;
             }
@@ -398,7 +397,7 @@ namespace HaptoFlow.Contact
             {
                 ContactCandidate other = considered[index];
                 bool isDeeper = !hasNext || PenetrationOf(other) > PenetrationOf(contact);
-                if (!ReferenceEquals(other.Surface, touched) && IsAhead(other) && isDeeper && IsAheadAtRest(other))
+                if (!ReferenceEquals(other.Surface, touched) && IsAhead(own, other) && isDeeper && IsAheadAtRest(own, other))
                 {
                     contact = other;
                     hasNext = true;
@@ -409,15 +408,15 @@ namespace HaptoFlow.Contact
 
         /// <summary>True where the tip came out of the touched surface's far side. It did not if it is in another
         /// surface that is so near to that side that the tip was never free between the two.</summary>
-        private bool HasLeft()
+        private bool HasLeft(in ContactCandidate own)
         {
-            double free = TipRadiusMetres + Settings.ReleaseDistanceMetres;
-            double beyond = current.Local.BeyondMetres;
+            double free = TipRadiusMetres + ReleaseDistanceMetres;
+            double beyond = own.Local.BeyondMetres;
             if (beyond <= free)
             {
                 return false;
             }
-            Double3 farSide = TipMetres + current.Pose.DirectionToWorld(current.Local.Normal) * beyond;
+            Double3 farSide = TipMetres + own.Pose.DirectionToWorld(own.Local.Normal) * beyond;
             for (int index = 0; index < consideredCount; ++index)
             {
                 ContactCandidate other = considered[index];
@@ -431,18 +430,17 @@ namespace HaptoFlow.Contact
             return true;
         }
 
-        private bool IsAhead(in ContactCandidate other) => PenetrationOf(other) > 0.0 &&
-            PenetrationOf(other) - PenetrationOf(current) > Settings.SwitchMarginMetres;
+        private bool IsAhead(in ContactCandidate own, in ContactCandidate other) => PenetrationOf(other) > 0.0 &&
+            PenetrationOf(other) - PenetrationOf(own) > SwitchMarginMetres;
 
         /// <summary>True where the tip, moved out of the touched surface until it just rests on it, would touch the other
         /// one.</summary>
-        private bool IsAheadAtRest(in ContactCandidate other)
+        private bool IsAheadAtRest(in ContactCandidate own, in ContactCandidate other)
         {
-            double depth = PenetrationOf(current);
-            Double3 tip = TipMetres +
-                current.Pose.DirectionToWorld(current.Local.Normal) * Math.Max(0.0, depth);
+            double depth = PenetrationOf(own);
+            Double3 tip = TipMetres + own.Pose.DirectionToWorld(own.Local.Normal) * Math.Max(0.0, depth);
             return Geometry == null || (Geometry.TryClosest(other.Surface, tip, out SurfacePoint atRest) &&
-                TipRadiusMetres - atRest.SignedDistanceMetres - Math.Min(0.0, depth) > Settings.SwitchMarginMetres);
+                TipRadiusMetres - atRest.SignedDistanceMetres - Math.Min(0.0, depth) > SwitchMarginMetres);
         }
 
         /// <summary>The candidate that a resting tip would touch deepest.</summary>
@@ -496,28 +494,26 @@ namespace HaptoFlow.Contact
                 }
             }
             double approach = Math.Max(0.0, -Double3.Dot(velocity, place.Pose.DirectionToWorld(place.Local.Normal)));
-            ContactEvent contactEvent = transitions.Advance(place, TipRadiusMetres, nowSeconds, approach);
-            if (contactEvent.Landed)
+            (bool landed, double edgeMetres) = transitions.Advance(place, TipRadiusMetres, nowSeconds, approach);
+            if (landed)
             {
                 ++landingCounter;
                 approachSpeedMps = approach;
             }
-            CountEdge(contactEvent.EdgeHeightMetres);
+            CountEdge(edgeMetres);
         }
 
         /// <summary>Counts the edge of a tip that slid off, while the touched surface is still known. A measured
         /// lift-off takes precedence over geometry.</summary>
         private void CountSlideOff()
         {
-            bool isOff = hasCurrent && tipMetres.HasValue && verdict != ForceVerdict.Lifted &&
-                transitions.IsOn(current.Surface);
-            if (isOff && (Geometry == null || !IsCaught(
-                current, transitions.RestingTip(current, TipMetres, TipRadiusMetres, nowSeconds))))
+            if (current is { } own && tipMetres.HasValue && verdict != ForceVerdict.Lifted && transitions.IsOn(own.Surface) &&
+                (Geometry == null || !IsCaught(own, transitions.RestingTip(own, TipMetres, TipRadiusMetres, nowSeconds))))
             {
                 double height = verdict == ForceVerdict.Pressed
-                    ? Force!.Settings.NearMetres + Force.Settings.NearMarginMetres
-                    : Settings.ReleaseDistanceMetres;
-                CountEdge(transitions.SlideOff(current, TipMetres, TipRadiusMetres, nowSeconds, height));
+                    ? Force!.ReachMetres
+                    : ReleaseDistanceMetres;
+                CountEdge(transitions.SlideOff(own, TipMetres, TipRadiusMetres, nowSeconds, height));
             }
             transitions.Forget();
         }
@@ -577,12 +573,12 @@ namespace HaptoFlow.Contact
             double own = surface.StiffnessNewtonsPerMetre;
             double stiffness = own > 0.0 && Vectors.IsUsable(own)
                 ? own
-                : Settings.DefaultStiffnessNewtonsPerMetre;
+                : DefaultStiffnessNewtonsPerMetre;
             double? measured = verdict == ForceVerdict.Pressed ? Force!.ForceNewtons : sample.ForceNewtons;
             double force = measured.HasValue && Vectors.IsFinite(measured.Value)
                 ? measured.Value
                 : stiffness * penetrationMetres;
-            return Vectors.Clamp(force, 0.0, Settings.MaximumForceNewtons);
+            return Vectors.Clamp(force, 0.0, MaximumForceNewtons);
         }
 
         private ContactReading Idle()

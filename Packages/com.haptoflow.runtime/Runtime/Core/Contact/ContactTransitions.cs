@@ -4,20 +4,6 @@ using HaptoFlow.Numerics;
 
 namespace HaptoFlow.Contact
 {
-    /// <summary>A landing or an edge between two frames.</summary>
-    internal readonly struct ContactEvent
-    {
-        /// <summary>True after a landing on another surface, or on another face of the same one, with speed into
-        /// it.</summary>
-        public readonly bool Landed;
-
-        /// <summary>Height of the edge that the tip crossed; 0 for none.</summary>
-        public readonly double EdgeHeightMetres;
-
-        public ContactEvent(bool landed, double edgeHeightMetres) =>
-            (Landed, EdgeHeightMetres) = (landed, edgeHeightMetres);
-    }
-
     /// <summary>Distinguishes landings and edges from smooth sliding during a touch. No garbage.</summary>
     /// <remarks>A face changes where the normal turns by 40 degrees over a short distance, as it does over the rim of a
     /// box but not over a ball in the hand. A tip that moves into the new face lands on it; otherwise it has crossed an
@@ -115,7 +101,9 @@ namespace HaptoFlow.Contact
 
         /// <summary>Compares a touched point with the reference and advances the reference. A candidate elsewhere must
         /// be that of the resting tip.</summary>
-        public ContactEvent Advance(
+        /// <returns>True after a landing on another surface, or on another face of the same one, with speed into it; the
+        /// height of the edge that the tip crossed, 0 for none.</returns>
+        public (bool Landed, double EdgeHeightMetres) Advance(
             in ContactCandidate now, double tipRadiusMetres, double nowSeconds, double approachSpeedMps)
         {
             if (referenceSurface == null)
@@ -154,7 +142,7 @@ namespace HaptoFlow.Contact
             {
                 MoveReference(now, !isEvent);
             }
-            return new ContactEvent(landed, height);
+            return (landed, height);
         }
 
         /// <summary>After the end of a touch: the height of the edge that the tip slid off, 0 for a lift-off.</summary>

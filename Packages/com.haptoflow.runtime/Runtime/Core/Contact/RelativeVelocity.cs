@@ -27,7 +27,7 @@ namespace HaptoFlow.Contact
 
         private readonly GrowingFit fit = new GrowingFit();
 
-        /// <summary>Each velocity is limited to the maximum speed of the settings; zero with fewer than two
+        /// <summary>Each velocity is limited to the maximum speed; zero with fewer than two
         /// measurements.</summary>
         public TipVelocity Of(TipPath path)
         {
@@ -40,7 +40,7 @@ namespace HaptoFlow.Contact
                     confidence * velocity.NowMps + (1.0 - confidence) * held.NowMps,
                     confidence * velocity.ApproachMps + (1.0 - confidence) * held.ApproachMps);
             }
-            double fastest = path.Settings.MaximumSpeedMps;
+            double fastest = VelocitySettings.MaximumSpeedMps;
             return new TipVelocity(Limited(velocity.NowMps, fastest), Limited(velocity.ApproachMps, fastest));
         }
 
@@ -49,7 +49,6 @@ namespace HaptoFlow.Contact
         private TipVelocity Velocity(TipPath path, double heldSinceSeconds)
         {
             bool isHeld = heldSinceSeconds > double.NegativeInfinity;
-            VelocitySettings settings = path.Settings;
             fit.Clear();
             for (int age = 0; age < path.Count && !fit.IsFull; ++age)
             {
@@ -58,21 +57,21 @@ namespace HaptoFlow.Contact
                 {
                     continue;
                 }
-                if (fit.Count > 0 && !Continues(settings, frame.TimeSeconds, frame.PositionMetres))
+                if (fit.Count > 0 && !Continues(frame.TimeSeconds, frame.PositionMetres))
                 {
                     break;
                 }
                 fit.Add(frame.TimeSeconds, frame.PositionMetres);
             }
-            Double3 mean = fit.MeanVelocity(settings.ApproachSeconds);
+            Double3 mean = fit.MeanVelocity(VelocitySettings.ApproachSeconds);
             return new TipVelocity(path.IsSlow ? mean : fit.EndVelocity(path.NoiseMetres), mean);
         }
 
-        private bool Continues(VelocitySettings settings, double timeSeconds, Double3 place)
+        private bool Continues(double timeSeconds, Double3 place)
         {
             bool isWanted = fit.Count < MinimumMeasurements ||
-                fit.NewestSeconds - timeSeconds <= settings.WindowSeconds;
-            double maximumMetres = settings.MaximumMoveMetres(fit.OldestSeconds - timeSeconds);
+                fit.NewestSeconds - timeSeconds <= VelocitySettings.WindowSeconds;
+            double maximumMetres = VelocitySettings.MaximumMoveMetres(fit.OldestSeconds - timeSeconds);
             return isWanted && Double3.Distance(place, fit.OldestMetres) <= maximumMetres;
         }
 
@@ -221,7 +220,6 @@ namespace HaptoFlow.Contact
             return duration > 0.0 ? distance / duration : Double3.Zero;
         }
 
-        /// <summary>Fits the newest places; false if a cubic fits them better by more than noise explains.</summary>
         /// <remarks>The polynomials are orthogonal over the times: t - mean, and two more by Gram and Schmidt. Times and
         /// places count from the newest, so that nothing is lost far from the origin.</remarks>
         private bool Agrees(int size, double noiseMetres, out Double3 velocity)

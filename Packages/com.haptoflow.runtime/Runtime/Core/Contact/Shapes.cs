@@ -127,9 +127,6 @@ namespace HaptoFlow.Contact
             return AroundCore(core, radiusMetres, point, fallback, held);
         }
 
-        /// <summary>The half-space below local y = 0.</summary>
-        public static SurfacePoint OnPlane(Double3 point) => new SurfacePoint(point.With(1, 0.0), Double3.Up, point.Y);
-
         /// <summary>Where a straight path first enters a box from outside.</summary>
         public static SurfaceEntry? EntryOfBox(Double3 sizeMetres, Double3 from, Double3 to)
         {
@@ -196,17 +193,6 @@ namespace HaptoFlow.Contact
             }
             Double3 point = from + path * first;
             return new SurfaceEntry(point, Vectors.UnitOr(point - CoreOf(point, half), Double3.Up), first);
-        }
-
-        /// <summary>Where a straight path first enters the half-space below local y = 0.</summary>
-        public static SurfaceEntry? EntryOfPlane(Double3 from, Double3 to)
-        {
-            if (from.Y < 0.0 || to.Y >= 0.0)
-            {
-                return null;
-            }
-            double share = from.Y / (from.Y - to.Y);
-            return new SurfaceEntry((from + (to - from) * share).With(1, 0.0), Double3.Up, share);
         }
 
         private static Double3 CoreOf(Double3 point, double half) =>

@@ -39,17 +39,11 @@ namespace HaptoFlow.Contact
         private readonly Timeline frames = new Timeline();
         private readonly Timeline physics = new Timeline();
         private readonly Timeline regular = new Timeline();
-        private readonly VelocitySettings settings;
         private PoseHistory track = new PoseHistory();
         private Timeline chosen;
 
-        public SteppedPoses(VelocitySettings settings)
-        {
-            this.settings = settings;
-            chosen = frames;
-        }
+        public SteppedPoses() => chosen = frames;
 
-        /// <summary>The time of the first step that is known.</summary>
         public double FirstSeconds => chosen.Seconds(0);
 
         /// <summary>True where the times of steps are estimates.</summary>
@@ -181,7 +175,7 @@ namespace HaptoFlow.Contact
                 double moved = Double3.Distance(points[newest], points[newest - 1]);
                 regular.Add(track.SecondsAt(newest) - WindowSeconds, newest - 1);
                 regular.Add(track.SecondsAt(newest), newest);
-                return moved <= settings.MaximumGainMps(seconds) * seconds;
+                return moved <= VelocitySettings.MaximumGainMps(seconds) * seconds;
             }
             AddSteps(count);
             return true;

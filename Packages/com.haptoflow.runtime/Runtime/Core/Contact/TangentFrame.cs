@@ -55,7 +55,6 @@ namespace HaptoFlow.Contact
         /// <summary>Computes the axes of the next frame of a stroke.</summary>
         /// <param name="surfaceNormal">Normal in the object's local frame; it is normalised. One of length 0 leaves the
         /// axes unchanged.</param>
-        /// <param name="stepSeconds">Time since the last frame.</param>
         public void Update(Double3 surfaceNormal, double stepSeconds)
         {
             Double3 unit = Vectors.UnitOr(surfaceNormal, normal);

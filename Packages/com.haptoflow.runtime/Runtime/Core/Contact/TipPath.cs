@@ -77,17 +77,10 @@ namespace HaptoFlow.Contact
         private bool resting;
 
         /// <param name="noise">The tracker's noise, learnt by every path of its tip.</param>
-        public TipPath(VelocitySettings settings, TrackerNoise noise)
-        {
-            Settings = settings;
-            this.noise = noise;
-        }
-
-        public VelocitySettings Settings { get; }
+        public TipPath(TrackerNoise noise) => this.noise = noise;
 
         public int Count { get; private set; }
 
-        /// <summary>Time of the last measurement.</summary>
         public double MeasuredSeconds { get; private set; }
 
         /// <summary>Noise of the positions on each axis.</summary>
@@ -111,14 +104,13 @@ namespace HaptoFlow.Contact
         private bool IsTrusted => measurementsInRow >= TrustedMeasurements;
 
         private double HoldSeconds => IsTrusted
-            ? Math.Min(Settings.HoldSeconds, 0.5 * moveSeconds)
-            : Settings.HoldSeconds;
+            ? Math.Min(VelocitySettings.HoldSeconds, 0.5 * moveSeconds)
+            : VelocitySettings.HoldSeconds;
 
         private double StopSeconds => IsTrusted
-            ? Math.Min(Settings.StopSeconds, 1.5 * moveSeconds)
-            : Settings.StopSeconds;
+            ? Math.Min(VelocitySettings.StopSeconds, 1.5 * moveSeconds)
+            : VelocitySettings.StopSeconds;
 
-        /// <summary>The frame of an age; 0 is the newest.</summary>
         public ref readonly TipFrame Newest(int age) => ref At(Count - 1 - age);
 
         public void Clear()
@@ -151,13 +143,13 @@ namespace HaptoFlow.Contact
             double moved = Double3.Distance(surfaceMetres, measuredMetres);
             double movedInWorld = Double3.Distance(worldMetres, measuredWorldMetres);
             double sinceMeasured = timeSeconds - MeasuredSeconds;
-            double speed = moved / Math.Max(sinceMeasured, Settings.MinimumJumpSeconds);
-            if (timeSeconds - latestSeconds > Settings.MaximumGapSeconds)
+            double speed = moved / Math.Max(sinceMeasured, VelocitySettings.MinimumJumpSeconds);
+            if (timeSeconds - latestSeconds > VelocitySettings.MaximumGapSeconds)
             {
                 return Start(TipStep.Resumed, timeSeconds, surfaceMetres, worldMetres, double.PositiveInfinity);
             }
             // Under a tip that rests in the world each frame measures the surface.
-            bool isHeld = movedInWorld <= Settings.MinimumMoveMetres;
+            bool isHeld = movedInWorld <= VelocitySettings.MinimumMoveMetres;
             bool isJump = isHeld
                 ? IsJump(Double3.Distance(surfaceMetres, Newest(0).PositionMetres),
                     timeSeconds - Newest(0).TimeSeconds, true)
@@ -169,11 +161,11 @@ namespace HaptoFlow.Contact
             }
             latestSeconds = timeSeconds;
             double frameSeconds = timeSeconds - Newest(0).TimeSeconds;
-            if (frameSeconds < Settings.MinimumStepSeconds)
+            if (frameSeconds < VelocitySettings.MinimumStepSeconds)
             {
                 return TipStep.Continued;
             }
-            bool hasMoved = moved > Settings.MinimumMoveMetres && !isHeld;
+            bool hasMoved = moved > VelocitySettings.MinimumMoveMetres && !isHeld;
             repeatsInRow = hasMoved ? 0 : repeatsInRow + 1;
             if (hasMoved)
             {
@@ -230,7 +222,7 @@ namespace HaptoFlow.Contact
                 // A tip whose speed is not known yet may be fast, but not one that rests in the world.
                 fastestBefore = 0.0;
             }
-            return Settings.IsJump(moved, seconds, fastestBefore);
+            return VelocitySettings.IsJump(moved, seconds, fastestBefore);
         }
 
         /// <summary>Learns about the tracker from a position that differs from the last.</summary>
@@ -243,7 +235,7 @@ namespace HaptoFlow.Contact
             if (moveSeconds > frameSeconds)
             {
                 noise.Restart();
-                if (moveSeconds <= Settings.StopSeconds)
+                if (moveSeconds <= VelocitySettings.StopSeconds)
                 {
                     hasRepeated = true;
                     measurementsInRow = 0;

@@ -101,20 +101,14 @@ namespace HaptoFlow
     /// <summary>Labels with their weights: one material, or a blend of up to four. A part of the blittable
     /// <see cref="ContactState"/>.</summary>
     [Preserve, StructLayout(LayoutKind.Sequential)]
-    public struct LabelBlend : IEquatable<LabelBlend>
+    public unsafe struct LabelBlend : IEquatable<LabelBlend>
     {
         /// <summary>Maximum number of labels in a blend.</summary>
         public const int Maximum = 4;
 
         private int count;
-        private int label0;
-        private int label1;
-        private int label2;
-        private int label3;
-        private float weight0;
-        private float weight1;
-        private float weight2;
-        private float weight3;
+        private fixed int labels[Maximum];
+        private fixed float weights[Maximum];
 
         /// <summary>One label alone.</summary>
         /// <param name="label">Index into the model's labels.</param>
@@ -151,35 +145,20 @@ namespace HaptoFlow
         /// <exception cref="InvalidOperationException">The blend is full.</exception>
         public void Add(int label, float weight)
         {
-            switch (count)
+            if (count == Maximum)
             {
-                case 0:
-                    label0 = label;
-                    weight0 = weight;
-                    break;
-                case 1:
-                    label1 = label;
-                    weight1 = weight;
-                    break;
-                case 2:
-                    label2 = label;
-                    weight2 = weight;
-                    break;
-                case 3:
-                    label3 = label;
-                    weight3 = weight;
-                    break;
-                default:
-                    throw new InvalidOperationException("a blend has at most 4 labels");
+                throw new InvalidOperationException("a blend has at most 4 labels");
             }
+            labels[count] = label;
+            weights[count] = weight;
             ++count;
         }
 
         /// <summary>Index of a label, for entries 0 to <see cref="Count"/> - 1.</summary>
-        public int Label(int index) => index == 0 ? label0 : index == 1 ? label1 : index == 2 ? label2 : label3;
+        public int Label(int index) => labels[Place(index)];
 
         /// <summary>Weight of a label, for entries 0 to <see cref="Count"/> - 1.</summary>
-        public float Weight(int index) => index == 0 ? weight0 : index == 1 ? weight1 : index == 2 ? weight2 : weight3;
+        public float Weight(int index) => weights[Place(index)];
 
         /// <inheritdoc/>
         public bool Equals(LabelBlend other)
@@ -196,7 +175,10 @@ namespace HaptoFlow
         public override bool Equals(object? other) => other is LabelBlend blend && Equals(blend);
 
         /// <inheritdoc/>
-        public override int GetHashCode() => HashCode.Combine(Count, label0, label1, weight0, weight1);
+        public override int GetHashCode() => HashCode.Combine(count, labels[0], labels[1], weights[0], weights[1]);
+
+        private static int Place(int index) =>
+            (uint)index < Maximum ? index : throw new ArgumentOutOfRangeException(nameof(index));
     }
 
     /// <summary>The effects of a surface. Effects that are not set cost a voice nothing.</summary>
@@ -264,9 +246,7 @@ namespace HaptoFlow
         /// <summary>z coordinate in the surface's frame.</summary>
         public readonly float Z;
 
-        /// <param name="x">x coordinate in the surface's frame.</param>
-        /// <param name="y">y coordinate in the surface's frame.</param>
-        /// <param name="z">z coordinate in the surface's frame.</param>
+        /// <summary>Coordinates in the surface's frame.</summary>
         public PlaceVector(float x, float y, float z) => (X, Y, Z) = (x, y, z);
 
         internal PlaceVector(Double3 vector) : this((float)vector.X, (float)vector.Y, (float)vector.Z)

@@ -74,10 +74,6 @@ namespace HaptoFlow
 
         /// <summary>Cancels the creation of the engine; null for none.</summary>
         public HapticCancellation? Cancellation;
-
-        /// <summary>Time limit of the probe run of each graph for each 8 voices, above 0 to 3600000 ms; 0 for 10000
-        /// ms.</summary>
-        public double ProbeLimitMs;
     }
 
     /// <summary>All voices of one model, and the worker thread that generates their segments. The thread sleeps while
@@ -108,7 +104,6 @@ namespace HaptoFlow
                 WithoutWorker = options.WithoutWorker ? 1u : 0u,
                 FixedLeadMs = options.FixedLeadMs,
                 Cancellation = options.Cancellation?.Handle.Value ?? IntPtr.Zero,
-                ProbeLimitMs = options.ProbeLimitMs,
             };
             IntPtr opened;
             NativeCall.Check(NativeMethods.EngineCreate(&native, &opened));
@@ -155,14 +150,6 @@ namespace HaptoFlow
                 handle.Check(NativeMethods.EngineReplaceMaterial(
                     handle.Value, checked((uint)index), bytes, (ulong)text.Length - 1));
             }
-        }
-
-        /// <summary>Number of registered materials.</summary>
-        public int MaterialCount()
-        {
-            uint count;
-            handle.Check(NativeMethods.EngineMaterialCount(handle.Value, &count));
-            return (int)count;
         }
 
         /// <summary>Name, category and properties of a registered material. Makes garbage.</summary>
@@ -227,5 +214,60 @@ namespace HaptoFlow
 
         /// <summary>Ends the worker and closes the voices; blocks being rendered are finished first.</summary>
         public void Dispose() => handle.Dispose();
+    }
+
+    /// <summary>ONNX Runtime for the native library. One per process is enough.</summary>
+    public sealed unsafe class OnnxRuntime : IDisposable
+    {
+        private OnnxRuntime(IntPtr opened) => Handle = new NativeHandle(opened, NativeMethods.RuntimeClose);
+
+        internal NativeHandle Handle { get; }
+
+        /// <summary>Opens the ONNX Runtime of this platform's package (onnxruntime). Any thread that may block for the
+        /// disk.</summary>
+        /// <exception cref="HaptoFlowException">A library is missing or belongs to another version of the
+        /// package, or ONNX Runtime is older than version 1.16.</exception>
+        public static OnnxRuntime Open() => NativeCall.OrMissing(() =>
+        {
+            LibraryAgreement.Require();
+            var options = new RuntimeOptions
+            {
+                StructSize = (uint)sizeof(RuntimeOptions),
+                OrtApiBase = NativeMethods.OrtGetApiBase(),
+            };
+            IntPtr opened;
+            NativeCall.Check(NativeMethods.RuntimeOpen(&options, &opened));
+            return new OnnxRuntime(opened);
+        });
+
+        /// <summary>Version of the native library, for example "0.2.0". Any thread.</summary>
+        /// <exception cref="HaptoFlowException">The library is missing.</exception>
+        public static string LibraryVersion() => NativeCall.OrMissing(() => NativeCall.Text(NativeMethods.Version()));
+
+        /// <summary>Frees the handle; engines and generators created with it stay usable.</summary>
+        public void Dispose() => Handle.Dispose();
+    }
+
+    /// <summary>Cancels the loads whose options reference it, also those that start later. Any thread except an audio
+    /// callback.</summary>
+    public sealed unsafe class HapticCancellation : IDisposable
+    {
+        /// <exception cref="HaptoFlowException">The library is missing, or memory is exhausted.</exception>
+        public HapticCancellation() => Handle = NativeCall.OrMissing(() =>
+        {
+            LibraryAgreement.Require();
+            IntPtr opened;
+            NativeCall.Check(NativeMethods.CancellationCreate(&opened));
+            return new NativeHandle(opened, NativeMethods.CancellationClose);
+        });
+
+        internal NativeHandle Handle { get; }
+
+        /// <summary>Cancels permanently: the loads end with <see cref="HaptoFlowStatus.Cancelled"/>, those under way as
+        /// soon as ONNX Runtime allows.</summary>
+        public void Cancel() => Handle.Check(NativeMethods.CancellationCancel(Handle.Value));
+
+        /// <summary>Frees the handle; loads under way continue.</summary>
+        public void Dispose() => Handle.Dispose();
     }
 }

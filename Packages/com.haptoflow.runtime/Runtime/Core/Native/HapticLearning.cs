@@ -215,10 +215,8 @@ namespace HaptoFlow
         /// LearningProgress.</summary>
         public static IntPtr Function => Marshal.GetFunctionPointerForDelegate(Kept);
 
-        /// <summary>Progress, 0 to 1. Any thread.</summary>
         public float Share => share;
 
-        /// <summary>The present step, for people. Any thread.</summary>
         public string Doing => doing;
 
         [MonoPInvokeCallback(typeof(Callback))]

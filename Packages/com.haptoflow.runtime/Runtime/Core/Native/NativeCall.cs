@@ -19,7 +19,6 @@ namespace HaptoFlow.Native
 
         public static string Text(IntPtr utf8) => Marshal.PtrToStringUTF8(utf8) ?? "";
 
-        /// <summary>Zero-terminated UTF-8.</summary>
         public static byte[] Utf8(string text)
         {
             var bytes = new byte[Encoding.UTF8.GetByteCount(text) + 1];
@@ -41,7 +40,6 @@ namespace HaptoFlow.Native
             }
         }
 
-        /// <summary>The exception for a library, or a function in it, that was not found.</summary>
         public static HaptoFlowException Missing(Exception cause) => new HaptoFlowException(
             HaptoFlowStatus.LibraryUnavailable,
             "HaptoFlow's native library audioplugin_haptoflow, or ONNX Runtime (onnxruntime) that it runs on, cannot " +
@@ -108,7 +106,6 @@ namespace HaptoFlow.Native
     [AttributeUsage(AttributeTargets.Method)]
     internal sealed class MonoPInvokeCallbackAttribute : Attribute
     {
-        /// <param name="type">The delegate type of the method.</param>
         public MonoPInvokeCallbackAttribute(Type type) => Type = type;
 
         public Type Type { get; }

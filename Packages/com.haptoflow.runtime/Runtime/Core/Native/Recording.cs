@@ -60,9 +60,6 @@ namespace HaptoFlow.Recordings
         /// <summary>Licence of the recording; empty where unknown.</summary>
         public string Licence => Text(info.Licence);
 
-        /// <summary>Origin of the recording; empty where unknown.</summary>
-        public string Source => Text(info.Source);
-
         /// <summary>What a material learnt from this recording is called where nobody names it: the label or else the
         /// file's name, in lower case.</summary>
         public string MaterialName => Text(info.MaterialName);

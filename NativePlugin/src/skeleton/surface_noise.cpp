@@ -1,0 +1,302 @@
+#include "skeleton/surface_noise.hpp"
+
+#include "skeleton/gaussian_noise.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+namespace haptoflow::skeleton {
+namespace {
+
+using Vector = std::array<double, 3>;
+
+constexpr std::size_t directionCount = 12;
+constexpr int logCellsPerBlock = 3;
+// A longer coordinate would leave the integers that a double holds exactly.
+constexpr double maximumMetres = 1e6;
+// Across its direction, each Brownian motion changes sign at random from one sheet to the next. Without that, a path
+// beside another would meet a twelfth of the other's noise again, at a distance.
+constexpr double sheetsPerMetre = 1000.0;
+
+/// Equal areas of a half sphere, turned so that they lie evenly in each coordinate plane, where most surfaces are.
+constexpr std::array<Vector, directionCount> directions{{
+    {0.76273, 0.17233, -0.62333},
+    {-0.22771, -0.67898, 0.69795},
+    {-0.54054, 0.50524, -0.67272},
+    {0.79248, -0.59208, -0.14633},
+    {-0.90720, -0.35173, 0.23081},
+    {0.18111, 0.13196, -0.97457},
+    {0.12899, -0.97063, 0.20307},
+    {-0.84877, -0.07266, -0.52374},
+    {0.44460, -0.53928, -0.71520},
+    {-0.53675, -0.84291, -0.03754},
+    {-0.34051, -0.30665, -0.88883},
+    {-0.05871, -0.85807, -0.51016},
+}};
+
+/// Rounded down. `divisor` is a power of two.
+constexpr std::int64_t floorDivided(std::int64_t value, std::int64_t divisor) noexcept {
+    const std::int64_t rest = value & (divisor - 1);
+    return (value - rest) / divisor;
+}
+
+std::int64_t roundedUp(double value) noexcept {
+    const auto truncated = static_cast<std::int64_t>(value);
+    return static_cast<double>(truncated) < value ? truncated + 1 : truncated;
+}
+
+/// Cells of one size. Each is divided into the eight cells of a block of the next level.
+struct Level {
+    double cellMetres = 0.0;
+    /// Deviation of a cell's increment.
+    double deviation = 0.0;
+    double cellsPerMetre = 1.0 / cellMetres;
+};
+
+// From 7.8 mm to 30 nm, a twentieth of a sample's way at 1 mm/s. 0.3535534 is the root of an eighth.
+constexpr double rootOfEighth = 0.35355339059327379;
+constexpr std::array<Level, BrownianMotion::levelCount> levels{{
+    {0x1p-7, 0x1p-3 * 2.0 * rootOfEighth},
+    {0x1p-10, 0x1p-5},
+    {0x1p-13, 0x1p-5 * rootOfEighth},
+    {0x1p-16, 0x1p-8},
+    {0x1p-19, 0x1p-8 * rootOfEighth},
+    {0x1p-22, 0x1p-11},
+    {0x1p-25, 0x1p-11 * rootOfEighth},
+}};
+
+constexpr double dot(const Vector& a, const Vector& b) noexcept {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/// A direction across each direction.
+constexpr std::array<Vector, directionCount> across = [] {
+    std::array<Vector, directionCount> products{};
+    for (std::size_t k = 0; k < directionCount; ++k) {
+        const Vector& a = directions[k];
+        const Vector& b = directions[(k + 5) % directionCount];
+        products[k] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+    }
+    return products;
+}();
+
+/// The cells that a path is divided into along one direction: the coarsest of a level, of its pairs or of its fours
+/// that are no longer than a sample's way. They are longer than half of it, except at the deepest level.
+struct Grid {
+    std::size_t level = 0;
+    /// 1, 2 or 4 of the level's cells.
+    std::size_t stride = 4;
+
+    explicit Grid(double wayMetres) noexcept {
+        while (levels[level].cellMetres > wayMetres && level + 1 < levels.size()) {
+            ++level;
+        }
+        while (static_cast<double>(stride) * levels[level].cellMetres > wayMetres && stride > 1) {
+            stride /= 2;
+        }
+    }
+    [[nodiscard]] double cellsPerMetre() const noexcept {
+        return levels[level].cellsPerMetre / static_cast<double>(stride);
+    }
+};
+
+/// What a path passes along one direction and across it, from its first slot of time on.
+struct Crossing {
+    /// Where the path is, in cells, at the first slot's beginning and after the last.
+    double start = 0.0;
+    double end = 0.0;
+    double slotsPerCell = 0.0;
+    std::int64_t lowestSheet = 0;
+    /// Above that sheet at slot 0, and for each slot.
+    double sheet = 0.0;
+    double sheetsPerSlot = 0.0;
+};
+
+/// Adds the cells' increments times `scale` to the slots in which the path passes their middles.
+template <std::size_t stride>
+void addCells(BrownianMotion& motion, std::size_t level, const Crossing& crossing, double scale,
+              std::span<float> slots) noexcept {
+    constexpr std::int64_t perBlock = BrownianMotion::cellsPerBlock / stride;
+    const std::int64_t endCell = roundedUp(std::max(crossing.start, crossing.end) - 0.5);
+    std::int64_t cell = roundedUp(std::min(crossing.start, crossing.end) - 0.5);
+    const auto lastSlot = static_cast<double>(slots.size()) - 0.5;
+    const auto sheetAt = [&crossing](double slot) {
+        return static_cast<std::int32_t>(crossing.sheet + crossing.sheetsPerSlot * slot);
+    };
+    const auto signedAs = [&](std::int32_t sheet) {
+        // The highest bit of a product depends on every bit of both factors.
+        const auto number = static_cast<std::uint64_t>(crossing.lowestSheet + sheet);
+        return ((number * 0x9E3779B97F4A7C15U ^ motion.key()) * 0xD6E8FEB86659FD93U) >> 63U == 0 ? scale : -scale;
+    };
+    std::int32_t sheet = sheetAt(0.0);
+    const bool isOneSheet = sheet == sheetAt(lastSlot + 0.5);
+    double signedScale = signedAs(sheet);
+    while (cell < endCell) {
+        const std::int64_t block = floorDivided(cell, perBlock);
+        const auto& sums = motion.sumsOf<stride>(level, block);
+        const std::int64_t blockCell = block * perBlock;
+        const auto end = static_cast<std::size_t>(std::min(endCell - blockCell, perBlock));
+        double slot = (static_cast<double>(cell) + 0.5 - crossing.start) * crossing.slotsPerCell;
+        for (auto place = static_cast<std::size_t>(cell - blockCell); place < end; ++place) {
+            // Rounding may carry a middle at an end of the path out of it.
+            const double inside = std::min(std::max(slot, 0.0), lastSlot);
+            if (!isOneSheet && sheetAt(slot) != sheet) {
+                sheet = sheetAt(slot);
+                signedScale = signedAs(sheet);
+            }
+            slots[static_cast<std::size_t>(static_cast<std::int32_t>(inside))] +=
+                static_cast<float>(signedScale * (sums[(place + 1) * stride] - sums[place * stride]));
+            slot += crossing.slotsPerCell;
+        }
+        cell = blockCell + perBlock;
+    }
+}
+
+bool isUsable(const Vector& vector) noexcept {
+    return std::ranges::all_of(vector, [](double each) { return std::abs(each) <= maximumMetres; });
+}
+
+bool isUsable(const SurfacePath& path) noexcept {
+    const double length = std::sqrt(dot(path.stepMetres, path.stepMetres));
+    return isUsable(path.startMetres) && isUsable(path.stepMetres) && length >= shortestStepMetres &&
+           length <= longestStepMetres;
+}
+
+}  // namespace
+
+template <std::size_t stride>
+const BrownianMotion::Sums& BrownianMotion::sumsOf(std::size_t level, std::int64_t block) noexcept {
+    Block& known = blocks_[level];
+    if (known.index != block || known.stride > stride) {
+        known.index = block;
+        known.stride = stride;
+        fill<stride>(known, level);
+    }
+    return known.sums;
+}
+
+template <std::size_t stride>
+void BrownianMotion::fill(Block& block, std::size_t level) noexcept {
+    std::uint64_t random = mixed(key_ + static_cast<std::uint64_t>(block.index) * 0x9E3779B97F4A7C15U +
+                                 static_cast<std::uint64_t>(level) * 0xD6E8FEB86659FD93U);
+    // Each byte gives a number that is uniform, with mean 0 and variance (256^2 - 1) / 12, which is 73.9^2. The sum
+    // over levels, cells and directions is normal.
+    const auto next = [&random] {
+        const auto byte = static_cast<double>(static_cast<std::int32_t>(random & 0xFFU));
+        random >>= 8U;
+        return byte - 127.5;
+    };
+    // The increment of half a cell is half the cell's plus or minus a number of half its deviation, which makes the
+    // two halves independent.
+    const double cell = levels[level].deviation * (1.0 / 73.900270635041727);
+    constexpr double rootOfTwo = 4.0 * rootOfEighth;
+    Sums& sums = block.sums;
+    const double random8 = next();
+    sums[8] = level == 0 ? 2.0 * rootOfTwo * cell * random8 : parentIncrement(level, block.index);
+    sums[4] = 0.5 * sums[8] + rootOfTwo * cell * next();
+    if constexpr (stride <= 2) {
+        sums[2] = 0.5 * sums[4] + cell * next();
+        sums[6] = 0.5 * (sums[4] + sums[8]) + cell * next();
+    }
+    if constexpr (stride == 1) {
+        for (std::size_t odd = 1; odd < cellsPerBlock; odd += 2) {
+            sums[odd] = 0.5 * (sums[odd - 1] + sums[odd + 1]) + 0.5 * rootOfTwo * cell * next();
+        }
+    }
+}
+
+double BrownianMotion::parentIncrement(std::size_t level, std::int64_t cell) noexcept {
+    const Sums& parent = sumsOf<1>(level - 1, cell >> logCellsPerBlock);
+    const std::size_t place = static_cast<std::size_t>(cell) % cellsPerBlock;
+    return parent[place + 1] - parent[place];
+}
+
+void SurfaceNoise::readCells(std::uint64_t surface, const SurfacePath& path, std::size_t firstSample,
+                             std::span<float> slots) noexcept {
+    constexpr auto slotsPerSample = static_cast<double>(noiseSlotsPerSample);
+    const auto slotCount = static_cast<double>(slots.size());
+    // The filter is centred on the middle of a sample, and the path is given at its beginning.
+    const double firstSlot =
+        (0.5 - static_cast<double>(noiseReachSamples) + static_cast<double>(firstSample)) * slotsPerSample;
+    std::array<double, directionCount> steps{};
+    double variance = 0.0;
+    for (std::size_t k = 0; k < directionCount; ++k) {
+        steps[k] = dot(path.stepMetres, directions[k]);
+        variance += std::abs(steps[k]);
+    }
+    const double scale = 1.0 / std::sqrt(variance);
+    for (std::size_t k = 0; k < directionCount; ++k) {
+        const Grid grid(std::abs(steps[k]));
+        const double cellsPerSlot = steps[k] * grid.cellsPerMetre() / slotsPerSample;
+        const double slotsPerCell = 1.0 / cellsPerSlot;
+        // A path across the direction passes no cell.
+        if (!(std::abs(slotsPerCell) < 1e6)) {
+            continue;
+        }
+        const double start = dot(path.startMetres, directions[k]) * grid.cellsPerMetre() + firstSlot * cellsPerSlot;
+        const double sheetsPerSlot = dot(path.stepMetres, across[k]) * (sheetsPerMetre / slotsPerSample);
+        const double sheet = dot(path.startMetres, across[k]) * sheetsPerMetre + 0.5 + firstSlot * sheetsPerSlot;
+        // Counted from below the lowest, so that truncation is the floor.
+        const std::int64_t lowest = roundedUp(sheet + std::min(0.0, sheetsPerSlot * slotCount)) - 1;
+        const Crossing crossing{.start = start,
+                                .end = start + slotCount * cellsPerSlot,
+                                .slotsPerCell = slotsPerCell,
+                                .lowestSheet = lowest,
+                                .sheet = sheet - static_cast<double>(lowest),
+                                .sheetsPerSlot = sheetsPerSlot};
+
+        BrownianMotion& motion = motions_[k];
+        if (const std::uint64_t key = mixed(surface * directionCount + k); motion.key() != key) {
+            motion = BrownianMotion(key);
+        }
+        switch (grid.stride) {
+            case 4:
+                addCells<4>(motion, grid.level, crossing, scale, slots);
+                break;
+            case 2:
+                addCells<2>(motion, grid.level, crossing, scale, slots);
+                break;
+            default:
+                addCells<1>(motion, grid.level, crossing, scale, slots);
+                break;
+        }
+    }
+}
+
+void SurfaceNoise::skip(std::size_t samples) noexcept {
+    numbers_ += samples;
+    isPrimed_ = false;
+}
+
+void SurfaceNoise::next(std::uint64_t surface, const SurfacePath& path, const NoiseKey& otherwise,
+                        std::span<float> noise) noexcept {
+    const std::uint64_t first = std::exchange(numbers_, numbers_ + noise.size());
+    if (!isUsable(path)) {
+        fillStandardNormal(otherwise, noise, first);
+        isPrimed_ = false;
+        return;
+    }
+    const auto passage = std::span(passage_).first(memorySlots + noise.size() * noiseSlotsPerSample);
+    const std::size_t known = isPrimed_ ? memorySamples : 0;
+    const auto slots = passage.subspan(known * noiseSlotsPerSample);
+    std::ranges::fill(slots, 0.0F);
+    readCells(surface, path, known, slots);
+    isPrimed_ = true;
+
+    for (std::size_t n = 0; n < noise.size(); ++n) {
+        const float* const passed = passage.data() + n * noiseSlotsPerSample;
+        // A sum for each slot of a sample, so that they are computed beside each other.
+        std::array<float, noiseSlotsPerSample> sums{};
+        for (std::size_t tap = 0; tap < noiseKernel.size(); tap += sums.size()) {
+            for (std::size_t slot = 0; slot < sums.size(); ++slot) {
+                sums[slot] += noiseKernel[tap + slot] * passed[tap + slot];
+            }
+        }
+        noise[n] = ((sums[0] + sums[4]) + (sums[1] + sums[5])) + ((sums[2] + sums[6]) + (sums[3] + sums[7]));
+    }
+    std::ranges::copy(passage.last(memorySlots), passage.begin());
+}
+
+}  // namespace haptoflow::skeleton

@@ -1,5 +1,0 @@
-using System.Runtime.CompilerServices;
-
-[assembly: InternalsVisibleTo("HaptoFlow.Editor")]
-[assembly: InternalsVisibleTo("HaptoFlow.EditorTests")]
-[assembly: InternalsVisibleTo("HaptoFlow.ShimTests")]

@@ -1,0 +1,5 @@
+using System.Runtime.CompilerServices;
+
+[assembly: InternalsVisibleTo("HaptoFlow.Editor")]
+[assembly: InternalsVisibleTo("HaptoFlow.EditorTests")]
+[assembly: InternalsVisibleTo("HaptoFlow.Tests")]

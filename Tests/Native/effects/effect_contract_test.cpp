@@ -1,0 +1,152 @@
+// What every stage of a voice's chain promises, whichever it is.
+
+#include "effects/compensation.hpp"
+#include "effects/delay.hpp"
+#include "effects/device_loudness.hpp"
+#include "effects/exposure_guard.hpp"
+#include "effects/impacts.hpp"
+#include "effects/signal.hpp"
+#include "support/counting_new.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <random>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace haptoflow::effects {
+namespace {
+
+/// A kind of effect, ready to act on what passes: a source sounds, a delay delays, a guard is near its limits.
+struct Kind {
+    std::string name;
+    std::function<std::unique_ptr<Effect>(double outputRateHz)> make;
+};
+
+std::unique_ptr<Effect> ringingImpacts(double outputRateHz) {
+    auto impacts = std::make_unique<Impacts>(outputRateHz);
+    ImpactResponse response;
+    response.modes[0] = {150.0F, 50.0F, 400.0F};
+    response.restitution = 0.7F;
+    impacts->start(0.5, response);
+    return impacts;
+}
+
+std::unique_ptr<Effect> soundingSignal(double outputRateHz) {
+    auto signal = std::make_unique<Signal>(outputRateHz);
+    signal->set({.frequencyHz = 200.0F, .amplitudeMps2 = 6.0F});
+    signal->begin();
+    return signal;
+}
+
+std::unique_ptr<Effect> setDelay(double outputRateHz) {
+    auto delay = std::make_unique<Delay>(outputRateHz);
+    delay->setDelaySeconds(0.01);
+    return delay;
+}
+
+std::unique_ptr<Effect> quickGuard(double outputRateHz) {
+    ExposureLaw law;
+    law.shortTermSeconds = 0.5;
+    law.slewDbPerSecond = 20.0;
+    return std::make_unique<ExposureGuard>(outputRateHz, law);
+}
+
+std::unique_ptr<Effect> compensationOfVoiceCoil(double outputRateHz) {
+    return std::make_unique<Compensation>(*ActuatorProfile::builtIn("voice-coil"), outputRateHz);
+}
+
+std::unique_ptr<Effect> listen(double outputRateHz) {
+    return std::make_unique<Listen>(outputRateHz, 200.0);
+}
+
+std::vector<float> noiseOf(std::size_t count) {
+    std::mt19937 random(2);
+    std::normal_distribution<float> normal(0.0F, 150.0F);
+    std::vector<float> samples(count);
+    std::ranges::generate(samples, [&] { return normal(random); });
+    return samples;
+}
+
+std::vector<float> played(Effect& effect, std::vector<float> samples, std::size_t block) {
+    for (std::size_t i = 0; i < samples.size(); i += block) {
+        effect.process(std::span(samples).subspan(i, std::min(block, samples.size() - i)));
+    }
+    return samples;
+}
+
+class EffectContractTest : public ::testing::TestWithParam<Kind> {
+protected:
+    /// True if the effect adds to what passes.
+    static bool isSource() { return GetParam().name == "Impacts" || GetParam().name == "Signal"; }
+};
+
+INSTANTIATE_TEST_SUITE_P(Of, EffectContractTest,
+                         ::testing::Values(Kind{"Impacts", ringingImpacts}, Kind{"Signal", soundingSignal},
+                                           Kind{"Delay", setDelay}, Kind{"Compensation", compensationOfVoiceCoil},
+                                           Kind{"ExposureGuard", quickGuard}, Kind{"Listen", listen}),
+                         [](const auto& kind) { return kind.param.name; });
+
+TEST_P(EffectContractTest, TheBlockLengthsDoNotChangeTheResult) {
+    const std::vector<float> sent = noiseOf(44100);
+    const std::vector<float> whole = played(*GetParam().make(44100.0), sent, sent.size());
+    EXPECT_NE(whole, sent);
+    for (const std::size_t block : {7U, 441U, 1024U}) {
+        // A signal corrects its radius after each block, and an inaudible sinusoid ends with one.
+        const std::vector<float> cut = played(*GetParam().make(44100.0), sent, block);
+        for (std::size_t i = 0; i < whole.size(); ++i) {
+            ASSERT_NEAR(cut[i], whole[i], isSource() ? 1e-3F : 0.0F) << block << ", sample " << i;
+        }
+    }
+}
+
+TEST_P(EffectContractTest, AnyInputGivesFiniteSamplesAtEveryRateAndNoneAfterAReset) {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    for (const double outputRateHz : {8000.0, 44100.0, 48000.0, 192000.0}) {
+        const auto effect = GetParam().make(outputRateHz);
+        std::vector<float> samples = noiseOf(static_cast<std::size_t>(0.1 * outputRateHz));
+        for (std::size_t i = 0; i < samples.size(); i += 7) {
+            samples[i] = std::array{std::nanf(""), infinity, -infinity, std::numeric_limits<float>::max()}[i % 4];
+        }
+        if (isSource()) {
+            std::ranges::fill(samples, 2.0F);
+        }
+        for (const float sample : played(*effect, samples, 33)) {
+            ASSERT_TRUE(std::isfinite(sample)) << outputRateHz;
+        }
+        effect->reset();
+        std::vector<float> silence(256);
+        effect->process(silence);
+        EXPECT_EQ(silence, std::vector<float>(256, 0.0F)) << outputRateHz;
+    }
+}
+
+TEST_P(EffectContractTest, ProcessingAllocatesNothing) {
+    const auto effect = GetParam().make(192000.0);
+    std::vector<float> samples = noiseOf(1024);
+    const std::size_t before = haptoflow::testing::allocationCount();
+    for (int block = 0; block < 100; ++block) {
+        effect->process(samples);
+        (void)effect->isIdle();
+    }
+    effect->reset();
+    EXPECT_EQ(haptoflow::testing::allocationCount(), before);
+}
+
+TEST(EffectRatesTest, RatesOutsideTheOutputRangeAreRejected) {
+    for (const double outputRateHz : {0.0, 7999.0, 192001.0, -48000.0, std::nan(""), HUGE_VAL}) {
+        for (const auto& make : {setDelay, compensationOfVoiceCoil, quickGuard, listen, soundingSignal}) {
+            EXPECT_THROW((void)make(outputRateHz), std::invalid_argument) << outputRateHz;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace haptoflow::effects

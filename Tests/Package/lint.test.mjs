@@ -1,0 +1,58 @@
+// Rules of the linter, and what the workflows run.
+import assert from 'node:assert/strict';
+import { existsSync, readdirSync, readFileSync } from 'node:fs';
+import test from 'node:test';
+import { findingsOfTidy, functionsWithoutThreadTag, machineTraces } from '../../scripts/lib/lint_checks.mjs';
+import { inRepository } from '../../scripts/lib/process.mjs';
+
+test('a function without a thread tag in its own comment is found', () => {
+  const header = [
+    '/* Opens.\n * [loader-thread] Blocks. */',
+    'HAPTOFLOW_API haptoflow_status haptoflow_open(int a,\n                                              int b);',
+    '',
+    'HAPTOFLOW_API void haptoflow_close(void);',
+    '/* Says its name. */\nHAPTOFLOW_API const char* haptoflow_name(void);',
+  ].join('\n');
+  assert.deepEqual(functionsWithoutThreadTag(header), ['haptoflow_close', 'haptoflow_name']);
+});
+
+test('clang-tidy\'s errors and warnings in this repository are findings, and errors in headers of the standard library are not', () => {
+  const own = `${inRepository('NativePlugin', 'src', 'a.hpp')}:3:1: error: use auto [modernize-use-auto]`;
+  const foreign = '/usr/include/c++/12/bits/iterator_concepts.h:982:13: error: no matching function [clang-diagnostic-error]';
+  assert.deepEqual(findingsOfTidy(`${foreign}\n${own}\n    auto a = 1;\n1 error generated.\n`), [own]);
+});
+
+test('paths of one machine and package hosts are found with their line', () => {
+  const home = ['', 'home', 'someone', 'model'].join('/');
+  const host = ['https://registry.npm', 'js.org/x'].join('');
+  const traces = machineTraces(`fine\npath = "${home}"\n${host}\n`);
+  assert.equal(traces.length, 2);
+  assert.match(traces[0], /^2: a path of one machine/);
+  assert.match(traces[1], /^3: a package host/);
+});
+
+test('system paths, relative paths and web addresses are fine', () => {
+  assert.deepEqual(machineTraces('/usr/bin/python3 src/work/x.cpp https://example.com/home/x "/etc/os-release"'), []);
+});
+
+const folder = inRepository('.github', 'workflows');
+const names = readdirSync(folder).map((name) => `.github/workflows/${name}`);
+const textOf = (name) => readFileSync(inRepository(name), 'utf8');
+
+test('every script and npm script that a workflow runs is there', () => {
+  const { scripts } = JSON.parse(textOf('package.json'));
+  for (const name of names) {
+    const text = textOf(name);
+    for (const [, file] of text.matchAll(/\bnode (scripts\/\S+\.mjs)/g)) assert.ok(existsSync(inRepository(file)), `${name}: ${file}`);
+    for (const [, script] of text.matchAll(/(?:npm run|\.\/run) ([\w:]+)/g)) assert.ok(script in scripts, `${name}: ${script}`);
+  }
+});
+
+test('the Unity workflow runs the project of the repository, in the version that it was saved with', () => {
+  const workflow = textOf('.github/workflows/unity.yml');
+  const [, version] = textOf('ProjectSettings/ProjectVersion.txt').match(/^m_EditorVersion: (.*)$/m);
+  const [, versions] = workflow.match(/unity: \[(.*)\]/);
+  assert.deepEqual(versions.split(', ').map((each) => each.split('.')[0]), ['2022', '6000']);
+  assert.equal(versions.split(', ')[0], version);
+  assert.match(workflow, /run: npm ci\n[\s\S]*projectPath: \.\n/);
+});

@@ -1,1 +1,0 @@
-"""The study of materials fitted to seconds of recording, beside rivals."""

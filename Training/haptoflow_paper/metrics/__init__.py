@@ -1,1 +1,0 @@
-"""Figures of a row beside a recording, and how they are judged."""

@@ -1,1 +1,0 @@
-"""Whether a place of a surface feels the same twice."""

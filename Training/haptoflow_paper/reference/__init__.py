@@ -1,1 +1,0 @@
-"""What rows are measured against: held-out recordings, and reference rows such as white noise."""

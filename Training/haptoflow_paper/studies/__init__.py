@@ -1,0 +1,1 @@
+"""Studies beside the table of accuracy and time: materials of seconds, places felt twice, estimates of velocity."""

@@ -1,1 +1,0 @@
-"""Which estimate of the tip's velocity: today's beside rivals, on strokes whose true velocity is known."""

@@ -1,1 +1,0 @@
-"""Fits a new material to seconds of recording; the model file stays unchanged."""
