@@ -32,7 +32,7 @@ async function draw(/** @type {[number, number][]} */ places) {
 }
 const rub = /** @type {(x: number, z: number) => [number, number][]} */ ((x, z) => [[x - 0.03, z], [x + 0.03, z], [x - 0.03, z], [x + 0.03, z]]);
 const loudest = (seen, surface) => Math.max(0, ...seen.filter((each) => each.surface === surface).map(({ rms }) => rms));
-const isQuiet = () => opened.page.waitForFunction(() => globalThis.haptoflowPage.scope.rmsMps2 === 0, null, { timeout: 4000 });
+const isQuiet = () => opened.page.waitForFunction(() => globalThis.haptoflowPage.scope.rmsMps2 === 0, null, { timeout: 20000 });
 
 describe('the live page', { skip: !hasBrowser }, () => {
   before(async () => {

@@ -72,8 +72,9 @@ float Waveform::nextCorrection() noexcept {
 void Waveform::read(const skeleton::Skeleton* skeleton, std::span<float> waveMps2) noexcept {
     stream_.next(skeleton, waveMps2);
     for (float& sample : waveMps2) {
-        const float own = sample * stream_.levelMps2();
-        sample = own + nextCorrection() * stream_.nextRampedLevelMps2();
+        const float levelMps2 = stream_.nextRampedLevelMps2();
+        const float own = sample * levelMps2;
+        sample = own + nextCorrection() * levelMps2;
         past_[static_cast<std::size_t>(head_) % past_.size()] = sample;
         ownPast_[static_cast<std::size_t>(head_) % ownPast_.size()] = own;
         ++head_;

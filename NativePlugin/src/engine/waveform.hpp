@@ -15,7 +15,7 @@ namespace haptoflow::engine {
 ///
 /// A correction takes over at the sample for which it was made and replaces what is left of the one before, across a
 /// splice of 4 samples. One that none follows fades over its last 5 ms, and the stream goes on alone. Corrections are
-/// in unit scale; a new level reaches them within 4 ms. The class is a plain value, so that the worker can copy it and
+/// in unit scale. The class is a plain value, so that the worker can copy it and
 /// read the copy ahead of the callback. Allocates nothing.
 class Waveform {
 public:

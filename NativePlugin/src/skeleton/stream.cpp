@@ -9,7 +9,7 @@
 namespace haptoflow::skeleton {
 namespace {
 
-constexpr float levelRampSamples = 8.0F;
+constexpr float levelRampSamples = 4.0F;
 constexpr float lowestLevelMps2 = 1e-6F;
 // A state of a display of 72 Hz.
 constexpr std::size_t correctionSamples = 28;
@@ -43,16 +43,24 @@ void Stream::begin(const StreamParameters& parameters, double samplesAhead, cons
     logLevel_ = logLevelTarget_;
     logLevelStep_ = 0.0F;
     rampedLevelMps2_ = levelMps2_;
-    std::array<float, filterOrder> drawn{};
+    draws_ = 0;
+    synthesis_.begin(skeleton_.filter, drawn());
+}
+
+std::array<float, filterOrder> Stream::drawn() noexcept {
+    std::array<float, filterOrder> numbers{};
     // Numbers that `next` does not use: a key has 2^33.
-    fillStandardNormal(key, drawn, std::uint64_t{1} << 32U);
-    synthesis_.begin(skeleton_.filter, drawn);
+    fillStandardNormal(key_, numbers, (std::uint64_t{1} << 32U) + filterOrder * draws_++);
+    return numbers;
 }
 
 void Stream::follow(const StreamParameters& parameters, double samplesAhead) noexcept {
-    const float before = levelMps2_;
+    const ReflectionFilter& now = parameters.skeleton.filter;
+    synthesis_.limitPast();
+    if (!synthesis_.fits(skeleton_.filter, now)) {
+        synthesis_.replace(skeleton_.filter, now, drawn());
+    }
     setParameters(parameters, samplesAhead);
-    synthesis_.rescale(before / levelMps2_);
     takePhases(parameters, samplesAhead, false);
 }
 

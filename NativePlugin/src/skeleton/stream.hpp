@@ -44,9 +44,9 @@ struct StreamParameters {
 };
 
 /// The skeleton's waveform along a touch, sample by sample: a filter that continues its own past, noise of the place,
-/// waves, and impulses that ring on. A new contact state changes its parameters and level from the next sample on; what
-/// has sounded rings on as it was. A plain value: a copy goes on as the original does. Finite and bounded for every
-/// input; allocates nothing.
+/// waves, and impulses that ring on. A new contact state changes its parameters from the next sample on, and its level
+/// along a ramp of 4 samples. A past that does not fit the new filter is left across a splice of as many. A plain
+/// value: a copy goes on as the original does. Finite and bounded for every input; allocates nothing.
 class Stream {
 public:
     /// Begins at a contact. `samplesAhead`: samples from its publishing to the next sample. `key` is that of numbers
@@ -57,9 +57,9 @@ public:
     /// Writes the next samples in unit scale of `levelMps2`, any number; zeros without a skeleton, while place and
     /// phases go on. `input`: where to write what the refining graph sees of at most 200 samples, or null.
     void next(const Skeleton* skeleton, std::span<float> unit, NetworkInput* input = nullptr) noexcept;
-    /// Level of the newest contact in m/s^2.
+    /// Level in m/s^2 of the newest contact, where the ramp ends.
     [[nodiscard]] float levelMps2() const noexcept { return levelMps2_; }
-    /// The same for what is added to the stream: of the next sample, along a ramp of 4 ms, so that it makes no step.
+    /// Level in m/s^2 of the next sample, of the stream's and of what is added to it.
     [[nodiscard]] float nextRampedLevelMps2() noexcept;
 
     /// Turns at the next sample, and rates.
@@ -77,6 +77,7 @@ private:
     [[nodiscard]] std::size_t pieceOf(std::size_t wanted) const noexcept;
     [[nodiscard]] std::array<FamilyPhase, familyCount> correctedPhases() const noexcept;
     void advance(std::size_t samples) noexcept;
+    [[nodiscard]] std::array<float, filterOrder> drawn() noexcept;
 
     SkeletonParameters skeleton_;
     Synthesis synthesis_;
@@ -84,6 +85,7 @@ private:
     std::uint64_t surface_ = 0;
     SurfacePath path_{};
     NoiseKey key_{};
+    std::uint64_t draws_ = 0;
     std::array<Family, familyCount> families_{};
     WaveVectors ribs_{};
     std::size_t correctedSamplesLeft_ = 0;

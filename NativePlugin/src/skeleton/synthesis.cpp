@@ -3,19 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 
 namespace haptoflow::skeleton {
 namespace {
 
 constexpr float largestSwing = 2.0F;
-// What rings on may not rise beyond this where the level falls far.
-constexpr float largestRinging = 64.0F;
 
 }  // namespace
 
 void Synthesis::begin(const ReflectionFilter& filter, std::span<const float, filterOrder> noise) noexcept {
     past_ = filter.stationaryPast(noise);
-    rescale(1.0F);
+    limitPast();
     ringing_ = {};
 }
 
@@ -24,14 +23,43 @@ void Synthesis::begin(std::span<const float, filterOrder> past) noexcept {
     ringing_ = {};
 }
 
-void Synthesis::rescale(float factor) noexcept {
+void Synthesis::limitPast() noexcept {
     constexpr auto limit = static_cast<double>(unitLimit);
     for (double& sample : past_) {
-        const double scaled = sample * static_cast<double>(factor);
-        sample = std::isnan(scaled) ? 0.0 : std::clamp(scaled, -limit, limit);
+        sample = std::isnan(sample) ? 0.0 : std::clamp(sample, -limit, limit);
     }
-    for (float& impulse : ringing_) {
-        impulse = limitedOrZero(impulse * factor, std::max(largestRinging, std::fabs(impulse)));
+}
+
+bool Synthesis::fits(const ReflectionFilter& before, const ReflectionFilter& now) const noexcept {
+    const auto energyOf = [this](const ReflectionFilter& filter) {
+        const auto rung = ringOut(filter);
+        return std::inner_product(rung.begin(), rung.end(), rung.begin(), 0.0F);
+    };
+    return energyOf(now) <= 2.0F * energyOf(before) + 0.5F * static_cast<float>(ringOutSamples);
+}
+
+void Synthesis::replace(const ReflectionFilter& before, const ReflectionFilter& now,
+                        std::span<const float, filterOrder> noise) noexcept {
+    std::copy_n(ringOut(before).begin(), leavingSamples, leaving_.begin());
+    leavingLeft_ = leavingSamples;
+    begin(now, noise);
+}
+
+std::array<float, Synthesis::ringOutSamples> Synthesis::ringOut(const ReflectionFilter& filter) const noexcept {
+    constexpr std::array<float, ringOutSamples> nothing{};
+    std::array<float, ringOutSamples> rung{};
+    std::array<double, filterOrder> past = past_;
+    filter.run(past, nothing, rung);
+    return rung;
+}
+
+void Synthesis::spliceInto(std::span<float> unit) noexcept {
+    for (float& sample : unit.first(std::min(unit.size(), leavingLeft_))) {
+        const float left = static_cast<float>(leavingLeft_) / static_cast<float>(leavingSamples + 1);
+        const float come = 1.0F - left;
+        const float mixed = left * leaving_[leavingSamples - leavingLeft_] + come * sample;
+        sample = limitedOrZero(mixed / std::hypot(left, come), unitLimit);
+        --leavingLeft_;
     }
 }
 
@@ -64,6 +92,7 @@ void Synthesis::next(const TailImpulses& tails, const SkeletonParameters& parame
         drive[n] = gain * (driven + ringing_[n]);
     }
     parameters.filter.run(past_, std::span(drive).first(samples), unit);
+    spliceInto(unit);
     if (view.input != nullptr) {
         std::ranges::copy(unit, view.input->piece(0, view.first, samples).begin());
         std::ranges::transform(std::span(ringing_).first(samples), view.input->piece(1, view.first, samples).begin(),

@@ -17,9 +17,15 @@ public:
     void begin(const ReflectionFilter& filter, std::span<const float, filterOrder> noise) noexcept;
     /// Begins with this past in unit scale, limited to +-16.
     void begin(std::span<const float, filterOrder> past) noexcept;
-    /// The parameters are about to change, and with them the unit, by this factor: what has sounded stays what it was.
-    /// The past is limited to +-16, so that it stays bounded for every sequence of filters and levels.
-    void rescale(float factor) noexcept;
+    /// Limits the past to +-16. Before each change of the filter, it keeps the past bounded for every sequence of
+    /// filters.
+    void limitPast() noexcept;
+    /// Whether the past can go on in another filter. One that it would make ring 3 dB louder than the filter of before
+    /// (a label's beside that of a rougher one) needs a past of its own.
+    [[nodiscard]] bool fits(const ReflectionFilter& before, const ReflectionFilter& now) const noexcept;
+    /// Begins anew with another filter, across a splice of 4 samples with what rings in the one of before.
+    void replace(const ReflectionFilter& before, const ReflectionFilter& now,
+                 std::span<const float, filterOrder> noise) noexcept;
     /// Writes the next samples in unit scale, limited to +-16; at most 32. `noise` is standard normal and is limited to
     /// +-9, what is not a number counts as 0. `view`: where to write what the refining graph sees.
     void next(const TailImpulses& tails, const SkeletonParameters& parameters,
@@ -27,7 +33,16 @@ public:
               NetworkView view = {}) noexcept;
 
 private:
+    static constexpr std::size_t ringOutSamples = 8;
+    static constexpr std::size_t leavingSamples = 4;
+
+    /// What the past makes of a filter that nothing drives.
+    [[nodiscard]] std::array<float, ringOutSamples> ringOut(const ReflectionFilter& filter) const noexcept;
+    void spliceInto(std::span<float> unit) noexcept;
+
     std::array<double, filterOrder> past_{};
+    std::array<float, leavingSamples> leaving_{};
+    std::size_t leavingLeft_ = 0;
     TailImpulses::Ringing ringing_{};
 };
 
