@@ -1,0 +1,170 @@
+#include "effects/relief.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace haptoflow::effects {
+namespace {
+
+constexpr double leastStepsPerSecond = 24000.0;
+// A state of a display of 72 Hz.
+constexpr double correctionSeconds = 0.014;
+// A tip that is further from where a state says was put there.
+constexpr double jumpMetres = 0.02;
+constexpr double steepest = std::numbers::sqrt2;
+constexpr double forceSeconds = 0.01;
+// A tip that nothing presses would never come down again.
+constexpr double leastNewtons = 0.05;
+constexpr double farthestMetres = 0.005;
+constexpr double quietSeconds = 0.05;
+constexpr double jumpSeconds = 0.001;
+constexpr double lowestHz = 10.0;
+constexpr double highestHz = 800.0;
+// Of a Butterworth filter of the second order, and of the two sections of one of the fourth.
+constexpr double secondOrder = 0.70710678;
+constexpr std::array<double, 2> fourthOrder{0.54119610, 1.30656296};
+
+double finite(double value, double lowest, double highest) noexcept {
+    return std::isfinite(value) ? std::clamp(value, lowest, highest) : 0.0;
+}
+
+}  // namespace
+
+Relief::Section::Section(Kind kind, double frequencyHz, double quality, double rateHz) noexcept {
+    // Bristow-Johnson, "Cookbook formulae for audio EQ biquad filter coefficients".
+    const double turn = 2.0 * std::numbers::pi * frequencyHz / rateHz;
+    const double width = std::sin(turn) / (2.0 * quality);
+    const double edge = kind == Kind::lowPass ? 1.0 - std::cos(turn) : 1.0 + std::cos(turn);
+    const double norm = 1.0 / (1.0 + width);
+    forward_ = {0.5 * edge * norm, (kind == Kind::lowPass ? edge : -edge) * norm, 0.5 * edge * norm};
+    back_ = {-2.0 * std::cos(turn) * norm, (1.0 - width) * norm};
+}
+
+double Relief::Section::next(double sample) noexcept {
+    const double filtered = forward_[0] * sample + first_;
+    first_ = forward_[1] * sample - back_[0] * filtered + second_;
+    second_ = forward_[2] * sample - back_[1] * filtered;
+    return filtered;
+}
+
+Relief::Relief(double sampleRateHz)
+    : rateHz_(sampleRateHz),
+      steps_(static_cast<std::size_t>(std::max(1.0, std::ceil(leastStepsPerSecond / sampleRateHz)))),
+      stepSeconds_(1.0 / (sampleRateHz * static_cast<double>(steps_))),
+      damping_(2.0 * dampingRatio * std::sqrt(stiffnessNewtonsPerMetre * tipKilograms)),
+      gate_(sampleRateHz),
+      highPass_(Section::Kind::highPass, lowestHz, secondOrder, sampleRateHz),
+      lowPass_{Section(Section::Kind::lowPass, highestHz, fourthOrder[0], sampleRateHz),
+               Section(Section::Kind::lowPass, highestHz, fourthOrder[1], sampleRateHz)} {}
+
+void Relief::follow(const ReliefContact& contact) noexcept {
+    const bool isOtherMap = contact.map != contact_.map;
+    if (contact.map == nullptr || !(contact.largestMps2 > 0.0F)) {
+        // The tip rings on over an even surface while the gate closes.
+        contact_.map = nullptr;
+        contact_.speedMps = 0.0;
+        contact_.placePerSecond = {};
+        gate_.close();
+        return;
+    }
+    contact_ = contact;
+    contact_.speedMps = finite(contact.speedMps, 0.0, 20.0);
+    contact_.forceNewtons = std::max(leastNewtons, finite(contact.forceNewtons, 0.0, 1000.0));
+    contact_.largestMps2 = finite(contact.largestMps2, 0.0, 1e5);
+    const ReliefDescription& description = contact_.map->description();
+    const std::array<double, 2> counts{static_cast<double>(description.columns), static_cast<double>(description.rows)};
+    std::array<double, 2> missing{};
+    std::array<double, 2> texels{};
+    for (std::size_t side = 0; side < 2; ++side) {
+        contact_.place[side] = finite(contact.place[side], -1e9, 1e9);
+        contact_.placePerSecond[side] = finite(contact.placePerSecond[side], -1e9, 1e9);
+        missing[side] = contact_.place[side] - place_[side];
+        // A mesh may go on at the opposite rim of a tile.
+        missing[side] -= description.isTiled ? std::round(missing[side]) : 0.0;
+        texels[side] = contact_.placePerSecond[side] * counts[side];
+    }
+    texelsPerSecond_ = std::hypot(texels[0], texels[1]);
+    const double missingMetres =
+        std::hypot(missing[0] * description.sizeMetres[0], missing[1] * description.sizeMetres[1]);
+    if (isIdle_ || isOtherMap || missingMetres > jumpMetres) {
+        place_ = contact_.place;
+        correctionSamplesLeft_ = 0;
+        settle();
+    } else {
+        correctionSamplesLeft_ = static_cast<std::size_t>(correctionSeconds * rateHz_);
+        for (std::size_t side = 0; side < 2; ++side) {
+            correction_[side] = missing[side] / static_cast<double>(correctionSamplesLeft_);
+        }
+    }
+    gate_.open();
+    isIdle_ = isIdle_ && contact_.speedMps == 0.0;
+}
+
+void Relief::settle() noexcept {
+    jump_ = isIdle_ ? 0.0 : newest_;
+    forceNewtons_ = contact_.forceNewtons;
+    surfaceMetres_ = contact_.map->heightMetres(place_, texelsPerSecond_);
+    tipMetres_ = surfaceMetres_ - forceNewtons_ / stiffnessNewtonsPerMetre;
+    tipMps_ = 0.0;
+}
+
+double Relief::nextAcceleration() noexcept {
+    for (std::size_t side = 0; side < 2; ++side) {
+        place_[side] += contact_.placePerSecond[side] * stepSeconds_;
+    }
+    double riseMps = 0.0;
+    if (contact_.map != nullptr) {
+        const double limit = steepest * contact_.speedMps;
+        const double wantedMps = (contact_.map->heightMetres(place_, texelsPerSecond_) - surfaceMetres_) / stepSeconds_;
+        riseMps = std::clamp(wantedMps, -limit, limit);
+        surfaceMetres_ += riseMps * stepSeconds_;
+    }
+    forceNewtons_ += (contact_.forceNewtons - forceNewtons_) * stepSeconds_ / forceSeconds;
+    const double depth = surfaceMetres_ - tipMetres_;
+    const double contactNewtons =
+        depth > 0.0 ? std::max(0.0, stiffnessNewtonsPerMetre * depth + damping_ * (riseMps - tipMps_)) : 0.0;
+    const double acceleration = (contactNewtons - forceNewtons_) / tipKilograms;
+    tipMps_ += acceleration * stepSeconds_;
+    tipMetres_ = std::min(tipMetres_ + tipMps_ * stepSeconds_, surfaceMetres_ + farthestMetres);
+    return acceleration;
+}
+
+void Relief::process(std::span<float> samplesMps2) noexcept {
+    const double jumpDecay = std::exp(-1.0 / (jumpSeconds * rateHz_));
+    for (float& sample : samplesMps2) {
+        double acceleration = 0.0;
+        for (std::size_t step = 0; step < steps_; ++step) {
+            acceleration += nextAcceleration() / static_cast<double>(steps_);
+        }
+        if (correctionSamplesLeft_ > 0) {
+            --correctionSamplesLeft_;
+            place_[0] += correction_[0];
+            place_[1] += correction_[1];
+        }
+        newest_ = acceleration + jump_;
+        jump_ *= jumpDecay;
+        const double filtered = lowPass_[1].next(lowPass_[0].next(highPass_.next(newest_)));
+        const double largest = contact_.largestMps2;
+        const double limited = largest > 0.0 ? largest * std::tanh(filtered / largest) : 0.0;
+        sample += static_cast<float>(limited) * gate_.nextGain();
+        quietSeconds_ =
+            contact_.speedMps > 0.0 || std::abs(filtered) > imperceptibleMps2 ? 0.0 : quietSeconds_ + 1.0 / rateHz_;
+    }
+    if (gate_.isClosed()) {
+        reset();
+    }
+    isIdle_ = isIdle_ || quietSeconds_ > quietSeconds;
+}
+
+void Relief::reset() noexcept {
+    gate_.reset();
+    highPass_.reset();
+    lowPass_[0].reset();
+    lowPass_[1].reset();
+    contact_ = {};
+    jump_ = newest_ = 0.0;
+    isIdle_ = true;
+}
+
+}  // namespace haptoflow::effects

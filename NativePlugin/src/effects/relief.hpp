@@ -1,0 +1,99 @@
+#pragma once
+
+#include "dsp/gate.hpp"
+#include "effects/effect.hpp"
+#include "effects/relief_map.hpp"
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+namespace haptoflow::effects {
+
+/// What a contact state says of the relief under the tip.
+struct ReliefContact {
+    /// Null for none. Must live until the next contact.
+    const ReliefMap* map = nullptr;
+    /// Place in the map, 0 to 1 over it, at the next sample, and its change a second.
+    std::array<double, 2> place{};
+    std::array<double, 2> placePerSecond{};
+    /// Speed over the surface.
+    double speedMps = 0.0;
+    double forceNewtons = 0.0;
+    /// What the relief may add at most.
+    double largestMps2 = 0.0;
+};
+
+/// A tip of 15 g, pressed on the spring of its contact, that follows the heights of a map along its path:
+/// m z'' = max(0, k d + c (H' - z')) - F with d = H - z while d > 0, z being the tip's height. What it adds is z'',
+/// from 10 Hz to 800 Hz.
+///
+/// Below the resonance of the contact, at 50 Hz, a sine of amplitude A and wavelength L gives A (2 pi v / L)^2. What is
+/// small beside `largestMps2` is heard as it is; what is large approaches it, so that a step deeper than any motor's
+/// reach leaves the texture its share.
+///
+/// Between contact states the path goes on with their velocity, and what it then missed of the next place is made up
+/// within 14 ms. Heights rise no faster than a ball rolls over an edge, sqrt(2) times the speed, so that no map, no
+/// jump and no exchanged map gives more than a blow of that speed. Semi-implicit Euler at 24 kHz or more. Bounded for
+/// every input. Construction excepted, everything runs on the audio thread.
+class Relief final : public Effect {
+public:
+    static constexpr double tipKilograms = 0.015;
+    static constexpr double stiffnessNewtonsPerMetre = 1500.0;
+    static constexpr double dampingRatio = 0.4;
+
+    /// Throws std::invalid_argument for a rate outside 8-192 kHz.
+    explicit Relief(double sampleRateHz);
+
+    /// Goes on with a contact from the next sample on; one without a map ends the relief within 5 ms. Numbers that are
+    /// not finite count as 0.
+    void follow(const ReliefContact& contact) noexcept;
+
+    void process(std::span<float> samplesMps2) noexcept override;
+    void reset() noexcept override;
+    [[nodiscard]] bool isIdle() const noexcept override { return isIdle_; }
+
+private:
+    /// Two poles and two zeros, in double precision because they lie near 1.
+    class Section {
+    public:
+        enum class Kind { highPass, lowPass };
+        Section(Kind kind, double frequencyHz, double quality, double rateHz) noexcept;
+        [[nodiscard]] double next(double sample) noexcept;
+        void reset() noexcept { first_ = second_ = 0.0; }
+
+    private:
+        std::array<double, 3> forward_{};
+        std::array<double, 2> back_{};
+        double first_ = 0.0;
+        double second_ = 0.0;
+    };
+
+    void settle() noexcept;
+    [[nodiscard]] double nextAcceleration() noexcept;
+
+    double rateHz_;
+    std::size_t steps_;
+    double stepSeconds_;
+    double damping_;
+    dsp::Gate gate_;
+    Section highPass_;
+    std::array<Section, 2> lowPass_;
+
+    ReliefContact contact_;
+    double forceNewtons_ = 0.0;
+    std::array<double, 2> place_{};
+    // What is missing of the place is added over the next of these samples.
+    std::array<double, 2> correction_{};
+    std::size_t correctionSamplesLeft_ = 0;
+    double texelsPerSecond_ = 0.0;
+    double surfaceMetres_ = 0.0;
+    double tipMetres_ = 0.0;
+    double tipMps_ = 0.0;
+    double quietSeconds_ = 0.0;
+    double jump_ = 0.0;
+    double newest_ = 0.0;
+    bool isIdle_ = true;
+};
+
+}  // namespace haptoflow::effects
