@@ -21,6 +21,8 @@ static_assert(static_cast<int>(EffectKind::exposureGuard) == HAPTOFLOW_EFFECT_EX
 static_assert(static_cast<int>(EffectKind::tone) == HAPTOFLOW_EFFECT_TONE);
 static_assert(static_cast<int>(EffectKind::signal) == HAPTOFLOW_EFFECT_SIGNAL);
 static_assert(static_cast<int>(EffectKind::listen) == HAPTOFLOW_EFFECT_LISTEN);
+static_assert(static_cast<int>(EffectKind::relief) == HAPTOFLOW_EFFECT_RELIEF);
+static_assert(effects::maskOf(EffectKind::relief) == HAPTOFLOW_ASKS_FOR_RELIEF);
 static_assert(effects::maskOf(EffectKind::texture) == HAPTOFLOW_ASKS_FOR_TEXTURE);
 static_assert(effects::maskOf(EffectKind::impact) == HAPTOFLOW_ASKS_FOR_IMPACT);
 static_assert(effects::maskOf(EffectKind::edge) == HAPTOFLOW_ASKS_FOR_EDGE);
@@ -44,6 +46,7 @@ engine::ContactState contactState(const haptoflow_contact_state& given) {
     static_assert(offsetof(Sized, state.material.weights) == offsetof(haptoflow_contact_state, weights));
     static_assert(offsetof(Sized, state.forceNewtons) == offsetof(haptoflow_contact_state, force_newtons));
     static_assert(offsetof(Sized, state.landingCounter) == offsetof(haptoflow_contact_state, landing_counter));
+    static_assert(offsetof(Sized, state.reliefShare) == offsetof(haptoflow_contact_state, relief_share));
     engine::ContactState state = std::bit_cast<Sized>(given).state;
     state.effects = state.effects == 0 ? HAPTOFLOW_ASKS_FOR_TEXTURE : state.effects;
     return state;

@@ -9,9 +9,10 @@ namespace haptoflow::effects {
 /// An amplitude of m/s^2 that counts as silence: a hundredth of a fingertip's lowest detection threshold.
 inline constexpr double imperceptibleMps2 = 1e-4;
 
-/// The effects of a voice in the order of processing, except for the last three. `texture` is the generated waveform,
+/// The effects of a voice in the order of processing, except for the last four. `texture` is the generated waveform,
 /// and `tone` filters it before any other effect; the engine implements both. `signal` is a sinusoid for studies, which
-/// replaces texture, impact and edge. `listen` is for ears and acts after the compensation.
+/// replaces texture, impact, edge and relief. `listen` is for ears and acts after the compensation. `relief` is added
+/// where impact and edge are.
 enum class EffectKind : std::uint8_t {
     texture,
     impact,
@@ -21,9 +22,10 @@ enum class EffectKind : std::uint8_t {
     exposureGuard,
     tone,
     signal,
-    listen
+    listen,
+    relief
 };
-inline constexpr std::size_t effectKinds = 9;
+inline constexpr std::size_t effectKinds = 10;
 
 /// A set of effects, one bit per kind.
 using EffectMask = std::uint32_t;

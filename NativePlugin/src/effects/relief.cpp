@@ -61,11 +61,7 @@ Relief::Relief(double sampleRateHz)
 void Relief::follow(const ReliefContact& contact) noexcept {
     const bool isOtherMap = contact.map != contact_.map;
     if (contact.map == nullptr || !(contact.largestMps2 > 0.0F)) {
-        // The tip rings on over an even surface while the gate closes.
-        contact_.map = nullptr;
-        contact_.speedMps = 0.0;
-        contact_.placePerSecond = {};
-        gate_.close();
+        end();
         return;
     }
     contact_ = contact;
@@ -94,11 +90,26 @@ void Relief::follow(const ReliefContact& contact) noexcept {
     } else {
         correctionSamplesLeft_ = static_cast<std::size_t>(correctionSeconds * rateHz_);
         for (std::size_t side = 0; side < 2; ++side) {
-            correction_[side] = missing[side] / static_cast<double>(correctionSamplesLeft_);
+            // Half of it, because a state's time is not known to the sample.
+            correction_[side] = 0.5 * missing[side] / static_cast<double>(correctionSamplesLeft_);
         }
     }
     gate_.open();
     isIdle_ = isIdle_ && contact_.speedMps == 0.0;
+}
+
+void Relief::keep(const ReliefMap* map) noexcept {
+    if (contact_.map != map) {
+        end();
+    }
+}
+
+void Relief::end() noexcept {
+    // The tip rings on over an even surface while the gate closes.
+    contact_.map = nullptr;
+    contact_.speedMps = 0.0;
+    contact_.placePerSecond = {};
+    gate_.close();
 }
 
 void Relief::settle() noexcept {

@@ -12,7 +12,7 @@ namespace haptoflow::effects {
 
 /// What a contact state says of the relief under the tip.
 struct ReliefContact {
-    /// Null for none. Must live until the next contact.
+    /// Null for none. Must live until the next contact or `keep`.
     const ReliefMap* map = nullptr;
     /// Place in the map, 0 to 1 over it, at the next sample, and its change a second.
     std::array<double, 2> place{};
@@ -32,10 +32,10 @@ struct ReliefContact {
 /// small beside `largestMps2` is heard as it is; what is large approaches it, so that a step deeper than any motor's
 /// reach leaves the texture its share.
 ///
-/// Between contact states the path goes on with their velocity, and what it then missed of the next place is made up
-/// within 14 ms. Heights rise no faster than a ball rolls over an edge, sqrt(2) times the speed, so that no map, no
-/// jump and no exchanged map gives more than a blow of that speed. Semi-implicit Euler at 24 kHz or more. Bounded for
-/// every input. Construction excepted, everything runs on the audio thread.
+/// Between contact states the path goes on with their velocity, and half of what it then missed of the next place is
+/// made up within 14 ms. Heights rise no faster than a ball rolls over an edge, sqrt(2) times the speed, so that no
+/// map, no jump and no exchanged map gives more than a blow of that speed. Semi-implicit Euler at 24 kHz or more.
+/// Bounded for every input. Construction excepted, everything runs on the audio thread.
 class Relief final : public Effect {
 public:
     static constexpr double tipKilograms = 0.015;
@@ -48,6 +48,9 @@ public:
     /// Goes on with a contact from the next sample on; one without a map ends the relief within 5 ms. Numbers that are
     /// not finite count as 0.
     void follow(const ReliefContact& contact) noexcept;
+
+    /// Ends the relief within 5 ms unless it follows this map: another one may be freed from now on.
+    void keep(const ReliefMap* map) noexcept;
 
     void process(std::span<float> samplesMps2) noexcept override;
     void reset() noexcept override;
@@ -69,6 +72,7 @@ private:
         double second_ = 0.0;
     };
 
+    void end() noexcept;
     void settle() noexcept;
     [[nodiscard]] double nextAcceleration() noexcept;
 

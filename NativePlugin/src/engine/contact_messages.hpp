@@ -3,6 +3,7 @@
 #include "dsp/tone_filter.hpp"
 #include "effects/effect.hpp"
 #include "effects/impacts.hpp"
+#include "effects/relief_map.hpp"
 #include "engine/contact_state.hpp"
 #include "engine/range_law.hpp"
 #include "inference/segment_generator.hpp"
@@ -12,6 +13,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 
@@ -124,6 +126,9 @@ struct ContactMessage {
     /// message is replaced.
     ContactEventList contactEvents;
     std::optional<dsp::ToneKernel> tone;
+    /// The relief under the tip, for the callback alone: its slot of the mailbox keeps the map, and the publisher frees
+    /// one that nobody else keeps.
+    std::shared_ptr<const effects::ReliefMap> relief;
     /// Time of the last change of ContactState::isMoving (VoiceChannels::clock).
     double movingSinceSeconds = 0.0;
 };

@@ -71,8 +71,9 @@ namespace {
 
 using effects::EffectKind;
 
-constexpr effects::EffectMask surfaceEffects =
-    effects::maskOf(EffectKind::texture) | effects::maskOf(EffectKind::impact) | effects::maskOf(EffectKind::edge);
+constexpr effects::EffectMask surfaceEffects = effects::maskOf(EffectKind::texture) |
+                                               effects::maskOf(EffectKind::impact) | effects::maskOf(EffectKind::edge) |
+                                               effects::maskOf(EffectKind::relief);
 
 ObjectIdentity objectOf(const ContactState& state) noexcept {
     return {.surfaceSeed = state.surfaceSeed, .variation = state.variation};
@@ -131,8 +132,15 @@ ContactAction ContactPublisher::publish(ContactState state) noexcept {
         tone = resolveTone(ingredients, std::hypot(motion[0], motion[1]), static_cast<double>(motion[2]),
                            static_cast<double>(state.toneDbPerOctave), tiltPerDecibel_);
     }
+    followRelief();
     post(tone);
     return action;
+}
+
+void ContactPublisher::followRelief() noexcept {
+    const ContactState& state = contact_.state;
+    const bool isFelt = state.touching != 0 && state.hasEffect(EffectKind::relief);
+    reliefs().follow(isFelt ? state.relief : 0, reliefNumber_, reliefEdition_, relief_);
 }
 
 void ContactPublisher::prepareStream(const Ingredients& ingredients, const Material& material) noexcept {
@@ -168,6 +176,9 @@ void ContactPublisher::post(const std::optional<dsp::ToneCepstrum>& tone) noexce
         message.stream = stream_;
         message.contactEvents = events_.untaken();
         message.tone = kernel;
+        if (mailbox == &channels_.toAudio) {
+            message.relief = relief_;
+        }
         message.movingSinceSeconds = movingSinceSeconds_;
         mailbox->post();
     }

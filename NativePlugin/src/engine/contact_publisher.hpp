@@ -5,12 +5,14 @@
 #include "engine/contact_state.hpp"
 #include "engine/material.hpp"
 #include "engine/material_library.hpp"
+#include "engine/relief_table.hpp"
 #include "engine/stream_parameters.hpp"
 #include "engine/voice_channels.hpp"
 #include "skeleton/skeleton_tensors.hpp"
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 
 namespace haptoflow::engine {
@@ -81,6 +83,7 @@ public:
     ContactAction publish(ContactState state) noexcept;
 
 private:
+    void followRelief() noexcept;
     void prepareStream(const Ingredients& ingredients, const Material& material) noexcept;
     void post(const std::optional<dsp::ToneCepstrum>& tone) noexcept;
 
@@ -95,6 +98,10 @@ private:
     MaterialInputs material_;
     skeleton::StreamParameters stream_;
     double movingSinceSeconds_ = 0.0;
+    // The map of `reliefNumber_`, so that the table is searched only for another.
+    std::shared_ptr<const effects::ReliefMap> relief_;
+    std::uint32_t reliefNumber_ = 0;
+    std::uint64_t reliefEdition_ = 0;
     // Wave vectors of the newest touching state.
     WaveVectors ribs_{};
 };

@@ -39,7 +39,7 @@ struct ContactState {
     float forceNewtons = 0.0F;
     /// Speed towards the surface at the newest landing.
     float approachSpeedMps = 0.0F;
-    /// Effects of the surface: texture, impact, edge. Other bits are ignored.
+    /// Effects of the surface: texture, impact, edge, relief. Other bits are ignored.
     effects::EffectMask effects = effects::maskOf(effects::EffectKind::texture);
     /// Increases by 1 at each edge that the tip crosses or slides off; the height of the newest edge.
     std::uint32_t edgeCounter = 0;
@@ -63,6 +63,14 @@ struct ContactState {
     /// differ as much as the recorded pieces do. surfaceSeed tells the objects apart, whether the place is known or
     /// not.
     float variation = 0.0F;
+    /// Number of a map in ReliefTable; 0 for none.
+    std::uint32_t relief = 0;
+    /// Where the contact point lies in the map, 0 to 1 over it, and how far a metre along the velocity's axes leads.
+    std::array<float, 2> reliefPlace{};
+    std::array<float, 2> reliefPerMetreFirst{};
+    std::array<float, 2> reliefPerMetreSecond{};
+    /// Share of the full scale that the relief may reach.
+    float reliefShare = 0.0F;
 
     [[nodiscard]] bool hasEffect(effects::EffectKind kind) const noexcept {
         return (effects & effects::maskOf(kind)) != 0;
@@ -83,7 +91,8 @@ struct ContactState {
 }
 
 /// Makes every number finite and clamps it: speeds to +-20 m/s, force to 0-1,000 N, weights to 0-1, edge height to 0-1
-/// m, scale to 0.25-4, tilt to +-12 dB/octave, variation to 0-1. A place or axes of no use make the place unknown.
+/// m, scale to 0.25-4, tilt to +-12 dB/octave, variation to 0-1, the relief's numbers to +-10^6 and its share to 0-1. A
+/// place or axes of no use make the place unknown.
 /// Returns the number of changed fields.
 inline std::uint32_t sanitise(ContactState& state) noexcept {
     constexpr float maximumMps = 20.0F;
@@ -113,6 +122,12 @@ inline std::uint32_t sanitise(ContactState& state) noexcept {
     limit(state.spatialScale, 0.25F, 4.0F, 1.0F);
     limit(state.toneDbPerOctave, -12.0F, 12.0F);
     limit(state.variation, 0.0F, 1.0F);
+    constexpr float mostMaps = 1e6F;
+    for (std::array<float, 2>* pair : {&state.reliefPlace, &state.reliefPerMetreFirst, &state.reliefPerMetreSecond}) {
+        limit((*pair)[0], -mostMaps, mostMaps);
+        limit((*pair)[1], -mostMaps, mostMaps);
+    }
+    limit(state.reliefShare, 0.0F, 1.0F);
     if (state.hasPlace != 0 && !hasUsablePlace(state)) {
         state.hasPlace = 0;
         ++changes;

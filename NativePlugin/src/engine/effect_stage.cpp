@@ -84,6 +84,7 @@ void resetAll(const Processors* processors) noexcept {
 EffectStage::EffectStage(double outputRateHz)
     : impact_(outputRateHz),
       edge_(outputRateHz, edgeDecayFactor),
+      relief_(outputRateHz),
       signal_(outputRateHz),
       gate_(outputRateHz),
       fadeSamples_(std::max<std::size_t>(1, static_cast<std::size_t>(handOverSeconds * outputRateHz))) {}
@@ -183,6 +184,7 @@ std::uint64_t EffectStage::version() const noexcept {
 void EffectStage::reset() noexcept {
     impact_.reset();
     edge_.reset();
+    relief_.reset();
     signal_.reset();
     if (guard_ != nullptr) {
         guard_->reset();
@@ -214,7 +216,7 @@ void EffectStage::process(std::span<float> samplesMps2, dsp::LevelSmoother& stre
 }
 
 bool EffectStage::areSourcesIdle() const noexcept {
-    return impact_.isIdle() && edge_.isIdle() && signal_.isIdle();
+    return impact_.isIdle() && edge_.isIdle() && relief_.isIdle() && signal_.isIdle();
 }
 
 void EffectStage::runSources(std::span<float> samplesMps2, EffectFigures& figures) noexcept {
@@ -223,6 +225,9 @@ void EffectStage::runSources(std::span<float> samplesMps2, EffectFigures& figure
     }
     if (!edge_.isIdle()) {
         run(edge_, EffectKind::edge, samplesMps2, figures);
+    }
+    if (!relief_.isIdle()) {
+        run(relief_, EffectKind::relief, samplesMps2, figures);
     }
     if (!signal_.isIdle()) {
         run(signal_, EffectKind::signal, samplesMps2, figures);

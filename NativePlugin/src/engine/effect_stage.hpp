@@ -7,6 +7,7 @@
 #include "effects/effect.hpp"
 #include "effects/exposure_guard.hpp"
 #include "effects/impacts.hpp"
+#include "effects/relief.hpp"
 #include "effects/signal.hpp"
 
 #include <array>
@@ -79,6 +80,9 @@ public:
     void start(effects::EffectKind kind, double speedMps, const effects::ImpactResponse& response) noexcept {
         (kind == effects::EffectKind::edge ? edge_ : impact_).start(speedMps, response);
     }
+    /// See effects::Relief.
+    void followRelief(const effects::ReliefContact& contact) noexcept { relief_.follow(contact); }
+    void keepRelief(const effects::ReliefMap* map) noexcept { relief_.keep(map); }
     /// See effects::Signal. `close` also ends the signal.
     void setSignal(const effects::SignalSettings& settings) noexcept { signal_.set(settings); }
     void beginSignal() noexcept { signal_.begin(); }
@@ -110,8 +114,8 @@ public:
     void open() noexcept;
     void close() noexcept;
 
-    /// Adds sounding impacts and edges and the signal to the next samples, at most 64, in m/s^2. Call `process` with
-    /// the same samples afterwards.
+    /// Adds sounding impacts, edges, relief and the signal to the next samples, at most 64, in m/s^2. Call `process`
+    /// with the same samples afterwards.
     void addSources(std::span<float> samplesMps2, EffectFigures& figures) noexcept;
     /// Processes the next samples in place, at most 64, in m/s^2. `strength` acts after delay and compensation and
     /// before the guard, which therefore measures the level that is played.
@@ -136,6 +140,7 @@ private:
 
     effects::Impacts impact_;
     effects::Impacts edge_;
+    effects::Relief relief_;
     effects::Signal signal_;
     dsp::Gate gate_;
     std::unique_ptr<Processors> processors_;

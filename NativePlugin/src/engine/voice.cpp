@@ -57,6 +57,13 @@ void Voice::start(effects::EffectKind kind, double speedMps, const effects::Impa
     output_->effects.start(kind, speedMps, response);
 }
 
+void Voice::followRelief(const effects::ReliefContact& contact) noexcept {
+    if (contact.map != nullptr) {
+        of(effects::EffectKind::relief).prepared.store(1, std::memory_order_relaxed);
+    }
+    output_->effects.followRelief(contact);
+}
+
 void Voice::beginSignal() noexcept {
     noteEvent(effects::EffectKind::signal);
     output_->effects.beginSignal();

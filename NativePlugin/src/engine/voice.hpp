@@ -74,6 +74,8 @@ public:
     void allowEffects() noexcept { output_->effects.open(); }
     /// Starts a contact event, an impact or an edge, with the next sample. Call `allowEffects` before.
     void start(effects::EffectKind kind, double speedMps, const effects::ImpactResponse& response) noexcept;
+    /// Goes on with the relief of a contact; see effects::Relief.
+    void followRelief(const effects::ReliefContact& contact) noexcept;
     /// Starts the signal set by `effects().setSignal` with the next sample. Call `allowEffects` before.
     void beginSignal() noexcept;
     [[nodiscard]] EffectStage& effects() noexcept { return output_->effects; }

@@ -20,6 +20,7 @@ VoiceRenderer::VoiceRenderer(VoiceChannels& channels, const std::atomic<bool>& w
                              std::shared_ptr<const skeleton::Skeleton> skeleton)
     : channels_(channels),
       workerAlive_(workerAlive),
+      fullScaleMps2_(static_cast<double>(fullScaleMps2)),
       voice_(outputRateHz, fullScaleMps2, channels.counters.effects, std::move(skeleton)),
       key_(key) {}
 
@@ -43,6 +44,7 @@ void VoiceRenderer::render(std::span<float> out, double rateHz, Limit limit) noe
     } else if (!stopsWithBlock_) {
         decide(rateHz);
         takeEvents(out.size());
+        followRelief();
         readSignal();
         sounded = isSounding();
         followContact();
@@ -95,6 +97,8 @@ void VoiceRenderer::readContact() noexcept {
                              (static_cast<double>(states) * voice_.outputRateHz()));
         contactAgeFrames_ = 0;
         updates_ = contact().updates;
+        // The message before, which kept the map that the tip follows, is the publisher's again.
+        voice_.effects().keepRelief(channels_.toAudio.current().relief.get());
         applyContact();
     }
 }
@@ -315,6 +319,32 @@ void VoiceRenderer::renderWithEvents(std::span<float> out) noexcept {
     }
     voice_.render(out);
     framesRendered_ += out.size();
+}
+
+void VoiceRenderer::followRelief() noexcept {
+    const ContactMessage& message = channels_.toAudio.current();
+    const bool maySound = silence_ == Silence::none || silence_ == Silence::rest;
+    if (!maySound || std::exchange(reliefUpdate_, message.contact.updates) == message.contact.updates) {
+        return;
+    }
+    if (message.relief == nullptr || message.contact.touch <= silencedTouch_) {
+        voice_.followRelief({});
+        return;
+    }
+    const ContactState& state = message.contact.state;
+    effects::ReliefContact relief{.map = message.relief.get(),
+                                  .speedMps = static_cast<double>(state.speedMps()),
+                                  .forceNewtons = static_cast<double>(state.forceNewtons),
+                                  .largestMps2 = static_cast<double>(state.reliefShare) * fullScaleMps2_};
+    constexpr double oldestSeconds = 0.1;
+    const double aheadSeconds =
+        channels_.isRealTime ? std::clamp(blockSeconds_ - message.contact.publishedSeconds, 0.0, oldestSeconds) : 0.0;
+    for (std::size_t side = 0; side < relief.place.size(); ++side) {
+        relief.placePerSecond[side] = static_cast<double>(state.velocityMps[0] * state.reliefPerMetreFirst[side] +
+                                                          state.velocityMps[1] * state.reliefPerMetreSecond[side]);
+        relief.place[side] = static_cast<double>(state.reliefPlace[side]) + relief.placePerSecond[side] * aheadSeconds;
+    }
+    voice_.followRelief(relief);
 }
 
 void VoiceRenderer::readSignal() noexcept {

@@ -62,6 +62,7 @@ private:
     void schedule(const ContactEvent& event, std::size_t frames) noexcept;
     void start(const ContactEvent& event) noexcept;
     void renderWithEvents(std::span<float> out) noexcept;
+    void followRelief() noexcept;
     void readSignal() noexcept;
     void noteSignalTransition(SignalTransitions& transitions) noexcept;
     void takeProcessors() noexcept;
@@ -76,6 +77,7 @@ private:
 
     VoiceChannels& channels_;
     const std::atomic<bool>& workerAlive_;
+    double fullScaleMps2_;
     Voice voice_;
 
     Silence silence_ = Silence::rest;
@@ -84,6 +86,7 @@ private:
     skeleton::NoiseKey key_;
     // PublishedContact::updates of the contact that the waveform follows.
     std::uint64_t followed_ = 0;
+    std::uint64_t reliefUpdate_ = 0;
     std::uint32_t playedOnset_ = 0;
     std::uint64_t tapFramesLeft_ = 0;
 

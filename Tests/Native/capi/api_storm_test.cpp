@@ -63,6 +63,7 @@ struct StormHandles {
     SharedHandles<haptoflow_cancellation*> cancellations;
     SharedHandles<haptoflow_engine*> engines;
     SharedHandles<haptoflow_voice> voices;
+    SharedHandles<haptoflow_relief> reliefs;
 };
 
 class Storm {
@@ -88,8 +89,8 @@ private:
     };
 
     haptoflow_status once() {
-        static constexpr std::array<Kind, 17> kinds{{{450, &Storm::render},
-                                                     {340, &Storm::publish},
+        static constexpr std::array<Kind, 19> kinds{{{450, &Storm::render},
+                                                     {320, &Storm::publish},
                                                      {30, &Storm::createVoice},
                                                      {15, &Storm::destroyVoice},
                                                      {8, &Storm::createEngine},
@@ -104,7 +105,9 @@ private:
                                                      {20, &Storm::askModel},
                                                      {73, &Storm::command},
                                                      {12, &Storm::useMaterials},
-                                                     {10, &Storm::cancel}}};
+                                                     {10, &Storm::cancel},
+                                                     {12, &Storm::createRelief},
+                                                     {8, &Storm::destroyRelief}}};
         std::uint32_t choice = next() % 1000;
         for (const Kind& kind : kinds) {
             if (choice < kind.share) {
@@ -173,6 +176,14 @@ private:
         state.spatial_scale = wildFloat();
         state.tone_db_per_octave = wildFloat();
         state.variation = wildFloat();
+        state.effects = oneIn(4) ? next() : HAPTOFLOW_ASKS_FOR_TEXTURE | HAPTOFLOW_ASKS_FOR_RELIEF;
+        state.relief = handles_.reliefs.any(next());
+        for (std::size_t side = 0; side < 2; ++side) {
+            state.relief_place[side] = wildFloat();
+            state.relief_per_metre_first[side] = wildFloat();
+            state.relief_per_metre_second[side] = wildFloat();
+        }
+        state.relief_share = wildFloat();
         state.has_place = next() % 3;
         state.surface_seed = next() % 4;
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -218,6 +229,30 @@ private:
         Handle handle = pool.any(next());
         return close(oneIn(16) ? nullptr : &handle);
     }
+
+    haptoflow_status createRelief() {
+        const std::uint32_t columns = oneIn(16) ? next() : 1 + next() % 40;
+        std::vector<float> heights = wildFloats(std::size_t{40} * 3);
+        haptoflow_relief_options options{};
+        options.struct_size = sizeOf(sizeof(options));
+        options.columns = columns;
+        options.rows = oneIn(16) ? next() : 1 + next() % 3;
+        // Counts beyond what is there are refused only by their size.
+        if (std::size_t{options.columns} * options.rows > heights.size()) {
+            options.columns = options.rows = UINT32_MAX;
+        }
+        options.is_tiled = next() % 2;
+        options.heights_metres = oneIn(32) ? nullptr : heights.data();
+        options.size_metres[0] = wildFloat();
+        options.size_metres[1] = 0.1F;
+        options.depth_metres = wildFloat();
+        options.tip_radius_metres = oneIn(4) ? wildFloat() : 0.0005F;
+        haptoflow_relief relief = 0;
+        const haptoflow_status status = haptoflow_relief_create(&options, oneIn(16) ? nullptr : &relief);
+        return kept(status, relief, handles_.reliefs);
+    }
+
+    haptoflow_status destroyRelief() { return closed(handles_.reliefs, haptoflow_relief_destroy); }
 
     haptoflow_status destroyVoice() { return closed(handles_.voices, haptoflow_voice_destroy); }
 

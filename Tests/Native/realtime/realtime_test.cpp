@@ -38,6 +38,18 @@ struct Pace {
 
 /// Changes a voice while it is rendered: touches, taps, panics, mutes, new labels, invalid states.
 void disturb(haptoflow_voice voice, Pace& pace) {
+    std::array<haptoflow_relief, 2> reliefs{};
+    std::array<float, 32 * 32> heightsMetres{};
+    for (std::size_t texel = 0; texel < heightsMetres.size(); ++texel) {
+        heightsMetres[texel] = 1e-5F * static_cast<float>(texel * 7 % 13);
+    }
+    haptoflow_relief_options options{};
+    options.struct_size = sizeof(options);
+    options.columns = options.rows = 32;
+    options.is_tiled = 1;
+    options.heights_metres = heightsMetres.data();
+    options.size_metres[0] = options.size_metres[1] = 0.01F;
+    options.depth_metres = options.tip_radius_metres = 0.0005F;
     for (std::uint32_t update = 0; !pace.done; ++update) {
         haptoflow_contact_state state = capi::testing::slidingState();
         state.touch_counter = update / 40;
@@ -51,6 +63,16 @@ void disturb(haptoflow_voice voice, Pace& pace) {
         state.label_count = 1 + update % 2;
         state.labels[1] = (update / 2) % 3;
         state.weights[1] = 0.5F;
+        // Reliefs are exchanged and freed under the tip.
+        if (update % 37 == 0) {
+            (void)haptoflow_relief_destroy(&reliefs[update / 37 % 2]);
+            (void)haptoflow_relief_create(&options, &reliefs[update / 37 % 2]);
+        }
+        state.effects = update % 19 < 12 ? HAPTOFLOW_ASKS_FOR_TEXTURE | HAPTOFLOW_ASKS_FOR_RELIEF : 0;
+        state.relief = reliefs[update / 11 % 2];
+        state.relief_place[0] = 0.1F * static_cast<float>(update);
+        state.relief_per_metre_first[0] = state.relief_per_metre_second[1] = 100.0F;
+        state.relief_share = 0.5F;
         state.velocity_mps[1] = update % 29 == 0 ? std::nanf("") : 0.02F * static_cast<float>(update % 17);
         state.force_newtons = update % 31 == 0 ? INFINITY : 0.5F + 0.1F * static_cast<float>(update % 7);
         (void)haptoflow_voice_publish(voice, &state);
@@ -66,6 +88,9 @@ void disturb(haptoflow_voice voice, Pace& pace) {
         }
         pace.allowedCallbacks += Pace::callbacksOfAnUpdate;
         std::this_thread::sleep_for(std::chrono::microseconds(700));
+    }
+    for (haptoflow_relief& relief : reliefs) {
+        (void)haptoflow_relief_destroy(&relief);
     }
 }
 

@@ -1,0 +1,210 @@
+#include "open_engine.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <vector>
+
+namespace haptoflow::capi::testing {
+namespace {
+
+/// A tile of 32 mm with ribs of 0.1 mm across the columns, 2 mm apart.
+struct Ribs {
+    static constexpr uint32_t texels = 128;
+    std::vector<float> heightsMetres;
+    haptoflow_relief_options options{};
+
+    Ribs() {
+        for (uint32_t texel = 0; texel < texels * texels; ++texel) {
+            const double turns = 16.0 * (static_cast<double>(texel % texels) + 0.5) / texels;
+            heightsMetres.push_back(static_cast<float>(1e-4 * (1.0 + std::cos(2.0 * std::numbers::pi * turns))));
+        }
+        options = {.struct_size = sizeof(options),
+                   .columns = texels,
+                   .rows = texels,
+                   .is_tiled = 1,
+                   .heights_metres = heightsMetres.data(),
+                   .size_metres = {0.032F, 0.032F},
+                   .depth_metres = 2e-4F,
+                   .tip_radius_metres = 0.0F};
+    }
+};
+
+class ReliefApiTest : public ::testing::Test {
+protected:
+    ReliefApiTest() { EXPECT_EQ(haptoflow_relief_create(&ribs_.options, &relief_), HAPTOFLOW_OK) << message(); }
+    ~ReliefApiTest() override { EXPECT_EQ(haptoflow_relief_destroy(&relief_), HAPTOFLOW_OK) << message(); }
+    ReliefApiTest(const ReliefApiTest&) = delete;
+    ReliefApiTest& operator=(const ReliefApiTest&) = delete;
+
+    /// A tip that slides along the first axis, over a relief without texture.
+    [[nodiscard]] haptoflow_contact_state over(double seconds, float alongMps = 0.1F) const {
+        haptoflow_contact_state state = slidingState(alongMps);
+        state.effects = HAPTOFLOW_ASKS_FOR_RELIEF;
+        state.relief = relief_;
+        state.relief_per_metre_first[0] = state.relief_per_metre_second[1] = 1.0F / 0.032F;
+        state.relief_place[0] = alongMps * static_cast<float>(seconds) / 0.032F;
+        state.relief_share = 1.0F;
+        return state;
+    }
+    std::vector<float> slide(int updates, auto&& change) {
+        std::vector<float> output;
+        for (int update = 0; update < updates; ++update) {
+            haptoflow_contact_state state = over(667.0 * update / 48000.0);
+            change(state);
+            const std::vector<float> next = open_.update(state);
+            output.insert(output.end(), next.begin(), next.end());
+        }
+        return output;
+    }
+    std::vector<float> slide(int updates) {
+        return slide(updates, [](haptoflow_contact_state&) {});
+    }
+    haptoflow_effect_statistics statistics() {
+        haptoflow_effect_statistics statistics{};
+        statistics.struct_size = sizeof(statistics);
+        EXPECT_EQ(haptoflow_voice_effect_statistics(open_.voice, HAPTOFLOW_EFFECT_RELIEF, &statistics), HAPTOFLOW_OK);
+        return statistics;
+    }
+
+    Ribs ribs_;
+    haptoflow_relief relief_ = 0;
+    OpenEngine open_{tinyModelPath};
+};
+
+TEST_F(ReliefApiTest, RibsAreHeardAtTheRateAtWhichTheTipCrossesThemInMetresPerSecondSquared) {
+    const std::vector<float> output = slide(72);
+    // 100 mm/s over 2 mm: 50 Hz, the contact's resonance.
+    double cosine = 0.0;
+    double sine = 0.0;
+    const std::size_t count = 24000;
+    for (std::size_t n = 0; n < count; ++n) {
+        const double turn = 2.0 * std::numbers::pi * 50.0 * static_cast<double>(n) / 48000.0;
+        const auto sample = static_cast<double>(output[output.size() - count + n]);
+        cosine += sample * std::cos(turn);
+        sine += sample * std::sin(turn);
+    }
+    const double amplitude = HAPTOFLOW_DEFAULT_FULL_SCALE_MPS2 * 2.0 * std::hypot(cosine, sine) / static_cast<double>(count);
+    EXPECT_GT(amplitude, 9.9) << "the formula of an ideal tip, A (2 pi v / L)^2";
+    EXPECT_LT(amplitude, 3.0 * 9.9);
+    EXPECT_GT(statistics().samples, 24000U);
+    EXPECT_EQ(statistics().is_asked_for, 1U);
+}
+
+TEST_F(ReliefApiTest, ASurfaceWithoutReliefRunsNothingOfIt) {
+    const std::vector<float> output = slide(10, [](haptoflow_contact_state& state) { state.relief = 0; });
+    EXPECT_EQ(peak(output), 0.0F);
+    (void)slide(10, [](haptoflow_contact_state& state) { state.effects = HAPTOFLOW_ASKS_FOR_TEXTURE; });
+    EXPECT_EQ(statistics().runs + statistics().prepared, 0U);
+}
+
+TEST_F(ReliefApiTest, ItKeepsToItsShareOfTheFullScale) {
+    const auto peakWith = [this](float share) {
+        // Without what fades of another share.
+        (void)slide(1, [](haptoflow_contact_state& state) { state.relief = 0; });
+        return peak(slide(36, [share](haptoflow_contact_state& state) {
+            state.relief_share = share;
+            state.velocity_mps[0] = 0.4F;
+            state.relief_place[0] *= 4.0F;
+        }));
+    };
+    EXPECT_LE(peakWith(0.2F), 0.2F);
+    EXPECT_GT(peakWith(0.2F), 0.1F);
+    EXPECT_EQ(peakWith(0.0F), 0.0F);
+}
+
+TEST_F(ReliefApiTest, LiftOffMuteAndPanicSilenceItAndTheNextTouchSounds) {
+    EXPECT_GT(peak(slide(10)), 0.05F);
+    (void)open_.update(liftedState());
+    EXPECT_EQ(peak(open_.update(liftedState())), 0.0F);
+    const auto touched = [](uint32_t touch) {
+        return [touch](haptoflow_contact_state& state) { state.touch_counter = touch; };
+    };
+    EXPECT_GT(peak(slide(10, touched(2))), 0.05F);
+    EXPECT_EQ(haptoflow_voice_set_muted(open_.voice, 1), HAPTOFLOW_OK);
+    (void)slide(2, touched(2));
+    EXPECT_EQ(peak(slide(5, touched(2))), 0.0F);
+    EXPECT_EQ(haptoflow_voice_set_muted(open_.voice, 0), HAPTOFLOW_OK);
+    EXPECT_GT(peak(slide(10, touched(2))), 0.05F);
+    EXPECT_EQ(haptoflow_voice_panic(open_.voice), HAPTOFLOW_OK);
+    (void)slide(2, touched(2));
+    EXPECT_EQ(peak(slide(5, touched(2))), 0.0F);
+    EXPECT_GT(peak(slide(10, touched(3))), 0.05F);
+    // Without states it falls silent as all does.
+    (void)open_.render(9600);
+    EXPECT_EQ(peak(open_.render(960)), 0.0F);
+}
+
+TEST_F(ReliefApiTest, OneThatIsDestroyedUnderTheTipFadesWithTheNextStateAndItsNumberIsRefused) {
+    EXPECT_GT(peak(slide(10)), 0.05F);
+    haptoflow_relief copy = relief_;
+    EXPECT_EQ(haptoflow_relief_destroy(&relief_), HAPTOFLOW_OK);
+    EXPECT_EQ(relief_, 0U);
+    EXPECT_GT(peak(open_.render(64)), 0.0F) << "the newest state still plays";
+    const auto gone = [copy](haptoflow_contact_state& state) { state.relief = copy; };
+    (void)slide(1, gone);
+    EXPECT_EQ(peak(slide(5, gone)), 0.0F);
+    EXPECT_EQ(haptoflow_relief_destroy(&copy), HAPTOFLOW_INVALID_ARGUMENT);
+    EXPECT_EQ(haptoflow_relief_create(&ribs_.options, &relief_), HAPTOFLOW_OK) << message();
+    EXPECT_NE(relief_, copy);
+    EXPECT_GT(peak(slide(10)), 0.05F);
+}
+
+TEST_F(ReliefApiTest, StatesWithNumbersThatAreNotFiniteAreCountedAndStayBounded) {
+    for (const float wild : {std::nanf(""), INFINITY, -INFINITY, 1e30F}) {
+        const std::vector<float> output = slide(20, [wild, n = 0](haptoflow_contact_state& state) mutable {
+            float* const fields[] = {&state.relief_place[0], &state.relief_place[1], &state.relief_per_metre_first[0],
+                                     &state.relief_per_metre_second[1], &state.relief_share};
+            *fields[n++ % 5] = wild;
+        });
+        EXPECT_TRUE(allFinite(output));
+        EXPECT_LE(peak(output), 1.0F);
+    }
+    EXPECT_GE(open_.statistics().sanitised, 80U);
+}
+
+TEST_F(ReliefApiTest, OptionsOutOfRangeAreRefusedByName) {
+    const auto refusal = [this](auto change) {
+        haptoflow_relief_options options = ribs_.options;
+        change(options);
+        haptoflow_relief relief = 7;
+        EXPECT_EQ(haptoflow_relief_create(&options, &relief), HAPTOFLOW_INVALID_ARGUMENT);
+        EXPECT_EQ(relief, 7U);
+        return std::string(message());
+    };
+    EXPECT_NE(refusal([](auto& o) { o.columns = 0; }).find("texels"), std::string::npos);
+    EXPECT_NE(refusal([](auto& o) { o.columns = o.rows = UINT32_MAX; }).find("texels"), std::string::npos);
+    EXPECT_NE(refusal([](auto& o) { o.heights_metres = nullptr; }).find("heights_metres"), std::string::npos);
+    EXPECT_NE(refusal([](auto& o) { o.depth_metres = 0.0F; }).find("depth"), std::string::npos);
+    EXPECT_NE(refusal([](auto& o) { o.size_metres[0] = std::nanf(""); }).find("size"), std::string::npos);
+    EXPECT_NE(refusal([](auto& o) { o.tip_radius_metres = 1.0F; }).find("radius"), std::string::npos);
+    EXPECT_NE(refusal([](auto& o) { o.struct_size = 3; }).find("struct_size"), std::string::npos);
+    EXPECT_EQ(haptoflow_relief_create(&ribs_.options, nullptr), HAPTOFLOW_INVALID_ARGUMENT);
+    haptoflow_relief none = 0;
+    EXPECT_EQ(haptoflow_relief_destroy(&none), HAPTOFLOW_OK);
+}
+
+TEST_F(ReliefApiTest, NormalsBecomeHeightsAndWrongSizesAreRefused) {
+    std::array<float, 3 * 64> normals{};
+    for (std::size_t texel = 0; texel < 64; ++texel) {
+        normals[3 * texel] =
+            static_cast<float>(std::sin(2.0 * std::numbers::pi * (static_cast<double>(texel % 8) + 0.5) / 8.0));
+        normals[3 * texel + 2] = 1.0F;
+    }
+    std::array<float, 64> heights{};
+    const float sizeMetres[2] = {0.008F, 0.008F};
+    ASSERT_EQ(haptoflow_relief_heights_of_normals(normals.data(), 8, 8, sizeMetres, 1, heights.data()), HAPTOFLOW_OK);
+    // The integral of a sine, whose amplitude is the wavelength over 2 pi, at the middles of texels.
+    EXPECT_NEAR(peak(heights), 2.0 * 0.008 / (2.0 * std::numbers::pi) * std::cos(std::numbers::pi / 8.0), 1e-5);
+    EXPECT_EQ(haptoflow_relief_heights_of_normals(normals.data(), 0, 8, sizeMetres, 1, heights.data()),
+              HAPTOFLOW_INVALID_ARGUMENT);
+    EXPECT_EQ(haptoflow_relief_heights_of_normals(nullptr, 8, 8, sizeMetres, 1, heights.data()),
+              HAPTOFLOW_INVALID_ARGUMENT);
+}
+
+}  // namespace
+}  // namespace haptoflow::capi::testing
