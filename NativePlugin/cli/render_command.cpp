@@ -14,6 +14,7 @@
 #include "output_file.hpp"
 #include "recordings/recording.hpp"
 #include "render_output.hpp"
+#include "scene_reliefs.hpp"
 
 #include <algorithm>
 #include <array>
@@ -63,7 +64,7 @@ const std::map<std::string, effects::EffectKind>& effectNames() {
 effects::EffectMask requestedEffects(const std::vector<std::string>& names) {
     effects::EffectMask mask = names.empty() ? effects::maskOf(effects::EffectKind::texture) : 0U;
     for (const std::string& name : names) {
-        mask |= effects::maskOf(effectNames().at(name));
+        mask |= name == "none" ? 0U : effects::maskOf(effectNames().at(name));
     }
     return mask;
 }
@@ -288,8 +289,10 @@ void runRender(const RenderOptions& options) {
     headless::SceneMaterials materials(model, modelPath, options.scenePath);
     std::ranges::for_each(options.materials, [&materials](const std::string& path) { materials.add(path); });
     materials.require(scene);
+    const SceneReliefs reliefs(scene, options.scenePath);
     const std::vector<engine::ContactState> surfaces = headless::propertiesOf(
-        scene, [&materials](const std::string& name) { return materials.indexOf(name); }, options.scenePath);
+        scene, [&materials](const std::string& name) { return materials.indexOf(name); }, options.scenePath,
+        [&reliefs](const headless::SceneSurface& surface) { return reliefs.numberOf(surface); });
     headless::ContactSettings settings;
     headless::useStiffnessOfMaterials(settings, materials);
     headless::ContactTracker tracker(scene, settings);
@@ -390,10 +393,12 @@ void addRenderCommand(CLI::App& app) {
         ->capture_default_str();
     command->add_option("--report", options->reportPath, "Write figures of the render as JSON")->type_name("R.json");
     command
-        ->add_option("--effects", options->effects,
-                     "Effects that every surface requests, one or more of texture, impact and edge (default: texture)")
+        ->add_option(
+            "--effects", options->effects,
+            "Effects that every surface requests, one or more of texture, impact, edge and none (default: texture); "
+            "a surface with a relief has that, too")
         ->delimiter(',')
-        ->check(CLI::IsMember({"texture", "impact", "edge"}))
+        ->check(CLI::IsMember({"texture", "impact", "edge", "none"}))
         ->type_name("LIST");
     command
         ->add_option("--actuator", options->actuator,

@@ -4,6 +4,7 @@
 #include "headless/pose.hpp"
 #include "headless/shape.hpp"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -43,6 +44,22 @@ private:
     bool closed_ = false;
 };
 
+/// The map of heights that lies on a surface, along the axes of the tip's velocity over it: what a reader of scenes
+/// loads, and a voice then follows.
+struct SceneRelief {
+    /// As the scene names it; relative to the scene's file.
+    std::string image;
+    /// The image holds normals instead of heights.
+    bool isNormalMap = false;
+    /// Of one tile.
+    std::array<double, 2> sizeMetres{};
+    /// From black to white, or from the lowest to the highest of the integrated heights.
+    double depthMetres = 0.0;
+    bool isTiled = true;
+    /// Of the full scale, which the relief may reach.
+    double share = 0.5;
+};
+
 /// An object of a scene that the tip can touch.
 struct SceneSurface {
     std::string name;
@@ -62,6 +79,7 @@ struct SceneSurface {
     double variation = 0.0;
     /// Names the surface: another number has another field of asperities and, with a variation, is another object.
     std::uint32_t seed = 0;
+    std::optional<SceneRelief> relief = std::nullopt;
 
     [[nodiscard]] Pose poseAt(double timeSeconds) const noexcept {
         return motion ? motion->poseAt(timeSeconds) : sanitised(pose);

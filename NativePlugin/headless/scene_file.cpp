@@ -287,6 +287,32 @@ std::vector<std::pair<std::string, double>> readMaterial(const Node& node) {
     return material;
 }
 
+SceneRelief readRelief(const Node& node) {
+    node.requireObject({"image", "normals", "size", "depth", "tiled", "share"});
+    if (node.has("image") == node.has("normals")) {
+        node.failWith("expected one of the keys \"image\" (heights) and \"normals\", each with the name of a PNG file");
+    }
+    SceneRelief relief;
+    relief.isNormalMap = node.has("normals");
+    relief.image = node.at(relief.isNormalMap ? "normals" : "image").text("the name of a PNG file");
+    const std::string expected = "the tile's lengths [along, across] in metres, each from 0.0001 to 100";
+    relief.sizeMetres = node.at("size").numbers<2>(expected);
+    for (const double metres : relief.sizeMetres) {
+        if (!(metres >= 1e-4 && metres <= 100.0)) {
+            node.at("size").fail(expected);
+        }
+    }
+    relief.depthMetres = node.at("depth").number(1e-6, 0.05, "metres from 1e-6 to 0.05; 0.001 is a millimetre");
+    node.readNumber("share", relief.share, 0.0, 1.0, "a share from 0 to 1");
+    if (node.has("tiled")) {
+        if (!node.at("tiled").raw().is_boolean()) {
+            node.at("tiled").fail("true or false");
+        }
+        relief.isTiled = node.at("tiled").raw().get<bool>();
+    }
+    return relief;
+}
+
 /// FNV-1a, 32 bits.
 std::uint32_t hashOf(std::string_view text) {
     std::uint32_t hash = 2166136261U;
@@ -298,7 +324,7 @@ std::uint32_t hashOf(std::string_view text) {
 
 SceneSurface readSurface(const Node& node) {
     node.requireObject({"name", "shape", "position", "rotation", "motion", "material", "stiffness", "grain",
-                        "spatial_scale", "tone_db_per_octave", "variation", "seed"});
+                        "spatial_scale", "tone_db_per_octave", "variation", "seed", "relief"});
     SceneSurface surface;
     surface.name = node.at("name").text("a name");
     surface.shape = readShape(node.at("shape"));
@@ -315,6 +341,9 @@ SceneSurface readSurface(const Node& node) {
     node.readNumber("spatial_scale", surface.spatialScale, 0.25, 4.0, "a factor from 0.25 to 4");
     node.readNumber("tone_db_per_octave", surface.toneDbPerOctave, -12.0, 12.0, "dB from -12 to 12");
     node.readNumber("variation", surface.variation, 0.0, 1.0, "a number from 0 to 1");
+    if (node.has("relief")) {
+        surface.relief = readRelief(node.at("relief"));
+    }
     surface.seed = hashOf(surface.name);
     if (node.has("seed")) {
         const Node seed = node.at("seed");

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <glm/geometric.hpp>
 #include <optional>
 #include <utility>
 
@@ -20,7 +21,7 @@ std::array<float, 3> toFloats(const glm::dvec3& vector) {
 }  // namespace
 
 std::vector<engine::ContactState> propertiesOf(const Scene& scene, const IndexOfMaterial& indexOf,
-                                               const std::string& sceneName) {
+                                               const std::string& sceneName, const NumberOfRelief& numberOf) {
     std::vector<engine::ContactState> surfaces;
     for (const SceneSurface& surface : scene.surfaces) {
         if (surface.material.size() > engine::MaterialBlend::capacity) {
@@ -33,6 +34,12 @@ std::vector<engine::ContactState> propertiesOf(const Scene& scene, const IndexOf
         properties.toneDbPerOctave = static_cast<float>(surface.toneDbPerOctave);
         properties.variation = static_cast<float>(surface.variation);
         properties.surfaceSeed = surface.seed;
+        if (surface.relief && numberOf) {
+            properties.relief = numberOf(surface);
+            properties.reliefPerMetreFirst[0] = static_cast<float>(1.0 / surface.relief->sizeMetres[0]);
+            properties.reliefPerMetreSecond[1] = static_cast<float>(1.0 / surface.relief->sizeMetres[1]);
+            properties.reliefShare = static_cast<float>(surface.relief->share);
+        }
         for (const auto& [name, weight] : surface.material) {
             properties.material.add(indexOf(name), static_cast<float>(weight));
         }
@@ -61,6 +68,13 @@ engine::TimedContactState stateOf(const ContactReading& reading, std::span<const
     state.placeMetres = toFloats(reading.placeMetres);
     state.firstAxis = toFloats(reading.firstAxis);
     state.secondAxis = toFloats(reading.secondAxis);
+    if (state.relief != 0) {
+        state.effects |= effects::maskOf(effects::EffectKind::relief);
+        // Along the axes, which a flat face keeps.
+        state.reliefPlace = {
+            static_cast<float>(glm::dot(reading.placeMetres, reading.firstAxis)) * state.reliefPerMetreFirst[0],
+            static_cast<float>(glm::dot(reading.placeMetres, reading.secondAxis)) * state.reliefPerMetreSecond[1]};
+    }
     return state;
 }
 

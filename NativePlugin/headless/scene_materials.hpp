@@ -22,10 +22,14 @@ namespace haptoflow::headless {
 /// The index by which contact states refer to a label or material.
 using IndexOfMaterial = std::function<std::uint32_t(const std::string& name)>;
 
-/// A state with the material, feature scale, tone and variation of each surface, in the scene's order. Throws
-/// InputError for a blend of too many labels.
+/// The number by which contact states name the relief of a surface, which has one.
+using NumberOfRelief = std::function<std::uint32_t(const SceneSurface& surface)>;
+
+/// A state with the material, feature scale, tone, variation and relief of each surface, in the scene's order. Without
+/// `numberOf` there is no relief. Throws InputError for a blend of too many labels.
 [[nodiscard]] std::vector<engine::ContactState> propertiesOf(const Scene& scene, const IndexOfMaterial& indexOf,
-                                                             const std::string& sceneName);
+                                                             const std::string& sceneName,
+                                                             const NumberOfRelief& numberOf = {});
 
 /// What a voice is told of a contact: the touched surface's properties, and the reading.
 [[nodiscard]] engine::TimedContactState stateOf(const ContactReading& reading,

@@ -7,6 +7,7 @@ import { CommandError, inRepository, run, runNpmOrFail, runOrFail, succeeds } fr
 export const packagesByPurpose = {
   build: [
     'cmake', 'ninja-build', 'g++', 'pkg-config', 'libglm-dev', 'nlohmann-json3-dev', 'libcli11-dev', 'libsndfile1-dev',
+    'liblodepng-dev',
   ],
   // ccache makes every build after the first one short.
   test: ['ccache', 'libgtest-dev', 'libgmock-dev', 'libsoxr-dev', 'libkissfft-dev', 'binutils'],

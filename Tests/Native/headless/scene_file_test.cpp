@@ -21,7 +21,8 @@ json goodScene() {
     return json::parse(R"({
         "surfaces": [
             {"name": "desk", "shape": {"box": {"size": [0.4, 0.02, 0.3]}}, "position": [0.1, 0.2, 0.3],
-             "rotation": [0, 0, 0, 2], "material": "wood", "stiffness": 800, "grain": [0, 0, 1], "variation": 0.4},
+             "rotation": [0, 0, 0, 2], "material": "wood", "stiffness": 800, "grain": [0, 0, 1], "variation": 0.4,
+             "relief": {"image": "planks.png", "size": [0.2, 0.1], "depth": 0.001, "tiled": false}},
             {"name": "ball", "shape": {"sphere": {"radius": 0.05}}, "material": {"cork": 3, "wood": 1},
              "motion": {"loop": true, "keyframes": [{"t": 0}, {"t": 1, "position": [1, 0, 0]}]}},
             {"name": "pill", "shape": {"capsule": {"radius": 0.02, "height": 0.1}}, "material": "wood"},
@@ -71,6 +72,14 @@ TEST(SceneFileTest, EveryKeyOfASceneIsRead) {
     EXPECT_EQ(desk.grain, glm::dvec3(0.0, 0.0, 1.0));
     EXPECT_DOUBLE_EQ(desk.variation, 0.4);
     EXPECT_DOUBLE_EQ(scene.surfaces[1].variation, 0.0);
+    ASSERT_TRUE(desk.relief);
+    EXPECT_EQ(desk.relief->image, "planks.png");
+    EXPECT_FALSE(desk.relief->isNormalMap);
+    EXPECT_FALSE(desk.relief->isTiled);
+    EXPECT_EQ(desk.relief->sizeMetres, (std::array<double, 2>{0.2, 0.1}));
+    EXPECT_DOUBLE_EQ(desk.relief->depthMetres, 0.001);
+    EXPECT_DOUBLE_EQ(desk.relief->share, 0.5);
+    EXPECT_FALSE(scene.surfaces[1].relief);
     EXPECT_DOUBLE_EQ(desk.stiffnessNewtonsPerMetre.value_or(0.0), 800.0);
     EXPECT_EQ(desk.material, (std::vector<std::pair<std::string, double>>{{"wood", 1.0}}));
     const SceneSurface& ball = scene.surfaces[1];
@@ -109,6 +118,13 @@ TEST(SceneFileTest, ErrorsForWrongValuesNameFilePathAndExpectedValue) {
         {"/surfaces/0/stiffness", -1, "surfaces[0].stiffness", "N/m"},
         {"/surfaces/0/variation", 1.1, "surfaces[0].variation", "from 0 to 1"},
         {"/surfaces/0/variation", "much", "surfaces[0].variation", "from 0 to 1"},
+        {"/surfaces/0/relief/depth", 1.0, "surfaces[0].relief.depth", "0.001 is a millimetre"},
+        {"/surfaces/0/relief/size", {0.1}, "surfaces[0].relief.size", "metres"},
+        {"/surfaces/0/relief/size", {0.1, 0.0}, "surfaces[0].relief.size", "metres"},
+        {"/surfaces/0/relief/normals", "n.png", "surfaces[0].relief", "one of the keys"},
+        {"/surfaces/0/relief/tiled", "yes", "surfaces[0].relief.tiled", "true or false"},
+        {"/surfaces/0/relief/share", 2, "surfaces[0].relief.share", "0 to 1"},
+        {"/surfaces/0/relief/depht", 2, "surfaces[0].relief", "depht"},
         {"/surfaces/0/name", "", "surfaces[0].name", "a name"},
         {"/surfaces/1/name", "desk", "surfaces[1].name", "all other surfaces"},
         {"/surfaces/0/material", 3, "surfaces[0].material", "a label"},
@@ -206,7 +222,8 @@ TEST(SceneFileTest, TheSchemaKnowsTheSameKeysAsTheReader) {
              {"/$defs/shape/properties/box", "/surfaces/0/shape/box"},
              {"/$defs/shape/properties/sphere", "/surfaces/1/shape/sphere"},
              {"/$defs/shape/properties/capsule", "/surfaces/2/shape/capsule"},
-             {"/$defs/shape/properties/mesh", "/surfaces/4/shape/mesh"}}) {
+             {"/$defs/shape/properties/mesh", "/surfaces/4/shape/mesh"},
+             {"/$defs/relief", "/surfaces/0/relief"}}) {
         std::set<std::string> documented;
         for (const auto& [key, unused] : schema.at(json::json_pointer(inSchema)).at("properties").items()) {
             documented.insert(key);
