@@ -2,6 +2,8 @@
 #include "bench/real_time_device.hpp"
 #include "effects/actuator_profile.hpp"
 #include "effects/effect.hpp"
+#include "effects/relief_map.hpp"
+#include "engine/relief_table.hpp"
 #include "inference/segment_generator.hpp"
 
 #include <algorithm>
@@ -165,15 +167,34 @@ constexpr double delaySeconds = 0.1;
 constexpr float tiltDbPerOctave = 3.0F;
 constexpr effects::SignalSettings studySignal{.frequencyHz = 200.0F, .amplitudeMps2 = 6.0F};
 
+/// A map of rough ground, of a texel a quarter of a millimetre long.
+std::shared_ptr<const effects::ReliefMap> roughMap() {
+    constexpr std::uint32_t texels = 512;
+    constexpr double sizeMetres = 0.128;
+    constexpr float depthMetres = 0.0005F;
+    std::vector<float> heightsMetres(std::size_t{texels} * texels);
+    std::minstd_rand random(1);
+    std::uniform_real_distribution<float> uniform(0.0F, depthMetres);
+    std::ranges::generate(heightsMetres, [&] { return uniform(random); });
+    return std::make_shared<const effects::ReliefMap>(
+        heightsMetres, effects::ReliefDescription{.columns = texels,
+                                                  .rows = texels,
+                                                  .sizeMetres = {sizeMetres, sizeMetres},
+                                                  .depthMetres = static_cast<double>(depthMetres),
+                                                  .tipRadiusMetres = static_cast<double>(depthMetres),
+                                                  .isTiled = true});
+}
+
 struct NamedEffect {
     const char* name;
     EffectKind kind;
 };
 
-constexpr std::array<NamedEffect, 8> measuredEffects{{{"texture", EffectKind::texture},
+constexpr std::array<NamedEffect, 9> measuredEffects{{{"texture", EffectKind::texture},
                                                       {"tone", EffectKind::tone},
                                                       {"impact", EffectKind::impact},
                                                       {"edge", EffectKind::edge},
+                                                      {"relief", EffectKind::relief},
                                                       {"delay", EffectKind::delay},
                                                       {"compensation", EffectKind::compensation},
                                                       {"exposure guard", EffectKind::exposureGuard},
@@ -204,6 +225,10 @@ public:
         });
     }
 
+    WithAndWithout(const WithAndWithout&) = delete;
+    WithAndWithout& operator=(const WithAndWithout&) = delete;
+    ~WithAndWithout() { engine::reliefs().remove(relief_); }
+
     void publish(double seconds) {
         const auto touch = 1U + static_cast<std::uint32_t>(seconds * landingsPerSecond);
         const auto place = static_cast<std::size_t>(seconds * crossingsPerSecond) % hand_.labelCount();
@@ -211,7 +236,12 @@ public:
         state.approachSpeedMps = approachSpeedMps;
         state.edgeCounter = static_cast<std::uint32_t>(seconds * crossingsPerSecond);
         state.edgeHeightMetres = edgeHeightMetres;
-        const bool isOfSurface = kind_ <= EffectKind::edge;
+        const bool isOfSurface = kind_ <= EffectKind::edge || kind_ == EffectKind::relief;
+        state.relief = relief_;
+        state.reliefPlace = {static_cast<float>(seconds), 0.0F};
+        state.reliefPerMetreFirst = {8.0F, 0.0F};
+        state.reliefPerMetreSecond = {0.0F, 8.0F};
+        state.reliefShare = 0.5F;
         // Both voices request the texture, unless the texture or the signal, which replaces it, is measured.
         const bool isAlone = kind_ == EffectKind::texture || kind_ == EffectKind::signal;
         state.effects = isAlone ? 0U : maskOf(EffectKind::texture);
@@ -270,6 +300,7 @@ private:
     }
 
     EffectKind kind_;
+    std::uint32_t relief_ = engine::reliefs().add(roughMap());
     Hand hand_;
     std::unique_ptr<engine::LiveEngine> engine_;
     std::shared_ptr<engine::LiveVoice> with_;

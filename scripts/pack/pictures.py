@@ -23,6 +23,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patches import Polygon
 from matplotlib.patheffects import withStroke
+from PIL import Image
 from renders import (
     FULL_SCALE_MPS2,
     MODEL,
@@ -227,10 +228,62 @@ def label_table() -> str:
     return "\n".join(lines)
 
 
+# A tile of a brick wall: its size in metres, its bricks, the width of their joints and how deep these are.
+WALL_METRES, BRICK_METRES, JOINT_METRES, JOINT_DEPTH_METRES = (0.16, 0.08), (0.08, 0.04), 0.006, 0.0008
+
+
+def brick_wall(columns: int = 640) -> np.ndarray:
+    """Heights of the tile, 0 to 1 [rows, columns], the first row at the top: rounded bricks and rough mortar."""
+    rows = round(columns * WALL_METRES[1] / WALL_METRES[0])
+    y, x = (np.indices((rows, columns)) + 0.5) * (WALL_METRES[0] / columns)
+    course = np.floor(y / BRICK_METRES[1])
+    along = (x + 0.5 * BRICK_METRES[0] * (course % 2)) % BRICK_METRES[0]
+    across = y % BRICK_METRES[1]
+    edge = np.minimum.reduce([along, BRICK_METRES[0] - along, across, BRICK_METRES[1] - across])
+    rise = np.clip((edge - 0.5 * JOINT_METRES) / 0.002 + 0.5, 0.0, 1.0)
+    rough = 0.06 * np.random.default_rng(4).random((rows, columns))
+    return np.clip(rise * rise * (3.0 - 2.0 * rise) + rough * (1.0 - rise), 0.0, 1.0)
+
+
+def relief_picture() -> plt.Figure:
+    """A wall whose map the tip follows: the map with the stroke, the heights under it, the wave and its spectrogram."""
+    times = np.arange(int(1.6 * 240) + 1) / 240.0
+    share = times / times[-1]
+    path = np.column_stack([0.012 + 0.27 * (share**2 * (3.0 - 2.0 * share)), 0.024 + 0.018 * np.sin(9.0 * share)])
+    heights = brick_wall()
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "wall.png"
+        Image.fromarray((65535.0 * heights).astype(np.uint16)).save(file)
+        surface = plane("brick") | {
+            "relief": {"image": str(file), "size": list(WALL_METRES), "depth": JOINT_DEPTH_METRES}
+        }
+        scene = {"surfaces": [surface], "stylus": {"tip_radius": 0.0005}}
+        # The second axis of a plane leads towards -z.
+        stroke = np.column_stack([times, path[:, 0], np.full_like(times, -0.0005), -path[:, 1], np.ones_like(times)])
+        felt = [render(scene, stroke, "--effects", effects) for effects in ("none", "texture")]
+    figure, (above, profile, wave, colours) = plt.subplots(
+        4, 1, figsize=(9.6, 7.4), height_ratios=(2.2, 0.8, 1.3, 1.3), layout="constrained"
+    )
+    above.imshow(np.tile(heights, (1, 2)), extent=(0.0, 2000.0 * WALL_METRES[0], 0.0, 1000.0 * WALL_METRES[1]), cmap="copper")
+    above.plot(1000.0 * path[:, 0], 1000.0 * path[:, 1], color="white", lw=1.2)
+    above.set(xlim=(0.0, 300.0), ylabel="mm", title="a map of heights, and the pen's stroke over it (mm)")
+    columns, rows = (np.array(heights.shape[::-1]) * path / WALL_METRES % np.array(heights.shape[::-1])).astype(int).T
+    profile.plot(times, 1000.0 * JOINT_DEPTH_METRES * heights[-1 - rows, columns], color="#8a4b2d")
+    profile.set(xlim=(0.0, times[-1]), ylabel="mm", title="heights under the tip")
+    for one, colour, name in zip(felt[::-1], ("#c9a08f", "#8a1f11"), ("with the texture of brick", "relief alone"), strict=True):
+        wave.plot(one.times, one.acceleration_mps2, color=colour, lw=0.7, label=name)
+    wave.set(xlim=(0.0, times[-1]), ylabel="m/s²")
+    wave.legend(loc="upper left", fontsize=8)
+    draw_spectrogram(colours, felt[1])
+    colours.set(xlim=(0.0, times[-1]), ylabel="Hz", xlabel="seconds")
+    return figure
+
+
 IMAGES = ROOT / "Documentation~/images"
 # Names, files and drawings.
 PICTURES: dict[str, tuple[Path, Callable[[], plt.Figure]]] = {
     "stroke": (IMAGES / "stroke.png", stroke_picture),
+    "relief": (IMAGES / "effect-relief.png", relief_picture),
     "TextureGallery": (SAMPLES / "TextureGallery/TextureGallery.png", gallery_picture),
 }
 
