@@ -49,11 +49,12 @@ def page_of(*renders: demo.Shown) -> str:
 
 @pytest.fixture(scope="module")
 def page() -> str:
-    return page_of(shown("crossing", 0.2), shown("wood", 0.02), shown("taps and rims", 0.01))
+    return page_of(shown("crossing", 0.2), shown("wood", 0.02), shown("taps and rims", 0.01), shown("boards", 0.01))
 
 
-def test_the_renders_are_the_crossing_one_plate_of_eight_labels_and_the_taps_with_all_effects() -> None:
-    crossing, *traced, taps = demo.planned()
+def test_the_renders_are_the_crossing_one_plate_of_eight_labels_and_taps_with_all_effects_and_boards_with_their_map() -> None:
+    crossing, *traced, taps, boards = demo.planned()
+    assert Path(boards[1]["surfaces"][0]["relief"]["image"]).is_file()
     assert (crossing[0], taps[3]) == ("crossing", ("--effects", "texture,impact,edge"))
     materials = [[each["material"] for each in scene["surfaces"]] for _, scene, _, _ in traced]
     assert materials == [[label] for label in demo.TRACED_LABELS]
@@ -82,7 +83,7 @@ def test_the_page_has_no_reference_outside_itself_and_no_value_is_missing(page: 
 
 
 def test_markup_in_names_is_escaped() -> None:
-    made = page_of(shown("crossing", 0.2, "<u>model"), shown("<script>boom", 0.02), shown("taps and rims", 0.01))
+    made = page_of(shown("crossing", 0.2, "<u>model"), shown("<script>boom", 0.02), shown("taps and rims", 0.01), shown("boards", 0.01))
     assert "<script>boom" not in made
     assert "<u>model" not in made
 

@@ -1,4 +1,4 @@
-"""Renders a stroke over a scene, one stroke over eight labels, and taps, and makes out/demo: the WAV files, report.json
+"""Renders a stroke over a scene, one stroke over eight labels, taps and boards, and makes out/demo: the WAV files, report.json
 with their figures, and the page index.html. `./run demo` runs this; the argument describes the machine."""
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ def slug(name: str) -> str:
 
 def planned() -> list[tuple[str, dict, str, tuple[str, ...]]]:
     """Name, scene, stroke and further words of each render: the crossing, the plate of each label, the taps with all
-    effects."""
+    effects, the boards with their relief."""
 
     def scene_of(name: str) -> dict:
         return json.loads((SCENES / f"{name}.scene.json").read_text(encoding="utf-8"))
@@ -63,7 +63,11 @@ def planned() -> list[tuple[str, dict, str, tuple[str, ...]]]:
         for label in TRACED_LABELS
     ]
     taps = ("taps and rims", scene_of("taps"), "taps", ("--effects", "texture,impact,edge"))
-    return [("crossing", scene_of("crossing"), "crossing", ()), *traced, taps]
+    boards = scene_of("boards")
+    # A scene names its maps relative to its own file, and the demo writes scenes elsewhere.
+    relief = boards["surfaces"][0]["relief"]
+    relief["image"] = str(SCENES / relief["image"])
+    return [("crossing", scene_of("crossing"), "crossing", ()), *traced, taps, ("boards", boards, "tracing", ())]
 
 
 def rendered(name: str, scene: dict, stroke_name: str, words: tuple[str, ...]) -> Shown:
@@ -155,9 +159,9 @@ is {shared.top_db} dB, relative to 1 m/s²"><span>{bottom} dB</span>
 
 
 def page(shown: list[Shown], machine: str) -> str:
-    """One self-contained HTML file. The crossing is the first of `shown`, the taps are the last."""
+    """One self-contained HTML file. The crossing is the first of `shown`, taps and boards are the last two."""
     report, gain, shared = report_of(shown), common_gain(shown), range_of(shown)
-    first, *traced, last = (article(each, shared, gain, each in (shown[0], shown[-1])) for each in shown)
+    first, *traced, taps, boards = (article(each, shared, gain, each in (shown[0], *shown[-2:])) for each in shown)
     above, front = draw_scene(shown[0].scene, shown[0].path, shown[0].felt)
     folder = Path(__file__).parent
     content = {
@@ -171,7 +175,8 @@ def page(shown: list[Shown], machine: str) -> str:
         "crossing": first,
         "traced": "\n".join(traced),
         "tracedCount": str(len(traced)),
-        "taps": last,
+        "taps": taps,
+        "boards": boards,
         "contact": draw_contact(shown[1].felt, "plate"),
         "table": table(report),
         "legend": legend(shared),

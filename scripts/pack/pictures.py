@@ -4,7 +4,8 @@ Run from the repository's root, after `npm run build`; without names, every pict
 
     /usr/bin/python3 scripts/pack/pictures.py [NAME ...]
 
-The names are those of the files: see `PICTURES`. "labels" writes the table of the labels into
+The names are those of the files: see `PICTURES`. "boards" writes the map of the sample scene, "labels" the table of the
+labels into
 Training/results/effects.md. Scene and stroke of the README's picture are `crossing` of Samples~/HeadlessScenes.
 """
 
@@ -288,10 +289,21 @@ PICTURES: dict[str, tuple[Path, Callable[[], plt.Figure]]] = {
 }
 
 
+def save_boards() -> None:
+    """The map of the sample scene `boards`: one board and its gap, with rounded edges."""
+    x = (np.arange(480) + 0.5) / 480.0
+    rise = np.clip((np.abs(x - 0.5) - 0.05) / 0.02 + 0.5, 0.0, 1.0)
+    row = (65535.0 * rise * rise * (3.0 - 2.0 * rise)).astype(np.uint16)
+    Image.fromarray(np.tile(row, (8, 1))).save(SAMPLES / "HeadlessScenes/boards.png")
+
+
 def main(names: list[str]) -> None:
-    unknown = [name for name in names if name not in (*PICTURES, "labels")]
+    known = (*PICTURES, "boards", "labels")
+    unknown = [name for name in names if name not in known]
     if unknown:
-        raise SystemExit(f"{unknown[0]}: expected some of {', '.join((*PICTURES, 'labels'))}")
+        raise SystemExit(f"{unknown[0]}: expected some of {', '.join(known)}")
+    if not names or "boards" in names:
+        save_boards()
     for name, (file, draw) in PICTURES.items():
         if not names or name in names:
             save(draw(), file)
