@@ -13,7 +13,8 @@ constexpr double correctionSeconds = 0.014;
 // A tip that is further from where a state says was put there.
 constexpr double jumpMetres = 0.02;
 constexpr double steepest = std::numbers::sqrt2;
-constexpr double forceSeconds = 0.01;
+constexpr double forcesPerSecond = 100.0;
+constexpr double perKilogram = 1.0 / Relief::tipKilograms;
 // A tip that nothing presses would never come down again.
 constexpr double leastNewtons = 0.05;
 constexpr double farthestMetres = 0.005;
@@ -24,6 +25,15 @@ constexpr double highestHz = 800.0;
 // Of a Butterworth filter of the second order, and of the two sections of one of the fourth.
 constexpr double secondOrder = 0.70710678;
 constexpr std::array<double, 2> fourthOrder{0.54119610, 1.30656296};
+
+/// The hyperbolic tangent's Pade approximant, which is monotonic and ends at 1.
+double limited(double value, double largest) noexcept {
+    if (largest <= 0.0) {
+        return 0.0;
+    }
+    const double x = std::clamp(value / largest, -3.0, 3.0);
+    return largest * x * (27.0 + x * x) / (27.0 + 9.0 * x * x);
+}
 
 double finite(double value, double lowest, double highest) noexcept {
     return std::isfinite(value) ? std::clamp(value, lowest, highest) : 0.0;
@@ -51,7 +61,8 @@ double Relief::Section::next(double sample) noexcept {
 Relief::Relief(double sampleRateHz)
     : rateHz_(sampleRateHz),
       steps_(static_cast<std::size_t>(std::max(1.0, std::ceil(leastStepsPerSecond / sampleRateHz)))),
-      stepSeconds_(1.0 / (sampleRateHz * static_cast<double>(steps_))),
+      stepsPerSecond_(sampleRateHz * static_cast<double>(steps_)),
+      stepSeconds_(1.0 / stepsPerSecond_),
       damping_(2.0 * dampingRatio * std::sqrt(stiffnessNewtonsPerMetre * tipKilograms)),
       gate_(sampleRateHz),
       highPass_(Section::Kind::highPass, lowestHz, secondOrder, sampleRateHz),
@@ -80,7 +91,7 @@ void Relief::follow(const ReliefContact& contact) noexcept {
         missing[side] -= description.isTiled ? std::round(missing[side]) : 0.0;
         texels[side] = contact_.placePerSecond[side] * counts[side];
     }
-    texelsPerSecond_ = std::hypot(texels[0], texels[1]);
+    resolution_ = contact_.map->resolutionFor(std::hypot(texels[0], texels[1]));
     const double missingMetres =
         std::hypot(missing[0] * description.sizeMetres[0], missing[1] * description.sizeMetres[1]);
     if (isIdle_ || isOtherMap || missingMetres > jumpMetres) {
@@ -115,7 +126,7 @@ void Relief::end() noexcept {
 void Relief::settle() noexcept {
     jump_ = isIdle_ ? 0.0 : newest_;
     forceNewtons_ = contact_.forceNewtons;
-    surfaceMetres_ = contact_.map->heightMetres(place_, texelsPerSecond_);
+    surfaceMetres_ = contact_.map->heightMetres(place_, resolution_);
     tipMetres_ = surfaceMetres_ - forceNewtons_ / stiffnessNewtonsPerMetre;
     tipMps_ = 0.0;
 }
@@ -127,40 +138,40 @@ double Relief::nextAcceleration() noexcept {
     double riseMps = 0.0;
     if (contact_.map != nullptr) {
         const double limit = steepest * contact_.speedMps;
-        const double wantedMps = (contact_.map->heightMetres(place_, texelsPerSecond_) - surfaceMetres_) / stepSeconds_;
+        const double wantedMps = (contact_.map->heightMetres(place_, resolution_) - surfaceMetres_) * stepsPerSecond_;
         riseMps = std::clamp(wantedMps, -limit, limit);
         surfaceMetres_ += riseMps * stepSeconds_;
     }
-    forceNewtons_ += (contact_.forceNewtons - forceNewtons_) * stepSeconds_ / forceSeconds;
+    forceNewtons_ += (contact_.forceNewtons - forceNewtons_) * stepSeconds_ * forcesPerSecond;
     const double depth = surfaceMetres_ - tipMetres_;
     const double contactNewtons =
         depth > 0.0 ? std::max(0.0, stiffnessNewtonsPerMetre * depth + damping_ * (riseMps - tipMps_)) : 0.0;
-    const double acceleration = (contactNewtons - forceNewtons_) / tipKilograms;
+    const double acceleration = (contactNewtons - forceNewtons_) * perKilogram;
     tipMps_ += acceleration * stepSeconds_;
     tipMetres_ = std::min(tipMetres_ + tipMps_ * stepSeconds_, surfaceMetres_ + farthestMetres);
     return acceleration;
 }
 
 void Relief::process(std::span<float> samplesMps2) noexcept {
+    const double sampleSeconds = 1.0 / rateHz_;
+    const double sampleShare = 1.0 / static_cast<double>(steps_);
     const double jumpDecay = std::exp(-1.0 / (jumpSeconds * rateHz_));
     for (float& sample : samplesMps2) {
         double acceleration = 0.0;
         for (std::size_t step = 0; step < steps_; ++step) {
-            acceleration += nextAcceleration() / static_cast<double>(steps_);
+            acceleration += nextAcceleration();
         }
         if (correctionSamplesLeft_ > 0) {
             --correctionSamplesLeft_;
             place_[0] += correction_[0];
             place_[1] += correction_[1];
         }
-        newest_ = acceleration + jump_;
+        newest_ = acceleration * sampleShare + jump_;
         jump_ *= jumpDecay;
         const double filtered = lowPass_[1].next(lowPass_[0].next(highPass_.next(newest_)));
-        const double largest = contact_.largestMps2;
-        const double limited = largest > 0.0 ? largest * std::tanh(filtered / largest) : 0.0;
-        sample += static_cast<float>(limited) * gate_.nextGain();
+        sample += static_cast<float>(limited(filtered, contact_.largestMps2)) * gate_.nextGain();
         quietSeconds_ =
-            contact_.speedMps > 0.0 || std::abs(filtered) > imperceptibleMps2 ? 0.0 : quietSeconds_ + 1.0 / rateHz_;
+            contact_.speedMps > 0.0 || std::abs(filtered) > imperceptibleMps2 ? 0.0 : quietSeconds_ + sampleSeconds;
     }
     if (gate_.isClosed()) {
         reset();

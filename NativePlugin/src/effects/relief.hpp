@@ -78,6 +78,7 @@ private:
 
     double rateHz_;
     std::size_t steps_;
+    double stepsPerSecond_;
     double stepSeconds_;
     double damping_;
     dsp::Gate gate_;
@@ -90,7 +91,7 @@ private:
     // What is missing of the place is added over the next of these samples.
     std::array<double, 2> correction_{};
     std::size_t correctionSamplesLeft_ = 0;
-    double texelsPerSecond_ = 0.0;
+    double resolution_ = 0.0;
     double surfaceMetres_ = 0.0;
     double tipMetres_ = 0.0;
     double tipMps_ = 0.0;

@@ -30,8 +30,18 @@ std::int64_t wrapped(std::int64_t index, std::int64_t count, bool isTiled) noexc
     if (!isTiled) {
         return std::clamp<std::int64_t>(index, 0, count - 1);
     }
+    if (index >= -count && index < 2 * count) {
+        // The usual case, without a division.
+        return index + (index < 0 ? count : 0) - (index >= count ? count : 0);
+    }
     const std::int64_t rest = index % count;
     return rest < 0 ? rest + count : rest;
+}
+
+/// As std::floor, which is a call where the processor has no instruction for it.
+std::int64_t wholeBelow(double value) noexcept {
+    const auto whole = static_cast<std::int64_t>(value);
+    return whole - (value < static_cast<double>(whole) ? 1 : 0);
 }
 
 /// A row or a column of a map.
@@ -190,11 +200,14 @@ ReliefMap::ReliefMap(std::span<const float> heightsMetres, const ReliefDescripti
     }
 }
 
-double ReliefMap::heightMetres(std::array<double, 2> place, double texelsPerSecond) const noexcept {
-    const double finest = std::max(0.0, std::log2(std::max(1.0, texelsPerSecond) / mostTexelsPerSecond));
-    const double limited = std::min(finest, static_cast<double>(levels_.size() - 1));
-    const auto level = static_cast<std::size_t>(limited);
-    const double share = limited - static_cast<double>(level);
+double ReliefMap::resolutionFor(double texelsPerSecond) const noexcept {
+    const double halvings = std::log2(std::max(1.0, texelsPerSecond) / mostTexelsPerSecond);
+    return std::clamp(halvings, 0.0, static_cast<double>(levels_.size() - 1));
+}
+
+double ReliefMap::heightMetres(std::array<double, 2> place, double resolution) const noexcept {
+    const auto level = static_cast<std::size_t>(resolution);
+    const double share = resolution - static_cast<double>(level);
     const double height = sample(levels_[level], place);
     return share > 0.0 ? height + share * (sample(levels_[level + 1], place) - height) : height;
 }
@@ -204,24 +217,23 @@ double ReliefMap::sample(const Level& level, std::array<double, 2> place) const 
     std::array<std::array<std::int64_t, 4>, 2> indices{};
     std::array<std::array<double, 4>, 2> weights{};
     for (std::size_t side = 0; side < 2; ++side) {
-        const double inMap =
-            description_.isTiled ? place[side] - std::floor(place[side]) : std::clamp(place[side], -1.0, 2.0);
+        const double inMap = description_.isTiled ? place[side] - static_cast<double>(wholeBelow(place[side]))
+                                                  : std::clamp(place[side], -1.0, 2.0);
         const double texel = inMap * static_cast<double>(counts[side]) - 0.5;
-        const double whole = std::floor(texel);
-        weights[side] = splineWeights(texel - whole);
+        const std::int64_t whole = wholeBelow(texel);
+        weights[side] = splineWeights(texel - static_cast<double>(whole));
         for (std::size_t tap = 0; tap < 4; ++tap) {
-            const std::int64_t index = static_cast<std::int64_t>(whole) + static_cast<std::int64_t>(tap) - 1;
-            indices[side][tap] = wrapped(index, counts[side], description_.isTiled);
+            indices[side][tap] =
+                wrapped(whole + static_cast<std::int64_t>(tap) - 1, counts[side], description_.isTiled);
         }
     }
     double height = 0.0;
     for (std::size_t row = 0; row < 4; ++row) {
         const float* texels = level.coefficients.data() + indices[1][row] * level.columns;
-        double sum = 0.0;
-        for (std::size_t column = 0; column < 4; ++column) {
-            sum += weights[0][column] * static_cast<double>(texels[indices[0][column]]);
-        }
-        height += weights[1][row] * sum;
+        const auto term = [&](std::size_t column) {
+            return weights[0][column] * static_cast<double>(texels[indices[0][column]]);
+        };
+        height += weights[1][row] * ((term(0) + term(1)) + (term(2) + term(3)));
     }
     return height;
 }

@@ -36,10 +36,11 @@ public:
     /// without or with too many texels, a size or depth that is not above 0, and numbers that are not finite.
     ReliefMap(std::span<const float> heightsMetres, const ReliefDescription& description);
 
-    /// Height at a place, whose coordinates are 0 to 1 over the map; any finite place has one. `texelsPerSecond` is the
-    /// tip's way over the finest texels, which chooses the resolution: what passes faster than a tip can feel is
-    /// averaged before. No allocation.
-    [[nodiscard]] double heightMetres(std::array<double, 2> place, double texelsPerSecond) const noexcept;
+    /// The resolution for a tip that passes so many of the finest texels: how often it is halved, with the share of the
+    /// next halving. What passes faster than a tip can feel is averaged.
+    [[nodiscard]] double resolutionFor(double texelsPerSecond) const noexcept;
+    /// Height at a place, whose coordinates are 0 to 1 over the map; any within +-10^9 has one. No allocation.
+    [[nodiscard]] double heightMetres(std::array<double, 2> place, double resolution = 0.0) const noexcept;
 
     [[nodiscard]] const ReliefDescription& description() const noexcept { return description_; }
     [[nodiscard]] std::size_t bytes() const noexcept;

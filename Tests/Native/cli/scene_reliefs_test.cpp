@@ -101,8 +101,8 @@ TEST_F(SceneReliefsTest, TheFirstRowOfAnImageLiesWhereTheSecondAxisLeadsFurthest
                [](unsigned, unsigned row, std::size_t) { return row < rows / 2 ? 1.0 : 0.0; });
     const headless::SceneRelief relief{.image = "ramp.png", .sizeMetres = {0.1, 0.1}, .depthMetres = 0.001};
     const effects::ReliefMap map = readRelief(relief, 0.0, at("scene.json").string());
-    EXPECT_NEAR(map.heightMetres({0.5, 0.75}, 0.0), 0.001, 1e-6);
-    EXPECT_NEAR(map.heightMetres({0.5, 0.25}, 0.0), 0.0, 1e-6);
+    EXPECT_NEAR(map.heightMetres({0.5, 0.75}), 0.001, 1e-6);
+    EXPECT_NEAR(map.heightMetres({0.5, 0.25}), 0.0, 1e-6);
 }
 
 TEST_F(SceneReliefsTest, AnImageThatCannotBeReadIsNamed) {
