@@ -239,8 +239,6 @@ public:
         const bool isOfSurface = kind_ <= EffectKind::edge || kind_ == EffectKind::relief;
         state.relief = relief_;
         state.reliefPlace = {static_cast<float>(seconds), 0.0F};
-        state.reliefPerMetreFirst = {8.0F, 0.0F};
-        state.reliefPerMetreSecond = {0.0F, 8.0F};
         state.reliefShare = 0.5F;
         // Both voices request the texture, unless the texture or the signal, which replaces it, is measured.
         const bool isAlone = kind_ == EffectKind::texture || kind_ == EffectKind::signal;

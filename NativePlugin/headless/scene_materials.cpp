@@ -36,8 +36,9 @@ std::vector<engine::ContactState> propertiesOf(const Scene& scene, const IndexOf
         properties.surfaceSeed = surface.seed;
         if (surface.relief && numberOf) {
             properties.relief = numberOf(surface);
-            properties.reliefPerMetreFirst[0] = static_cast<float>(1.0 / surface.relief->sizeMetres[0]);
-            properties.reliefPerMetreSecond[1] = static_cast<float>(1.0 / surface.relief->sizeMetres[1]);
+            // Tiles of a metre, which stateOf multiplies by the place.
+            properties.reliefPlace = {static_cast<float>(1.0 / surface.relief->sizeMetres[0]),
+                                      static_cast<float>(1.0 / surface.relief->sizeMetres[1])};
             properties.reliefShare = static_cast<float>(surface.relief->share);
         }
         for (const auto& [name, weight] : surface.material) {
@@ -71,9 +72,8 @@ engine::TimedContactState stateOf(const ContactReading& reading, std::span<const
     if (state.relief != 0) {
         state.effects |= effects::maskOf(effects::EffectKind::relief);
         // Along the axes, which a flat face keeps.
-        state.reliefPlace = {
-            static_cast<float>(glm::dot(reading.placeMetres, reading.firstAxis)) * state.reliefPerMetreFirst[0],
-            static_cast<float>(glm::dot(reading.placeMetres, reading.secondAxis)) * state.reliefPerMetreSecond[1]};
+        state.reliefPlace[0] *= static_cast<float>(glm::dot(reading.placeMetres, reading.firstAxis));
+        state.reliefPlace[1] *= static_cast<float>(glm::dot(reading.placeMetres, reading.secondAxis));
     }
     return state;
 }

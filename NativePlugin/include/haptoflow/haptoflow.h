@@ -724,13 +724,10 @@ typedef struct haptoflow_contact_state {
     float variation;
     /* The relief under the tip (haptoflow_relief_create); 0, or one that was destroyed, for none. */
     haptoflow_relief relief;
-    /* Where the contact point lies in its map: 0 to 1 along columns and along rows; a tiled map goes on beyond. */
+    /* Where the contact point lies in its map: 0 to 1 along columns and along rows, as texture coordinates are; a tiled
+     * map goes on beyond. The tip leads straight from the place of one state to that of the next, so what is felt of
+     * the relief is one state late. */
     float relief_place[2];
-    /* How far in the map one metre along each axis of velocity_mps leads. Any texture coordinates are told so: they
-     * are a linear function of the place near the contact. A map of 0.2 m x 0.1 m that lies along the axes has
-     * {5, 0} and {0, 10}. */
-    float relief_per_metre_first[2];
-    float relief_per_metre_second[2];
     /* The share of the full scale that the relief may reach, 0 to 1: what is small beside it is played as it is, and
      * what is large approaches it, so that the texture keeps the rest. */
     float relief_share;

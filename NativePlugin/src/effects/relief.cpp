@@ -8,8 +8,8 @@ namespace haptoflow::effects {
 namespace {
 
 constexpr double leastStepsPerSecond = 24000.0;
-// A state of a display of 72 Hz.
-constexpr double correctionSeconds = 0.014;
+constexpr double shortestSeconds = 0.001;
+constexpr double longestSeconds = 0.1;
 // A tip that is further from where a state says was put there.
 constexpr double jumpMetres = 0.02;
 constexpr double steepest = std::numbers::sqrt2;
@@ -75,38 +75,39 @@ void Relief::follow(const ReliefContact& contact) noexcept {
         end();
         return;
     }
+    const double speedBefore = contact_.speedMps;
     contact_ = contact;
     contact_.speedMps = finite(contact.speedMps, 0.0, 20.0);
     contact_.forceNewtons = std::max(leastNewtons, finite(contact.forceNewtons, 0.0, 1000.0));
     contact_.largestMps2 = finite(contact.largestMps2, 0.0, 1e5);
+    speedMps_ = std::max(speedBefore, contact_.speedMps);
+    const double seconds = std::clamp(std::isfinite(contact.arrivalSeconds) ? contact.arrivalSeconds : 0.0,
+                                      shortestSeconds, longestSeconds);
     const ReliefDescription& description = contact_.map->description();
     const std::array<double, 2> counts{static_cast<double>(description.columns), static_cast<double>(description.rows)};
     std::array<double, 2> missing{};
-    std::array<double, 2> texels{};
     for (std::size_t side = 0; side < 2; ++side) {
         contact_.place[side] = finite(contact.place[side], -1e9, 1e9);
-        contact_.placePerSecond[side] = finite(contact.placePerSecond[side], -1e9, 1e9);
         missing[side] = contact_.place[side] - place_[side];
         // A mesh may go on at the opposite rim of a tile.
         missing[side] -= description.isTiled ? std::round(missing[side]) : 0.0;
-        texels[side] = contact_.placePerSecond[side] * counts[side];
     }
-    resolution_ = contact_.map->resolutionFor(std::hypot(texels[0], texels[1]));
     const double missingMetres =
         std::hypot(missing[0] * description.sizeMetres[0], missing[1] * description.sizeMetres[1]);
-    if (isIdle_ || isOtherMap || missingMetres > jumpMetres) {
+    const bool isAtRest = isIdle_ && contact_.speedMps == 0.0;
+    if (isOtherMap || isAtRest || missingMetres > std::max(jumpMetres, 3.0 * speedMps_ * seconds)) {
         place_ = contact_.place;
-        correctionSamplesLeft_ = 0;
+        stepsLeft_ = 0;
+        resolution_ = 0.0;
         settle();
     } else {
-        correctionSamplesLeft_ = static_cast<std::size_t>(correctionSeconds * rateHz_);
-        for (std::size_t side = 0; side < 2; ++side) {
-            // Half of it, because a state's time is not known to the sample.
-            correction_[side] = 0.5 * missing[side] / static_cast<double>(correctionSamplesLeft_);
-        }
+        const double steps = seconds * stepsPerSecond_;
+        placePerStep_ = {missing[0] / steps, missing[1] / steps};
+        stepsLeft_ = static_cast<std::size_t>(2.0 * steps);
+        resolution_ = contact_.map->resolutionFor(std::hypot(missing[0] * counts[0], missing[1] * counts[1]) / seconds);
     }
     gate_.open();
-    isIdle_ = isIdle_ && contact_.speedMps == 0.0;
+    isIdle_ = isAtRest;
 }
 
 void Relief::keep(const ReliefMap* map) noexcept {
@@ -119,7 +120,7 @@ void Relief::end() noexcept {
     // The tip rings on over an even surface while the gate closes.
     contact_.map = nullptr;
     contact_.speedMps = 0.0;
-    contact_.placePerSecond = {};
+    stepsLeft_ = 0;
     gate_.close();
 }
 
@@ -132,12 +133,14 @@ void Relief::settle() noexcept {
 }
 
 double Relief::nextAcceleration() noexcept {
-    for (std::size_t side = 0; side < 2; ++side) {
-        place_[side] += contact_.placePerSecond[side] * stepSeconds_;
+    if (stepsLeft_ > 0) {
+        --stepsLeft_;
+        place_[0] += placePerStep_[0];
+        place_[1] += placePerStep_[1];
     }
     double riseMps = 0.0;
     if (contact_.map != nullptr) {
-        const double limit = steepest * contact_.speedMps;
+        const double limit = steepest * speedMps_;
         const double wantedMps = (contact_.map->heightMetres(place_, resolution_) - surfaceMetres_) * stepsPerSecond_;
         riseMps = std::clamp(wantedMps, -limit, limit);
         surfaceMetres_ += riseMps * stepSeconds_;
@@ -160,11 +163,6 @@ void Relief::process(std::span<float> samplesMps2) noexcept {
         double acceleration = 0.0;
         for (std::size_t step = 0; step < steps_; ++step) {
             acceleration += nextAcceleration();
-        }
-        if (correctionSamplesLeft_ > 0) {
-            --correctionSamplesLeft_;
-            place_[0] += correction_[0];
-            place_[1] += correction_[1];
         }
         newest_ = acceleration * sampleShare + jump_;
         jump_ *= jumpDecay;

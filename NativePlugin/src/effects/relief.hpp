@@ -14,9 +14,9 @@ namespace haptoflow::effects {
 struct ReliefContact {
     /// Null for none. Must live until the next contact or `keep`.
     const ReliefMap* map = nullptr;
-    /// Place in the map, 0 to 1 over it, at the next sample, and its change a second.
+    /// Place in the map, 0 to 1 over it, and when the tip is to be there: so long after the next sample.
     std::array<double, 2> place{};
-    std::array<double, 2> placePerSecond{};
+    double arrivalSeconds = 0.0;
     /// Speed over the surface.
     double speedMps = 0.0;
     double forceNewtons = 0.0;
@@ -32,10 +32,11 @@ struct ReliefContact {
 /// small beside `largestMps2` is heard as it is; what is large approaches it, so that a step deeper than any motor's
 /// reach leaves the texture its share.
 ///
-/// Between contact states the path goes on with their velocity, and half of what it then missed of the next place is
-/// made up within 14 ms. Heights rise no faster than a ball rolls over an edge, sqrt(2) times the speed, so that no
-/// map, no jump and no exchanged map gives more than a blow of that speed. Semi-implicit Euler at 24 kHz or more.
-/// Bounded for every input. Construction excepted, everything runs on the audio thread.
+/// The path leads straight from place to place, each reached when the next is told: what a hand really did, one state
+/// late. Where none is told, it goes on for as long again. Heights rise no faster than a
+/// ball rolls over an edge, sqrt(2) times the speed, so that no map, no jump and no exchanged map gives more than a
+/// blow of that speed. Semi-implicit Euler at 24 kHz or more. Bounded for every input. Construction excepted,
+/// everything runs on the audio thread.
 class Relief final : public Effect {
 public:
     static constexpr double tipKilograms = 0.015;
@@ -88,9 +89,10 @@ private:
     ReliefContact contact_;
     double forceNewtons_ = 0.0;
     std::array<double, 2> place_{};
-    // What is missing of the place is added over the next of these samples.
-    std::array<double, 2> correction_{};
-    std::size_t correctionSamplesLeft_ = 0;
+    std::array<double, 2> placePerStep_{};
+    std::size_t stepsLeft_ = 0;
+    // Of this contact and the one before, because the tip is between their places.
+    double speedMps_ = 0.0;
     double resolution_ = 0.0;
     double surfaceMetres_ = 0.0;
     double tipMetres_ = 0.0;

@@ -65,10 +65,8 @@ struct ContactState {
     float variation = 0.0F;
     /// Number of a map in ReliefTable; 0 for none.
     std::uint32_t relief = 0;
-    /// Where the contact point lies in the map, 0 to 1 over it, and how far a metre along the velocity's axes leads.
+    /// Where the contact point lies in the map, 0 to 1 over it.
     std::array<float, 2> reliefPlace{};
-    std::array<float, 2> reliefPerMetreFirst{};
-    std::array<float, 2> reliefPerMetreSecond{};
     /// Share of the full scale that the relief may reach.
     float reliefShare = 0.0F;
 
@@ -91,7 +89,7 @@ struct ContactState {
 }
 
 /// Makes every number finite and clamps it: speeds to +-20 m/s, force to 0-1,000 N, weights to 0-1, edge height to 0-1
-/// m, scale to 0.25-4, tilt to +-12 dB/octave, variation to 0-1, the relief's numbers to +-10^6 and its share to 0-1. A
+/// m, scale to 0.25-4, tilt to +-12 dB/octave, variation to 0-1, the relief's place to +-10^6 and its share to 0-1. A
 /// place or axes of no use make the place unknown.
 /// Returns the number of changed fields.
 inline std::uint32_t sanitise(ContactState& state) noexcept {
@@ -123,10 +121,8 @@ inline std::uint32_t sanitise(ContactState& state) noexcept {
     limit(state.toneDbPerOctave, -12.0F, 12.0F);
     limit(state.variation, 0.0F, 1.0F);
     constexpr float mostMaps = 1e6F;
-    for (std::array<float, 2>* pair : {&state.reliefPlace, &state.reliefPerMetreFirst, &state.reliefPerMetreSecond}) {
-        limit((*pair)[0], -mostMaps, mostMaps);
-        limit((*pair)[1], -mostMaps, mostMaps);
-    }
+    limit(state.reliefPlace[0], -mostMaps, mostMaps);
+    limit(state.reliefPlace[1], -mostMaps, mostMaps);
     limit(state.reliefShare, 0.0F, 1.0F);
     if (state.hasPlace != 0 && !hasUsablePlace(state)) {
         state.hasPlace = 0;

@@ -93,8 +93,10 @@ void VoiceRenderer::readContact() noexcept {
     if (channels_.toAudio.fetch()) {
         hasContact_ = true;
         const std::uint64_t states = std::max<std::uint64_t>(1, contact().updates - updates_);
-        staleness_.noteState(static_cast<double>(contactAgeFrames_) /
-                             (static_cast<double>(states) * voice_.outputRateHz()));
+        const double sinceLast =
+            static_cast<double>(contactAgeFrames_) / (static_cast<double>(states) * voice_.outputRateHz());
+        staleness_.noteState(sinceLast);
+        notePeriod(sinceLast, states);
         contactAgeFrames_ = 0;
         updates_ = contact().updates;
         // The message before, which kept the map that the tip follows, is the publisher's again.
@@ -321,6 +323,13 @@ void VoiceRenderer::renderWithEvents(std::span<float> out) noexcept {
     framesRendered_ += out.size();
 }
 
+void VoiceRenderer::notePeriod(double sinceLastSeconds, std::uint64_t states) noexcept {
+    const double publishedSeconds = contact().publishedSeconds;
+    const double before = std::exchange(publishedSeconds_, publishedSeconds);
+    statePeriodSeconds_ =
+        channels_.isRealTime ? (publishedSeconds - before) / static_cast<double>(states) : sinceLastSeconds;
+}
+
 void VoiceRenderer::followRelief() noexcept {
     const ContactMessage& message = channels_.toAudio.current();
     const bool maySound = silence_ == Silence::none || silence_ == Silence::rest;
@@ -336,13 +345,12 @@ void VoiceRenderer::followRelief() noexcept {
                                   .speedMps = static_cast<double>(state.speedMps()),
                                   .forceNewtons = static_cast<double>(state.forceNewtons),
                                   .largestMps2 = static_cast<double>(state.reliefShare) * fullScaleMps2_};
-    constexpr double oldestSeconds = 0.1;
-    const double aheadSeconds =
-        channels_.isRealTime ? std::clamp(blockSeconds_ - message.contact.publishedSeconds, 0.0, oldestSeconds) : 0.0;
-    for (std::size_t side = 0; side < relief.place.size(); ++side) {
-        relief.placePerSecond[side] = static_cast<double>(state.velocityMps[0] * state.reliefPerMetreFirst[side] +
-                                                          state.velocityMps[1] * state.reliefPerMetreSecond[side]);
-        relief.place[side] = static_cast<double>(state.reliefPlace[side]) + relief.placePerSecond[side] * aheadSeconds;
+    relief.place = {static_cast<double>(state.reliefPlace[0]), static_cast<double>(state.reliefPlace[1])};
+    relief.arrivalSeconds = statePeriodSeconds_;
+    if (channels_.isRealTime) {
+        // A state waits for the next block for up to its length.
+        const double longest = static_cast<double>(std::max(longestBlock_[0], longestBlock_[1])) / dsp::waveformRateHz;
+        relief.arrivalSeconds += longest - (blockSeconds_ - message.contact.publishedSeconds);
     }
     voice_.followRelief(relief);
 }

@@ -62,6 +62,7 @@ private:
     void schedule(const ContactEvent& event, std::size_t frames) noexcept;
     void start(const ContactEvent& event) noexcept;
     void renderWithEvents(std::span<float> out) noexcept;
+    void notePeriod(double sinceLastSeconds, std::uint64_t states) noexcept;
     void followRelief() noexcept;
     void readSignal() noexcept;
     void noteSignalTransition(SignalTransitions& transitions) noexcept;
@@ -87,6 +88,8 @@ private:
     // PublishedContact::updates of the contact that the waveform follows.
     std::uint64_t followed_ = 0;
     std::uint64_t reliefUpdate_ = 0;
+    double publishedSeconds_ = 0.0;
+    double statePeriodSeconds_ = 0.0;
     std::uint32_t playedOnset_ = 0;
     std::uint64_t tapFramesLeft_ = 0;
 

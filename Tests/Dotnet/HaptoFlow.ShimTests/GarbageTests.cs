@@ -161,6 +161,15 @@ namespace HaptoFlow.ShimTests
             Make("Halves").AddComponent<MeshCollider>().sharedMesh = mesh;
         });
 
+        [Test]
+        public void AReliefOnABoxOrAMeshAllocatesNothing([Values] bool onMesh) => Check(Circle(0.001f), () =>
+        {
+            HapticSurface floor = onMesh
+                ? Tagged<MeshCollider>("wood", mesh => mesh.sharedMesh = ReliefTests.Sheet())
+                : Board();
+            floor.Relief = Keep(ReliefTests.Ribs());
+        });
+
         private static HapticMaterialMap Map()
         {
             HapticMaterialMap map = ScriptableObject.CreateInstance<HapticMaterialMap>();

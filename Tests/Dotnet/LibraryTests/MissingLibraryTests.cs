@@ -9,6 +9,7 @@ using HaptoFlow.Tests.Support;
 using NUnit.Framework;
 using UnityEditor;
 using UnityEditor.AssetImporters;
+using UnityEngine;
 
 namespace HaptoFlow.MissingLibraryTests
 {
@@ -36,6 +37,17 @@ namespace HaptoFlow.MissingLibraryTests
             Assert.That(asset.Learnt, Is.EqualTo(Encoding.UTF8.GetString(Material)));
             AssertIdentified(OnlyWarning(path), Material);
             AssertIdentified(MaterialSummary.Of(asset.Learnt, Model()).Problem, Material);
+        }
+
+        [Test]
+        public void AReliefIsNotFeltAndTheReasonIsSaidOnce()
+        {
+            var relief = ScriptableObject.CreateInstance<HapticRelief>();
+            relief.name = "Waves";
+            relief.SetHeights(2, 1, new[] { 0f, 1f });
+            UnityShim.Log.Clear();
+            Assert.That((relief.Number, relief.Number), Is.EqualTo((0u, 0u)));
+            Assert.That(UnityShim.Log.Lines.Single().Text, Does.Match("Waves is not felt: .*native library.*install"));
         }
 
         private static string OnlyWarning(string path)

@@ -178,11 +178,7 @@ private:
         state.variation = wildFloat();
         state.effects = oneIn(4) ? next() : HAPTOFLOW_ASKS_FOR_TEXTURE | HAPTOFLOW_ASKS_FOR_RELIEF;
         state.relief = handles_.reliefs.any(next());
-        for (std::size_t side = 0; side < 2; ++side) {
-            state.relief_place[side] = wildFloat();
-            state.relief_per_metre_first[side] = wildFloat();
-            state.relief_per_metre_second[side] = wildFloat();
-        }
+        std::ranges::generate(state.relief_place, [this] { return wildFloat(); });
         state.relief_share = wildFloat();
         state.has_place = next() % 3;
         state.surface_seed = next() % 4;

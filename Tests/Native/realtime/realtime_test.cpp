@@ -71,7 +71,6 @@ void disturb(haptoflow_voice voice, Pace& pace) {
         state.effects = update % 19 < 12 ? HAPTOFLOW_ASKS_FOR_TEXTURE | HAPTOFLOW_ASKS_FOR_RELIEF : 0;
         state.relief = reliefs[update / 11 % 2];
         state.relief_place[0] = 0.1F * static_cast<float>(update);
-        state.relief_per_metre_first[0] = state.relief_per_metre_second[1] = 100.0F;
         state.relief_share = 0.5F;
         state.velocity_mps[1] = update % 29 == 0 ? std::nanf("") : 0.02F * static_cast<float>(update % 17);
         state.force_newtons = update % 31 == 0 ? INFINITY : 0.5F + 0.1F * static_cast<float>(update % 7);

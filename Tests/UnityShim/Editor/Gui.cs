@@ -178,6 +178,9 @@ namespace UnityEditor
 
         public static Rect GetControlRect(params GUILayoutOption[] options) => Line;
 
+        public static Rect GetControlRect(bool hasLabel, float height, params GUILayoutOption[] options) =>
+            new Rect(Line.x, Line.y, Line.width, height);
+
         public static bool PropertyField(SerializedProperty property, params GUILayoutOption[] options) =>
             EditorGUI.PropertyField(Line, property);
 

@@ -8,6 +8,7 @@ namespace UnityEngine
     public enum TextureFormat
     {
         RGBA32 = 4,
+        RGBAFloat = 20,
     }
 
     public enum TextureWrapMode
@@ -70,28 +71,45 @@ namespace UnityEngine
             MediaCount.Add(this);
         }
 
+        public Texture2D(int width, int height, TextureFormat textureFormat, bool mipChain, bool linear)
+            : this(width, height, textureFormat, mipChain)
+        {
+        }
+
         private Texture2D(string name) => this.name = name;
 
-        private Color32[] colours = Array.Empty<Color32>();
+        // As the graphics card has them, whether or not scripts may read them.
+        internal Color[] Pixels = Array.Empty<Color>();
         private bool isKept = true;
 
         public override bool isReadable => isKept;
 
         /// <exception cref="UnityException">The texture is not readable.</exception>
         public Color32[] GetPixels32() => isKept
-            ? (Color32[])colours.Clone()
+            ? Array.ConvertAll(Pixels, pixel => (Color32)pixel)
             : throw new UnityException($"Texture '{name}' is not readable.");
 
         public void SetPixels32(Color32[] colors)
         {
-            colours = (Color32[])colors.Clone();
+            Pixels = Array.ConvertAll(colors, each =>
+                new Color(each.r / 255f, each.g / 255f, each.b / 255f, each.a / 255f));
             ulong sum = 17;
-            foreach (Color32 each in colours)
+            foreach (Color32 each in colors)
             {
                 sum = 31 * sum + (uint)(each.r << 24 | each.g << 16 | each.b << 8 | each.a);
             }
             imageContentsHash = new Hash128(sum, 0);
         }
+
+        public Color[] GetPixels() => isKept
+            ? (Color[])Pixels.Clone()
+            : throw new UnityException($"Texture '{name}' is not readable.");
+
+        public void SetPixels(Color[] colors) => Pixels = (Color[])colors.Clone();
+
+        /// <summary>Copies the whole of the active render texture.</summary>
+        public void ReadPixels(Rect source, int destX, int destY, bool recalculateMipMaps) =>
+            SetPixels(RenderTexture.active!.Pixels);
 
         public void Apply(bool updateMipmaps, bool makeNoLongerReadable)
         {
@@ -117,6 +135,45 @@ namespace UnityEngine
             World.RequireMainThread();
             Uploaded = waiting;
         }
+    }
+
+    public enum RenderTextureFormat
+    {
+        ARGBFloat = 11,
+    }
+
+    public enum RenderTextureReadWrite
+    {
+        Linear = 1,
+    }
+
+    public partial class RenderTexture : Texture
+    {
+        internal Color[] Pixels = Array.Empty<Color>();
+
+        private RenderTexture()
+        {
+        }
+
+        public static RenderTexture? active { get; set; }
+
+        public static RenderTexture GetTemporary(int width, int height, int depthBuffer, RenderTextureFormat format,
+            RenderTextureReadWrite readWrite)
+        {
+            var made = new RenderTexture { width = width, height = height };
+            MediaCount.Add(made);
+            return made;
+        }
+
+        /// <summary>Returns it to a pool in Unity; destroys it here.</summary>
+        public static void ReleaseTemporary(RenderTexture temp) => DestroyImmediate(temp);
+    }
+
+    public sealed partial class Graphics
+    {
+        /// <summary>Copies a texture of the same size.</summary>
+        public static void Blit(Texture source, RenderTexture dest) =>
+            dest.Pixels = (Color[])((Texture2D)source).Pixels.Clone();
     }
 
     public sealed partial class AudioClip : Object

@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using System.Linq;
 using UnityEngine.Rendering;
 using UnityShim;
@@ -19,7 +20,41 @@ namespace UnityEngine
             shader = source.shader;
             color = source.color;
             name = source.name;
+            textures = new Dictionary<string, (Texture?, Vector2, Vector2)>(source.textures);
+            floats = new Dictionary<string, float>(source.floats);
         }
+
+        // The shim takes for a property of the shader what was set.
+        private readonly Dictionary<string, (Texture? Texture, Vector2 Scale, Vector2 Offset)> textures =
+            new Dictionary<string, (Texture?, Vector2, Vector2)>();
+
+        private readonly Dictionary<string, float> floats = new Dictionary<string, float>();
+
+        public bool HasProperty(string name) => textures.ContainsKey(name) || floats.ContainsKey(name);
+
+        public Texture? GetTexture(string name) => Of(name).Texture;
+
+        public void SetTexture(string name, Texture? value) =>
+            textures[name] = (value, Of(name).Scale, Of(name).Offset);
+
+        public Vector2 GetTextureScale(string name) => Of(name).Scale;
+
+        public void SetTextureScale(string name, Vector2 value) =>
+            textures[name] = (Of(name).Texture, value, Of(name).Offset);
+
+        public Vector2 GetTextureOffset(string name) => Of(name).Offset;
+
+        public void SetTextureOffset(string name, Vector2 value) =>
+            textures[name] = (Of(name).Texture, Of(name).Scale, value);
+
+        public float GetFloat(string name) => floats[name];
+
+        public void SetFloat(string name, float value) => floats[name] = value;
+
+        private (Texture? Texture, Vector2 Scale, Vector2 Offset) Of(string name) => textures.TryGetValue(
+            name, out (Texture? Texture, Vector2 Scale, Vector2 Offset) found)
+            ? found
+            : (null, new Vector2(1f, 1f), Vector2.zero);
 
         public Shader? shader { get; set; }
     }

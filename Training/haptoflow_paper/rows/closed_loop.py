@@ -77,8 +77,6 @@ class _ContactState(ctypes.Structure):
         ("variation", ctypes.c_float),
         ("relief", ctypes.c_uint32),
         ("relief_place", ctypes.c_float * 2),
-        ("relief_per_metre_first", ctypes.c_float * 2),
-        ("relief_per_metre_second", ctypes.c_float * 2),
         ("relief_share", ctypes.c_float),
     ]
 

@@ -61,9 +61,10 @@ namespace HaptoFlow.Editor
                     yield return new Finding(MessageType.Warning, problem, new[] { mask.Key },
                         MaskBake.RepairsOf(mask.Key).ToArray());
                 }
-                Collider[] unmasked = mask.Where(collider => WhyNoCoordinates(collider, mask.Key) != null).ToArray();
+                Collider[] unmasked = mask
+                    .Where(collider => WhyNoCoordinates(collider, mask.Key.SecondCoordinates) != null).ToArray();
                 foreach (IGrouping<string, Collider> reason in unmasked.GroupBy(
-                    collider => WhyNoCoordinates(collider, mask.Key)!))
+                    collider => WhyNoCoordinates(collider, mask.Key.SecondCoordinates)!))
                 {
                     yield return new Finding(MessageType.Warning,
                         $"{MaterialWords.Names(reason.ToArray())}: the mask {mask.Key.name} has no effect, " +
@@ -82,7 +83,7 @@ namespace HaptoFlow.Editor
         }
 
         /// <summary>Why a hit has no texture coordinates; null when it has them.</summary>
-        private static string? WhyNoCoordinates(Collider collider, HapticMaskMap mask)
+        internal static string? WhyNoCoordinates(Collider collider, bool second)
         {
             if (!(collider is MeshCollider mesh))
             {
@@ -100,9 +101,9 @@ namespace HaptoFlow.Editor
             {
                 return "its mesh is not readable: switch on Read/Write in the model's import settings";
             }
-            bool lacksSet = mask.SecondCoordinates ? mesh.sharedMesh.uv2.Length == 0 : mesh.sharedMesh.uv.Length == 0;
+            bool lacksSet = second ? mesh.sharedMesh.uv2.Length == 0 : mesh.sharedMesh.uv.Length == 0;
             return lacksSet
-                ? $"its mesh has no {(mask.SecondCoordinates ? "second" : "first")} texture coordinates"
+                ? $"its mesh has no {(second ? "second" : "first")} texture coordinates"
                 : null;
         }
 

@@ -23,6 +23,7 @@ namespace HaptoFlow.Editor
                 .Concat(LearntMaterialRules.Check(scene))
                 .Concat(ColliderRules.Check(scene))
                 .Concat(MapRules.Check(scene))
+                .Concat(ReliefRules.Check(scene))
                 .Concat(OutputRules.Check(scene))
                 .Concat(SilentOutputRules.Check(scene))
                 .Concat(PlaceRules.Check(scene))

@@ -201,7 +201,8 @@ namespace HaptoFlow.Editor
             if (Descriptions(scene).Any() && UsedEffects(scene).Count == 0)
             {
                 yield return new Finding(MessageType.Warning,
-                    "No surface has an effect: nothing is felt. Switch on Texture, Impact or Edge on a surface.");
+                    "No surface has an effect: nothing is felt. Switch on Texture, Impact or Edge on a surface, " +
+                    "or give it a relief.");
             }
         }
 
@@ -225,6 +226,7 @@ namespace HaptoFlow.Editor
                 int count = Descriptions(scene).Count(material => (material.Effects & flag) != 0);
                 Add(used, name, count, "surface", Cost(scene, effect));
             }
+            Add(used, "relief", ReliefRules.Uses(scene).Count(), "collider", Cost(scene, HapticEffect.Relief));
             Add(used, "compensation",
                 scene.Outputs.Count(output => output.Processing.Actuator != OutputActuator.Uncompensated), "output",
                 Cost(scene, HapticEffect.Compensation));

@@ -88,11 +88,11 @@ namespace HaptoFlow.Editor
         }
     }
 
-    /// <summary>Draws a rule of a map: its number, its condition, its material and mask.</summary>
+    /// <summary>Draws a rule of a map: its number, its condition, its material, mask and relief.</summary>
     [CustomPropertyDrawer(typeof(HapticMaterialRule))]
     internal sealed class HapticMaterialRuleDrawer : PropertyDrawer
     {
-        private const int Rows = 5;
+        private const int Rows = 6;
 
         private static readonly GUIContent Subject = new GUIContent("Looks At");
         private static readonly GUIContent Name = new GUIContent("Name");
@@ -111,6 +111,7 @@ namespace HaptoFlow.Editor
             DrawCondition(rows, property, subject);
             rows.Field("material", Material);
             rows.Field("mask");
+            rows.Field("relief");
         }
 
         private static MaterialRuleSubject SubjectOf(SerializedProperty property) =>

@@ -71,6 +71,7 @@ namespace HaptoFlow.Editor
         private static readonly string[] EffectNames =
         {
             "Texture", "Impact", "Edge", "Delay", "Compensation", "Exposure Guard", "Tone", "Signal",
+            "Listen", "Relief",
         };
 
         protected override void Read(HapticStylus stylus)
@@ -118,7 +119,7 @@ namespace HaptoFlow.Editor
         /// <summary>Adds the effects that run or have run.</summary>
         private void ReadEffects(HapticStylus stylus)
         {
-            for (HapticEffect effect = HapticEffect.Impact; effect <= HapticEffect.Signal; ++effect)
+            for (HapticEffect effect = HapticEffect.Impact; effect <= HapticEffect.Relief; ++effect)
             {
                 if (!stylus.TryGetEffectStatistics(effect, out EffectStatistics stage) ||
                     (stage.Prepared == 0 && !stage.IsAskedFor))

@@ -14,6 +14,7 @@ namespace HaptoFlow.Editor
         private SerializedProperty own = null!;
         private SerializedObject? sharedDescription;
         private string extent = "";
+        private readonly ReliefButton bake = new ReliefButton();
 
         private void OnEnable()
         {
@@ -34,6 +35,7 @@ namespace HaptoFlow.Editor
             EditorGUILayout.PropertyField(shared);
             DrawMaterial(several, material);
             EditorGUILayout.PropertyField(serializedObject.FindProperty("mask"));
+            EditorGUILayout.PropertyField(serializedObject.FindProperty("relief"));
             EditorGUILayout.Space();
             EditorGUILayout.PropertyField(serializedObject.FindProperty("includeChildren"));
             EditorGUILayout.PropertyField(serializedObject.FindProperty("feelOwnMotion"));
@@ -47,6 +49,10 @@ namespace HaptoFlow.Editor
             if (GUILayout.Button(HapticMaterialEditor.Preview))
             {
                 TexturePreviewWindow.Open(target);
+            }
+            if (targets.Length == 1)
+            {
+                bake.Draw((HapticSurface)target);
             }
             EditorGUILayout.HelpBox(extent, MessageType.None);
         }
@@ -87,6 +93,7 @@ namespace HaptoFlow.Editor
         {
             int felt = 0;
             int byRays = 0;
+            string relief = "";
             foreach (Object each in targets)
             {
                 if (each == null)
@@ -99,9 +106,14 @@ namespace HaptoFlow.Editor
                     bool isOwn = SceneColliders.SurfaceOf(collider) == surface;
                     felt += isOwn ? 1 : 0;
                     byRays += isOwn && (collider is MeshCollider || collider is TerrainCollider) ? 1 : 0;
+                    if (isOwn && surface.Relief != null && ReliefRules.WhyNotFelt(collider) is { } reason)
+                    {
+                        relief = $" The relief {surface.Relief.name} cannot be felt on {collider.name}, because " +
+                            $"{reason}.";
+                    }
                 }
             }
-            extent = ExtentOf(felt, byRays) + RuleSentence();
+            extent = ExtentOf(felt, byRays) + relief + RuleSentence();
         }
 
         /// <summary>A sentence about the rule that applies without this surface; empty without such a rule, or for

@@ -77,7 +77,7 @@ namespace HaptoFlow
                 HapticMaterialRule rule = rules[index];
                 if (rule.Matches(facts, part))
                 {
-                    found = new MappedPart(this, index, rule.Material, rule.Mask);
+                    found = new MappedPart(this, index, rule.Material, rule.Mask, rule.Relief);
                     return true;
                 }
             }

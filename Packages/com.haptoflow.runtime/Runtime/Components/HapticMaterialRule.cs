@@ -78,6 +78,9 @@ namespace HaptoFlow
             "empty.")]
         private HapticMaskMap? mask;
 
+        [SerializeField, Tooltip("The tip follows the heights of this relief on matching objects. It may be empty.")]
+        private HapticRelief? relief;
+
         private HapticMaterialRule()
         {
         }
@@ -114,6 +117,9 @@ namespace HaptoFlow
 
         /// <summary>A texture that blends in further materials; null for none.</summary>
         public HapticMaskMap? Mask { get => mask; set => MaterialMaps.Set(ref mask, value); }
+
+        /// <summary>The heights that the tip follows; null for none.</summary>
+        public HapticRelief? Relief { get => relief; set => MaterialMaps.Set(ref relief, value); }
 
         /// <summary>A rule for a Unity tag.</summary>
         public static HapticMaterialRule ForTag(string tag, HapticMaterial? material) =>

@@ -181,6 +181,15 @@ namespace HaptoFlow
             }
         }
 
+        /// <summary>Gives a relief to the native library before it is touched.</summary>
+        public void Prepare(HapticRelief? relief)
+        {
+            if (relief != null && Engine != null)
+            {
+                _ = relief.Number;
+            }
+        }
+
         /// <summary>Waits until all requested materials are registered or refused.</summary>
         public void FinishRegistrations()
         {

@@ -278,6 +278,7 @@ namespace HaptoFlow
             }
             using (Markers.Publish.Auto())
             {
+                ReliefPlace.Write(contacts.Touched, ref reading);
                 Voices.Publish(reading, contacts.Touched?.Felt.On(contacts.Scale) ?? default, session);
             }
         }

@@ -40,6 +40,10 @@ namespace HaptoFlow
             "readable mesh colliders that are not convex. It may be empty.")]
         private HapticMaskMap? mask;
 
+        [SerializeField, Tooltip("The tip follows the heights of this relief. It works on boxes, terrains, and " +
+            "readable mesh colliders that are not convex. It may be empty.")]
+        private HapticRelief? relief;
+
         [SerializeField, Tooltip("The seed says where the surface's asperities lie: surfaces with different numbers " +
             "differ. At 0 the object's place in the hierarchy decides.")]
         private uint seed;
@@ -106,6 +110,18 @@ namespace HaptoFlow
 
         /// <summary>A texture that blends in further materials at the touched place; null for none.</summary>
         public HapticMaskMap? Mask { get => mask; set => mask = value; }
+
+        /// <summary>The heights that the tip follows; null for none. The effect <see cref="HapticEffects.Relief"/> is
+        /// on where there is one, and costs nothing elsewhere.</summary>
+        public HapticRelief? Relief
+        {
+            get => relief;
+            set
+            {
+                relief = value;
+                HapticSession.Existing?.Prepare(value);
+            }
+        }
 
         /// <summary>How much this object differs from other objects with the same label, 0 to 1: at 0 all of them are
         /// the label's mean, at 1 they differ as the recorded pieces of that label did. The seed says which object this
@@ -188,6 +204,7 @@ namespace HaptoFlow
                 whole = felt;
             }
             whole.Variation = variation;
+            whole.Relief = relief != null ? relief : null;
             return whole;
         }
 
@@ -208,6 +225,7 @@ namespace HaptoFlow
             SurfaceRegistry.Changed();
             InvalidateSurfaceAbove();
             HapticSession.Existing?.Prepare(SharedDescription);
+            HapticSession.Existing?.Prepare(relief);
         }
 
         private void OnDisable() => Unregister();

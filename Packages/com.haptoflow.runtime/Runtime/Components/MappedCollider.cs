@@ -104,6 +104,7 @@ namespace HaptoFlow
                 felt = masked;
             }
             felt.Part = part;
+            felt.Relief = found.Relief;
             return felt;
         }
 
@@ -150,12 +151,15 @@ namespace HaptoFlow
     internal readonly struct MappedPart
     {
         /// <param name="rule">Index of the rule; below 0 for the map's default.</param>
-        public MappedPart(HapticMaterialMap? map, int rule, HapticMaterial? material, HapticMaskMap? mask)
+        public MappedPart(
+            HapticMaterialMap? map, int rule, HapticMaterial? material, HapticMaskMap? mask,
+            HapticRelief? relief = null)
         {
             Map = map;
             Rule = rule;
             Material = material != null ? material : null;
             Mask = mask != null ? mask : null;
+            Relief = relief != null ? relief : null;
         }
 
         /// <summary>Null where no map matches.</summary>
@@ -166,6 +170,8 @@ namespace HaptoFlow
         public HapticMaterial? Material { get; }
 
         public HapticMaskMap? Mask { get; }
+
+        public HapticRelief? Relief { get; }
 
         public bool CanBeFelt => Material is object || (Mask is object && Mask.NamesMaterials);
 
@@ -199,12 +205,20 @@ namespace HaptoFlow
         /// meshes.</summary>
         public int Triangle => hasTriangle ? hit.triangleIndex : -1;
 
+        /// <summary>The mesh of <see cref="Triangle"/>; false where there is no triangle, and where scripts cannot read
+        /// the mesh.</summary>
+        public bool TryGetMesh(out Mesh mesh)
+        {
+            mesh = (hasTriangle ? ((MeshCollider)collider).sharedMesh : null)!;
+            return mesh is object && mesh.isReadable;
+        }
+
         /// <summary>False where the physics engine provides no coordinate: everything but readable, non-convex
         /// meshes.</summary>
         public bool TryGetTextureCoordinate(bool second, out Vector2 coordinate)
         {
             coordinate = default;
-            if (!hasTriangle || !(((MeshCollider)collider).sharedMesh is { } mesh) || !mesh.isReadable)
+            if (!TryGetMesh(out _))
             {
                 return false;
             }
@@ -340,7 +354,7 @@ namespace HaptoFlow
 
         /// <summary>The renderer of a mesh or a skinned mesh: on the collider's object, else on the nearest object
         /// above it, else below it.</summary>
-        private static Renderer? RendererOf(Collider collider)
+        internal static Renderer? RendererOf(Collider collider)
         {
             for (Transform? place = collider.transform; place != null; place = place.parent)
             {

@@ -104,6 +104,7 @@ namespace HaptoFlow
             foreach (HapticMaterialRule rule in map.Rules)
             {
                 Prepare(session, rule.Material);
+                session.Prepare(rule.Relief);
             }
             Prepare(session, map.DefaultMaterial);
         }
@@ -299,6 +300,9 @@ namespace HaptoFlow
         public float Variation;
 
         public HapticEffects Effects;
+
+        /// <summary>Of the object, not of its material; null for none.</summary>
+        public HapticRelief? Relief;
 
         /// <summary>Stiffness in N/m; 0 for the contact model's default.</summary>
         public double StiffnessNewtonsPerMetre;

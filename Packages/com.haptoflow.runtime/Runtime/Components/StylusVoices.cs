@@ -174,7 +174,9 @@ namespace HaptoFlow
             if (state.Touching)
             {
                 state.Material = felt.Labels;
-                state.Effects = felt.Effects;
+                state.Effects = state.Relief == 0
+                    ? felt.Effects
+                    : (felt.Effects & ~HapticEffects.Nothing) | HapticEffects.Relief;
                 state.SpatialScale = felt.FeatureScale;
                 state.ToneDbPerOctave = felt.ToneDbPerOctave;
                 state.Variation = felt.Variation;

@@ -43,6 +43,7 @@ namespace HaptoFlow
             foreach (HapticSurface surface in Surfaces.Values)
             {
                 session.Prepare(surface.SharedDescription);
+                session.Prepare(surface.Relief);
             }
         }
 

@@ -64,7 +64,8 @@ namespace HaptoFlow.Contact
             touching = true;
         }
 
-        private Double3 FirstAxisOfNewTouch(Double3 unit)
+        /// <summary>The first axis with which a touch begins where the normal is this one.</summary>
+        public Double3 FirstAxisOfNewTouch(Double3 unit)
         {
             Double3 projected = IntoPlane(grain, unit);
             bool useful = projected.Length > CarriedBelow;

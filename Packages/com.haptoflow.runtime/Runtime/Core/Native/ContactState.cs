@@ -82,6 +82,18 @@ namespace HaptoFlow
         /// spectrum.</summary>
         public float Variation;
 
+        /// <summary>The relief under the tip, <see cref="HapticReliefMap.Number"/>; 0, or one that was disposed, for
+        /// none.</summary>
+        public uint Relief;
+
+        /// <summary>Where the contact point lies in the relief's map: 0 to 1 along columns and along rows; a tiled map
+        /// goes on beyond.</summary>
+        public MapPlace ReliefPlace;
+
+        /// <summary>The share of the full scale that the relief may reach, 0 to 1: what is small beside it is played as
+        /// it is, and what is large approaches it, so that the texture keeps the rest.</summary>
+        public float ReliefShare;
+
         /// <summary>True where <see cref="PlaceMetres"/> and the axes say where the tip is. Where they do not, the voice
         /// adds up the velocity from the touch-down on, and a place feels the same within one touch only.</summary>
         public bool HasPlace
@@ -197,11 +209,14 @@ namespace HaptoFlow
         /// <summary>The crossing of a rim, or to a label of another level.</summary>
         Edge = 0x4,
 
+        /// <summary>The heights of a map, which the tip follows.</summary>
+        Relief = 0x200,
+
         /// <summary>No effect: the surface is touched but not felt.</summary>
         Nothing = 0x80000000,
     }
 
-    /// <summary>The stages of a voice in the order of processing, except for the last three.</summary>
+    /// <summary>The stages of a voice in the order of processing, except for the last four.</summary>
     public enum HapticEffect
     {
         /// <summary>The vibration while the tip slides.</summary>
@@ -225,11 +240,28 @@ namespace HaptoFlow
         /// <summary>The spectral change by a material's tone or a surface's tilt; it follows the texture.</summary>
         Tone = 6,
 
-        /// <summary>The sine of a study, instead of texture, impact and edge.</summary>
+        /// <summary>The sine of a study, instead of texture, impact, edge and relief.</summary>
         Signal = 7,
 
         /// <summary>Louder and brighter for ears; it follows the compensation.</summary>
         Listen = 8,
+
+        /// <summary>The heights of a map under the tip, added where impact and edge are.</summary>
+        Relief = 9,
+    }
+
+    /// <summary>A place in a map, as <see cref="ContactState"/> passes it to the library.</summary>
+    [Preserve, StructLayout(LayoutKind.Sequential)]
+    public readonly struct MapPlace
+    {
+        /// <summary>Along the columns; 1 is the map's whole length.</summary>
+        public readonly float Column;
+
+        /// <summary>Along the rows; 1 is the map's whole length.</summary>
+        public readonly float Row;
+
+        /// <summary>Shares of the map's lengths.</summary>
+        public MapPlace(double column, double row) => (Column, Row) = ((float)column, (float)row);
     }
 
     /// <summary>A point or a direction in the frame of a surface, as <see cref="ContactState"/> passes it to the

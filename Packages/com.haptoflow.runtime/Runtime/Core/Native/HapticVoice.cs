@@ -124,8 +124,8 @@ namespace HaptoFlow
         /// <param name="seconds">0 to 0.5; 0 for no delay. A change fades within 20 ms.</param>
         public void SetDelay(double seconds) => NativeCall.Check(NativeMethods.VoiceSetDelay(Id, seconds));
 
-        /// <summary>Plays a sine instead of texture, impact and edge, for studies of latency. It sounds while the
-        /// newest contact state touches and moves at 5 mm/s or more, whatever the force and the speed; nothing is
+        /// <summary>Plays a sine instead of texture, impact, edge and relief, for studies of latency. It sounds while
+        /// the newest contact state touches and moves at 5 mm/s or more, whatever the force and the speed; nothing is
         /// inferred. It starts and ends within 2 ms and is subject to everything that acts on the voice. Takes effect
         /// with the next block.</summary>
         /// <param name="frequencyHz">Frequency, <see cref="MinimumSignalHz"/> to <see cref="MaximumSignalHz"/>; ignored

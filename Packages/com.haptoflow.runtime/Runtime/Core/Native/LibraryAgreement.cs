@@ -28,6 +28,7 @@ namespace HaptoFlow.Native
             ["haptoflow_engine_options"] = sizeof(EngineOptions),
             ["haptoflow_tier_times"] = sizeof(TierTimes),
             ["haptoflow_engine_statistics"] = sizeof(EngineStatistics),
+            ["haptoflow_relief_options"] = sizeof(ReliefOptions),
             ["haptoflow_contact_state"] = sizeof(ContactState),
             ["haptoflow_effect_statistics"] = sizeof(EffectStatistics),
             ["haptoflow_voice_statistics"] = sizeof(VoiceStatistics),

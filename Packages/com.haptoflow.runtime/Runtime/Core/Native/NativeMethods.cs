@@ -101,6 +101,14 @@ namespace HaptoFlow.Native
         [DllImport(Library, EntryPoint = "haptoflow_engine_tier_times")]
         public static extern int EngineTierTimes(IntPtr engine, uint index, TierTimes* times);
 
+        [DllImport(Library, EntryPoint = "haptoflow_relief_create")]
+        public static extern int ReliefCreate(ReliefOptions* options, uint* relief);
+        [DllImport(Library, EntryPoint = "haptoflow_relief_destroy")]
+        public static extern int ReliefDestroy(uint* relief);
+        [DllImport(Library, EntryPoint = "haptoflow_relief_heights_of_normals")]
+        public static extern int ReliefHeightsOfNormals(
+            float* normals, uint columns, uint rows, float* sizeMetres, uint isTiled, float* heightsMetres);
+
         [DllImport(Library, EntryPoint = "haptoflow_voice_create")]
         public static extern int VoiceCreate(IntPtr engine, double sampleRateHz, ulong* voice);
         [DllImport(Library, EntryPoint = "haptoflow_voice_destroy")]

@@ -137,6 +137,19 @@ namespace HaptoFlow.Native
     }
 
     [Preserve, StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct ReliefOptions
+    {
+        public uint StructSize;
+        public uint Columns;
+        public uint Rows;
+        public uint IsTiled;
+        public float* HeightsMetres;
+        public fixed float SizeMetres[2];
+        public float DepthMetres;
+        public float TipRadiusMetres;
+    }
+
+    [Preserve, StructLayout(LayoutKind.Sequential)]
     internal struct WaveFeaturesOptions
     {
         public uint StructSize;
