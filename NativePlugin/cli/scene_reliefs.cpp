@@ -66,7 +66,7 @@ Image readImage(const std::string& path) {
 std::vector<float> heightsOf(const Image& image) {
     std::vector<float> heights;
     heights.reserve(std::size_t{image.columns} * image.rows);
-    for (unsigned row = image.rows; row-- > 0;) {
+    for (unsigned row = 0; row < image.rows; ++row) {
         for (unsigned column = 0; column < image.columns; ++column) {
             const float* colour = image.at(column, row);
             heights.push_back((colour[0] + colour[1] + colour[2]) / 3.0F);
@@ -78,11 +78,13 @@ std::vector<float> heightsOf(const Image& image) {
 std::vector<float> integrated(const Image& image, const headless::SceneRelief& relief) {
     std::vector<float> normals;
     normals.reserve(3 * std::size_t{image.columns} * image.rows);
-    for (unsigned row = image.rows; row-- > 0;) {
+    for (unsigned row = 0; row < image.rows; ++row) {
         for (unsigned column = 0; column < image.columns; ++column) {
             const float* colour = image.at(column, row);
-            std::transform(colour, colour + 3, std::back_inserter(normals),
-                           [](float part) { return 2.0F * part - 1.0F; });
+            // Green leads up the image, and rows lead down.
+            normals.push_back(2.0F * colour[0] - 1.0F);
+            normals.push_back(1.0F - 2.0F * colour[1]);
+            normals.push_back(2.0F * colour[2] - 1.0F);
         }
     }
     std::vector<float> heights =

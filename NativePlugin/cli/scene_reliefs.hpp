@@ -10,9 +10,9 @@
 namespace haptoflow::cli {
 
 /// The map of a surface's relief, of a PNG file with 1 to 16 bits: heights from black (0) to white (the depth), of the
-/// mean of its colours, or normals in red (along), green (across) and blue, whose heights then span the depth. The
-/// first row of the image lies where the second axis leads furthest, as texture coordinates have it. Throws InputError
-/// that names the file and the remedy.
+/// mean of its colours, or normals in red (right), green (up) and blue, whose heights then span the depth. Columns lead
+/// along the first tangent axis and rows along the second, so that the image is seen from outside as it is drawn.
+/// Throws InputError that names the file and the remedy.
 [[nodiscard]] effects::ReliefMap readRelief(const headless::SceneRelief& relief, double tipRadiusMetres,
                                             const std::string& scenePath);
 

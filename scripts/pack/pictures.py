@@ -259,8 +259,7 @@ def relief_picture() -> plt.Figure:
             "relief": {"image": str(file), "size": list(WALL_METRES), "depth": JOINT_DEPTH_METRES}
         }
         scene = {"surfaces": [surface], "stylus": {"tip_radius": 0.0005}}
-        # The second axis of a plane leads towards -z.
-        stroke = np.column_stack([times, path[:, 0], np.full_like(times, -0.0005), -path[:, 1], np.ones_like(times)])
+        stroke = np.column_stack([times, path[:, 0], np.full_like(times, -0.0005), path[:, 1], np.ones_like(times)])
         felt = [render(scene, stroke, "--effects", effects) for effects in ("none", "texture")]
     figure, (above, profile, wave, colours) = plt.subplots(
         4, 1, figsize=(9.6, 7.4), height_ratios=(2.2, 0.8, 1.3, 1.3), layout="constrained"

@@ -96,13 +96,25 @@ TEST_F(SceneReliefsTest, HeightsOfEightAndSixteenBitsAndNormalsOfTheSameWavesSou
     EXPECT_EQ(levelOf(""), 0.0);
 }
 
-TEST_F(SceneReliefsTest, TheFirstRowOfAnImageLiesWhereTheSecondAxisLeadsFurthest) {
+TEST_F(SceneReliefsTest, TheRowsOfAnImageLeadAlongTheSecondAxisAndGreenNormalsAgainstIt) {
     writeImage("ramp.png", LCT_GREY, 16, 1,
                [](unsigned, unsigned row, std::size_t) { return row < rows / 2 ? 1.0 : 0.0; });
     const headless::SceneRelief relief{.image = "ramp.png", .sizeMetres = {0.1, 0.1}, .depthMetres = 0.001};
     const effects::ReliefMap map = readRelief(relief, 0.0, at("scene.json").string());
-    EXPECT_NEAR(map.heightMetres({0.5, 0.75}), 0.001, 1e-6);
-    EXPECT_NEAR(map.heightMetres({0.5, 0.25}), 0.0, 1e-6);
+    EXPECT_NEAR(map.heightMetres({0.5, 0.25}), 0.001, 1e-6);
+    EXPECT_NEAR(map.heightMetres({0.5, 0.75}), 0.0, 1e-6);
+
+    // Highest at the image's rim: down from there the normals lean down, which is less green.
+    writeImage("waves.png", LCT_RGB, 8, 3, [](unsigned, unsigned row, std::size_t channel) {
+        const double slope = 0.4 * std::sin(2.0 * std::numbers::pi * (row + 0.5) / rows);
+        const std::array<double, 3> normal{0.0, -slope, 1.0};
+        return 0.5 + 0.5 * normal[channel] / std::hypot(slope, 1.0);
+    });
+    const headless::SceneRelief waves{
+        .image = "waves.png", .isNormalMap = true, .sizeMetres = {0.1, 0.1}, .depthMetres = 0.001};
+    const effects::ReliefMap integrated = readRelief(waves, 0.0, at("scene.json").string());
+    EXPECT_NEAR(integrated.heightMetres({0.5, 0.0}), 0.001, 2e-5);
+    EXPECT_NEAR(integrated.heightMetres({0.5, 0.5}), 0.0, 2e-5);
 }
 
 TEST_F(SceneReliefsTest, AnImageThatCannotBeReadIsNamed) {
