@@ -4,6 +4,7 @@ import { setFlagsFromString } from 'node:v8';
 import { runInNewContext } from 'node:vm';
 import { field, fieldCount } from '../../Web/engine/js/contact-fields.mjs';
 import { Core, createMemory } from '../../Web/engine/js/module.mjs';
+import { makeRelief } from '../../Web/engine/js/relief.mjs';
 import { engineModule, modelBytes, startOrt } from './support/engine.mjs';
 
 // An audio worklet's globals, so that its processors run in Node.
@@ -133,14 +134,17 @@ test('the worker generates, the audio thread plays it, and nothing is late at th
 
 test('the audio thread allocates nothing in ten thousand blocks', async () => {
   const engine = await liveEngine(qualities.sketch);
+  const relief = makeRelief(engine.worker, { columns: 2, rows: 1, heightsMetres: Float32Array.of(0, 1e-4), sizeMetres: [0.002, 0.002], depthMetres: 1e-4 });
+  const ribs = { effects: 1 + 0x200, relief, reliefShare: 0.5 };
   const samples = new SharedArrayBuffer(4 * 4800);
   const counter = new SharedArrayBuffer(4);
   engine.processor.port.onmessage({ data: { tap: { samples, counter } } });
   // Compiling what runs often allocates, once.
   for (let block = 0; block < 20000; block += 1) {
-    if (block % 5 === 0 && block < 3000) engine.publish({});
+    if (block % 5 === 0 && block < 3000) engine.publish({ ...ribs, reliefPlace: block / 25 });
     engine.play();
   }
+  assert.ok(engine.statistics().effects.relief.runs > 1000);
   collectGarbage();
   const memoryBefore = engine.worker.memory.buffer.byteLength;
   // Node's own work beside may allocate in some of the windows.

@@ -205,6 +205,82 @@ if (isLong) describe('a ring whose worker is busy', { skip: !hasBrowser }, () =>
   });
 });
 
+describe('a relief', { skip: !hasBrowser }, () => {
+  before(async () => {
+    opened = await openPage();
+  });
+  after(() => opened.close());
+
+  for (const sharing of ['shared', 'ring']) {
+    test(`sounds with sharing "${sharing}", is the same one after the worker was lost, and ends when it is destroyed`, async () => {
+      const found = await inPage(async (way) => {
+        const { started, hand, pause } = globalThis.tools;
+        const { haptics, voice } = await started({ sharing: way, quality: 'sketch' });
+        voice.effects = { texture: false, impact: false, edge: false };
+        const ribs = (depthMetres) => ({ columns: 128, rows: 1, heightsMetres: Float32Array.from({ length: 128 }, (_, index) => depthMetres * [0, 0.5, 1, 0.5][index % 4]), sizeMetres: [0.064, 0.064], depthMetres });
+        const others = [await haptics.createRelief(ribs(1e-6)), await haptics.createRelief(ribs(1e-6))];
+        const relief = await haptics.createRelief(ribs(1e-4));
+        // What is destroyed leaves its number behind, which a new engine knows nothing of.
+        others[0].destroy();
+        const table = { surfaces: [{ name: 'table', shape: { box: { size: [1, 0.02, 1] } }, material: 'wood' }] };
+        const scene = haptics.loadScene(table);
+        scene.setRelief('table', relief);
+        const tap = voice.waveTap();
+        const began = performance.now();
+        // To and fro at 0.1 m/s, for longer where a busy machine lets states come too late.
+        const level = async (wanted = 0) => {
+          const published = { publish: () => {
+            const seconds = (performance.now() - began) / 1000;
+            scene.publish(voice, { timeSeconds: seconds, positionMetres: [0.1 * Math.abs((seconds % 2) - 1), 0.0105, 0], forceNewtons: 1 });
+          } };
+          let loudest = 0;
+          for (let time = 0; time < 10 && (time === 0 || loudest < wanted); time += 1) {
+            await hand(published, 1, () => null);
+            const wave = new Float32Array(19200);
+            tap.latest(wave);
+            loudest = 200 * Math.max(...wave.map(Math.abs));
+          }
+          return loudest;
+        };
+        const levels = [await level(1.5)];
+        const recovered = new Promise((resolve) => haptics.addEventListener('recovered', resolve));
+        haptics[Symbol.for('haptoflow.worker')].terminate();
+        await recovered;
+        levels.push(await level(1.5));
+        relief.destroy();
+        await pause(200);
+        levels.push(await level());
+        scene.setRelief('table', others[1]);
+        levels.push(await level(2e-3));
+        const refusal = await haptics.createRelief({ ...ribs(1e-4), depthMetres: 0 }).catch(({ code }) => code);
+        await haptics.close();
+        return { levels, refusal };
+      }, sharing);
+      const [first, recovered, destroyed, other] = found.levels;
+      assert.ok(first > 1 && recovered > 1, `${found.levels} m/s^2`);
+      assert.ok(destroyed < 1e-4, `${found.levels} m/s^2`);
+      assert.ok(other > 1e-3 && other < first / 10, `${found.levels} m/s^2`);
+      assert.equal(found.refusal, 'INVALID_ARGUMENT');
+    });
+  }
+
+  test('sounds of a state that names it, without a scene', async () => {
+    const level = await inPage(async () => {
+      const { started, hand } = globalThis.tools;
+      const { haptics, voice } = await started({ quality: 'sketch' });
+      const relief = await haptics.createRelief({ columns: 128, rows: 1, heightsMetres: Float32Array.from({ length: 128 }, (_, index) => [0, 5e-5, 1e-4, 5e-5][index % 4]), sizeMetres: [0.064, 0.064], depthMetres: 1e-4 });
+      const tap = voice.waveTap();
+      const effects = { texture: false, impact: false, edge: false };
+      await hand(voice, 1, (seconds) => ({ touching: true, material: 'wood', velocityMps: [0.1, 0], forceNewtons: 1, effects, relief, reliefPlace: [(0.1 * seconds) / 0.064, 0] }));
+      const wave = new Float32Array(19200);
+      tap.latest(wave);
+      await haptics.close();
+      return 200 * Math.max(...wave.map(Math.abs));
+    });
+    assert.ok(level > 1, `${level} m/s^2`);
+  });
+});
+
 describe('silences and contact', { skip: !hasBrowser }, () => {
   before(async () => {
     opened = await openPage();

@@ -52,6 +52,22 @@ test('what is seen is what is touched: every object of the workbench is drawn wh
   assert.deepEqual([...seen].sort(), meshes.surfaces.map(({ name }) => name).sort());
 });
 
+test('the shading of a relief lies just above its box, and runs along x and z from the box\'s middle', () => {
+  const shading = new three.MeshBasicMaterial();
+  const scene = { surfaces: [{ name: 'desk', material: 'wood', shape: { box: { size: [0.5, 0.02, 0.3] } }, position: [0, -0.01, 0] }], stylus: { tip_radius: 0.001 } };
+  const bench = new Bench({ three, scene, poses: open(scene), looks: { material: () => new three.MeshBasicMaterial() }, shadings: new Map([['desk', shading]]) });
+  bench.group.updateMatrixWorld(true);
+  const [face] = bench.group.children[0].children;
+  assert.equal(face.material, shading);
+  const { position, uv } = face.geometry.attributes;
+  for (let index = 0; index < uv.count; index += 1) {
+    const place = face.localToWorld(new three.Vector3().fromBufferAttribute(position, index));
+    assert.ok(place.y > 0 && place.y < 0.0005);
+    // The room's z is the scene's, mirrored.
+    assert.ok(Math.abs(uv.getX(index) - place.x) < 1e-6 && Math.abs(uv.getY(index) + place.z) < 1e-6);
+  }
+});
+
 test('a picture has its true size on every face of a box', () => {
   const { uv, normal } = geometryOf(three, { box: { size: [0.5, 0.02, 0.3] } }).attributes;
   const spans = new Map();

@@ -46,20 +46,23 @@ test('the live page offers the headset, loads three.js only on entering, and sho
       };
       const { table } = haptoflowPage;
       const index = table.scene.surfaces.findIndex(({ name }) => name === 'paper sheet');
+      let isFelt = false;
       // The first frames may come while the headset is still made ready.
       for (let time = 0; time < 5 && table.materials[index] !== 'sandpaper'; time += 1) {
         await hold([0, 0.3, 0]);
         await hold([position[0], position[1] + 0.0035 * Math.sin(0.4), position[2] - 0.0035 * Math.cos(0.4)]);
         await hold([0.062, 0.0003, -0.112]);
+        isFelt = isFelt || haptoflowPage.haptics.voices.some((voice) => voice.statistics().effects.relief.isAskedFor);
         device.controllers.right.updateButtonValue('trigger', 1);
         await hold([0.062, 0.0003, -0.112]);
         device.controllers.right.updateButtonValue('trigger', 0);
       }
       await device.activeSession.end();
       await frames(600, () => !document.querySelector('#enter-vr').disabled);
-      return { material: table.materials[index], isDisabled: document.querySelector('#enter-vr').disabled };
+      return { isFelt, material: table.materials[index], isDisabled: document.querySelector('#enter-vr').disabled };
     });
     assert.equal(painted.material, 'sandpaper');
+    assert.equal(painted.isFelt, true, 'the embossed word of the paper');
     assert.equal(painted.isDisabled, false);
     assert.deepEqual(complaints, []);
     assert.deepEqual(strangers, []);

@@ -18,6 +18,8 @@ import { Recorder } from './recorder.mjs';
 import { Ears } from './ears.mjs';
 import { Scope } from './scope.mjs';
 import { Fills } from './table/fills.mjs';
+import { ProfileView } from './table/profile.mjs';
+import { layerOf, reliefsOf } from './table/reliefs.mjs';
 import { TableView } from './table/table-view.mjs';
 import { Table } from './table/table.mjs';
 
@@ -75,14 +77,19 @@ class Page {
   #shownRingFrames = NaN;
   /** Null where the browser cannot draw it. @type {Scope | null} */
   scope = null;
+  profile = new ProfileView();
   /** Lets a voice follow the page's controls. @type {(voice: import('../engine/js/haptoflow.d.ts').Voice) => void} */
   adopt;
 
-  /** @param {HaptoFlow} haptics @param {any} scene @param {any} looks @param {TableView} view @param {Table} table @param {Fills} fills @param {Tip[]} tips @param {string} fileName of the model that was given, or '' */
-  constructor(haptics, scene, looks, view, table, fills, tips, fileName) {
+  /**
+   * @param {HaptoFlow} haptics @param {any} scene @param {any} looks @param {TableView} view @param {Table} table @param {Fills} fills @param {Tip[]} tips
+   * @param {(scene: import('../engine/js/haptoflow.d.ts').Scene) => void} layReliefs @param {string} fileName of the model that was given, or ''
+   */
+  constructor(haptics, scene, looks, view, table, fills, tips, layReliefs, fileName) {
     this.haptics = haptics;
     this.scene = scene;
     this.looks = looks;
+    this.layReliefs = layReliefs;
     this.view = view;
     this.table = table;
     this.tips = tips;
@@ -281,6 +288,7 @@ class Page {
           looks: this.looks,
           onPaint: ({ surface, material }) => this.paint(this.scene.surfaces.findIndex((/** @type {any} */ { name }) => name === surface), material),
           onVoice: this.adopt,
+          onScene: this.layReliefs,
           onEnd: ({ message, posesPerSecond }) => {
             button.disabled = false;
             this.device.posesPerSecond = posesPerSecond;
@@ -344,6 +352,7 @@ class Page {
 
   #showReading() {
     const tip = this.tips.find(({ isDown, contact }) => isDown && contact?.touching);
+    this.profile.frame(tip?.contact ?? null);
     if (!tip?.contact) return '';
     const name = this.#nameOf(tip.contact.surfaceIndex);
     const heading = find('#reading-name');
@@ -371,7 +380,8 @@ try {
   const movingScene = matchMedia('(prefers-reduced-motion: reduce)').matches ? withoutMotion(plainScene) : plainScene;
   const table = new Table(movingScene);
   const fills = new Fills(looks.labels);
-  const view = new TableView(find('#table'), table, looks, fills);
+  const reliefs = reliefsOf(movingScene, looks);
+  const view = new TableView(find('#table'), table, looks, fills, reliefs);
   // The table is there before the engine is.
   view.draw(0, []);
   given = await keptModel();
@@ -380,13 +390,15 @@ try {
   const { scene, lacking } = fittedTo(movingScene, haptics.labels);
   table.materials = scene.surfaces.map((/** @type {any} */ surface) => surface.material);
   view.refresh();
+  const layReliefs = await layerOf(haptics, reliefs);
   const tips = [];
   for (let index = 0; index < tipCount; index += 1) {
     const contactScene = haptics.loadScene(scene);
+    layReliefs(contactScene);
     tips.push(new Tip(table, await haptics.openVoice(), contactScene));
     table.follow(contactScene);
   }
-  const page = new Page(haptics, scene, looks, view, table, fills, tips, given?.name ?? '');
+  const page = new Page(haptics, scene, looks, view, table, fills, tips, layReliefs, given?.name ?? '');
   page.run();
   if (lacking.length > 0) messages.show(`This model has no ${lacking.join(', ')}: these objects are of other materials.`);
   // For tests and for the curious at the console.

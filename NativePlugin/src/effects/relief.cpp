@@ -89,13 +89,17 @@ void Relief::follow(const ReliefContact& contact) noexcept {
     for (std::size_t side = 0; side < 2; ++side) {
         contact_.place[side] = finite(contact.place[side], -1e9, 1e9);
         missing[side] = contact_.place[side] - place_[side];
-        // A mesh may go on at the opposite rim of a tile.
-        missing[side] -= description.isTiled ? std::round(missing[side]) : 0.0;
     }
-    const double missingMetres =
-        std::hypot(missing[0] * description.sizeMetres[0], missing[1] * description.sizeMetres[1]);
+    const double farthest = std::max(jumpMetres, 3.0 * speedMps_ * seconds);
+    const auto isTooFar = [&missing, &size = description.sizeMetres, farthest] {
+        return std::hypot(missing[0] * size[0], missing[1] * size[1]) > farthest;
+    };
+    if (description.isTiled && isTooFar()) {
+        // A mesh may go on at the opposite rim of a tile.
+        std::ranges::for_each(missing, [](double& tiles) { tiles -= std::round(tiles); });
+    }
     const bool isAtRest = isIdle_ && contact_.speedMps == 0.0;
-    if (isOtherMap || isAtRest || missingMetres > std::max(jumpMetres, 3.0 * speedMps_ * seconds)) {
+    if (isOtherMap || isAtRest || isTooFar()) {
         place_ = contact_.place;
         stepsLeft_ = 0;
         resolution_ = 0.0;

@@ -58,7 +58,7 @@ void Synthesis::spliceInto(std::span<float> unit) noexcept {
         const float left = static_cast<float>(leavingLeft_) / static_cast<float>(leavingSamples + 1);
         const float come = 1.0F - left;
         const float mixed = left * leaving_[leavingSamples - leavingLeft_] + come * sample;
-        sample = limitedOrZero(mixed / std::hypot(left, come), unitLimit);
+        sample = limitedOrZero(mixed / std::sqrt(left * left + come * come), unitLimit);
         --leavingLeft_;
     }
 }

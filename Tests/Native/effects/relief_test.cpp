@@ -236,6 +236,18 @@ TEST(ReliefTest, APlaceThatIsToldInAnotherTileIsTheSame) {
     }
 }
 
+TEST(ReliefTest, ATileThatIsShorterThanTheWayBetweenTwoStatesIsFeltAtItsRate) {
+    // One wave of 2 mm; at 72 states a second each is 1.4 mm from the one before.
+    const ReliefMap map =
+        mapOf([](double x, double) { return 1e-4 * (1.0 + std::cos(wholeTurn * x / 0.002)); }, 0.0, 32, 0.002);
+    Stroke stroke{.map = &map, .velocityMps = {0.1, 0.0}};
+    const std::vector<float> wave = played(stroke, 2.0);
+    EXPECT_GT(amplitudeAt(std::span(wave).last(48000), 50.0), 9.9);
+    stroke.velocityMps = {-0.1, 0.0};
+    const std::vector<float> back = played(stroke, 2.0);
+    EXPECT_NEAR(decibels(rms(settled(back)) / rms(settled(wave))), 0.0, 0.5);
+}
+
 TEST(ReliefTest, NothingOfItIsAboveAKilohertzAtAnySpeed) {
     const ReliefMap map = noiseMap();
     for (const double speed : {0.05, 0.3, 1.0, 5.0}) {

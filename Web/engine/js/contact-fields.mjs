@@ -1,25 +1,28 @@
 import { HaptoFlowError } from './errors.mjs';
+import { usualShare } from './relief.mjs';
 
 // The fields of a contact state as the module reads them (stateFrom in native/web_engine.cpp).
 
-export const fieldCount = 33;
+export const fieldCount = 37;
 export const field = {
   touching: 0, touchCounter: 1, labelCount: 2, labels: 3, weights: 7, velocity: 11, force: 13, approachSpeed: 14, effects: 15,
   edgeCounter: 16, edgeHeight: 17, landingCounter: 18, spatialScale: 19, tone: 20, hasPlace: 21, surfaceSeed: 22, place: 23,
-  firstAxis: 26, secondAxis: 29, variation: 32,
+  firstAxis: 26, secondAxis: 29, variation: 32, relief: 33, reliefPlace: 34, reliefShare: 36,
 };
 export const maximumBlend = 4;
-const effectBits = { texture: 1, impact: 2, edge: 4, nothing: 0x80000000 };
+const effectBits = { texture: 1, impact: 2, edge: 4, relief: 0x200, nothing: 0x80000000 };
 const alongX = /** @type {const} */ ([1, 0, 0]);
 const alongZ = /** @type {const} */ ([0, 0, 1]);
+const origin = /** @type {const} */ ([0, 0]);
 
 /**
  * The bits of a choice of effects; what is missing sounds.
  * @param {import('./haptoflow.d.ts').EffectChoice} choice
  * @param {boolean} [usually] what a missing entry means
  */
-export function effectMask({ texture, impact, edge }, usually = true) {
-  const mask = ((texture ?? usually) ? effectBits.texture : 0) | ((impact ?? usually) ? effectBits.impact : 0) | ((edge ?? usually) ? effectBits.edge : 0);
+export function effectMask({ texture, impact, edge, relief }, usually = true) {
+  const mask = ((texture ?? usually) ? effectBits.texture : 0) | ((impact ?? usually) ? effectBits.impact : 0)
+    | ((edge ?? usually) ? effectBits.edge : 0) | ((relief ?? usually) ? effectBits.relief : 0);
   return mask || effectBits.nothing;
 }
 
@@ -95,4 +98,9 @@ export function writeState(state, usualEffects, fields) {
     put(fields, field.secondAxis, state.secondAxis ?? alongZ);
   }
   fields[field.variation] = state.variation ?? 0;
+  fields[field.relief] = state.relief?.number ?? 0;
+  if (state.relief) {
+    put(fields, field.reliefPlace, state.reliefPlace ?? origin);
+    fields[field.reliefShare] = state.reliefShare ?? usualShare;
+  }
 }

@@ -1,4 +1,5 @@
 import { effectMask, field, fieldCount } from './contact-fields.mjs';
+import { makeRelief } from './relief.mjs';
 
 // What each effect adds to a block: a voice plays the same stroke with it and without it, in turns, and the quickest of each
 // count, since other programs only ever make a run slower.
@@ -10,12 +11,16 @@ const blocksPerState = 5;
 const statesPerRun = 60;
 const runs = 7;
 
-const texture = { texture: true, impact: false, edge: false };
+const texture = { texture: true, impact: false, edge: false, relief: false };
+/** Ribs 2 mm apart. */
+const ribs = { columns: 128, rows: 1, heightsMetres: Float32Array.from({ length: 128 }, (_, index) => [0, 5e-5, 1e-4, 5e-5][index % 4]), sizeMetres: /** @type {[number, number]} */ ([0.064, 0.064]), depthMetres: 1e-4 };
+const speedMps = 0.15;
 
 /** @type {{effect: string, effects?: object, set?: [string, number], actuator?: string}[]} */
 const subjects = [
   { effect: 'impact', effects: { ...texture, impact: true } },
   { effect: 'edge', effects: { ...texture, edge: true } },
+  { effect: 'relief', effects: { ...texture, relief: true } },
   { effect: 'delay', set: ['delay', 0.02] },
   { effect: 'compensation', actuator: 'voice-coil' },
   { effect: 'listen', set: ['listen', 1] },
@@ -28,6 +33,7 @@ class Player {
     this.fields = core.allocate(8 * fieldCount);
     this.samples = core.allocate(4 * blockFrames);
     this.counter = 0;
+    this.relief = makeRelief(core, ribs);
   }
 
   /** A voice with what a subject asks for. */
@@ -42,10 +48,11 @@ class Player {
   play(/** @type {number} */ voice, /** @type {number} */ effects) {
     const { core } = this;
     let spent = 0;
+    const mapsPerState = (speedMps * blocksPerState * blockFrames) / rateHz / ribs.sizeMetres[0];
     for (let state = 0; state < statesPerRun; state += 1) {
       const at = this.fields >> 3;
       this.counter += state % 10 === 0 ? 1 : 0;
-      const values = { touching: 1, touchCounter: this.counter, labelCount: 1, weights: 1, velocity: 0.15, force: 1, approachSpeed: 0.2, effects, edgeCounter: this.counter, edgeHeight: 0.001, spatialScale: 1 };
+      const values = { touching: 1, touchCounter: this.counter, labelCount: 1, weights: 1, velocity: speedMps, force: 1, approachSpeed: 0.2, effects, edgeCounter: this.counter, edgeHeight: 0.001, spatialScale: 1, relief: this.relief, reliefPlace: state * mapsPerState, reliefShare: 0.5 };
       for (const [name, value] of Object.entries(values)) core.f64[at + /** @type {any} */ (field)[name]] = value;
       core.call('hapto_voice_publish', voice, this.fields);
       core.call('hapto_engine_turn', 0);

@@ -5,6 +5,7 @@ import { engineModule, modelBytes, placesOf } from './files.mjs';
 import { Live } from './live.mjs';
 import { Core, createMemory } from './module.mjs';
 import { OutputWatch } from './output-watch.mjs';
+import { fullRelief, Relief } from './relief.mjs';
 import { Scene } from './scene.mjs';
 import { runTask } from './task.mjs';
 import { Voice } from './voice.mjs';
@@ -80,6 +81,11 @@ export class HaptoFlow extends EventTarget {
   #voices = new Set();
   /** Texts of added materials by name, for recoveries. @type {Map<string, string>} */
   #materials = new Map();
+  /** Reliefs by their own numbers, and the numbers that the present engine has for those. @type {Map<number, Relief>} */
+  #reliefs = new Map();
+  /** @type {Map<number, number>} */
+  #reliefNumbers = new Map();
+  #newestRelief = 0;
   /** @type {Quality} */
   #quality;
   /** @type {any} the worker's last statistics */
@@ -253,6 +259,7 @@ export class HaptoFlow extends EventTarget {
       ringFrames: this.#firstRingFrames,
       fullScaleMps2: this.#options.fullScaleMps2 ?? 200,
       live: () => this.#live,
+      reliefNumber: (number) => this.#reliefNumbers.get(number) ?? 0,
       onFault: (error) => void this.#recover(error),
       forget: (closed) => {
         this.#voices.delete(closed);
@@ -277,6 +284,24 @@ export class HaptoFlow extends EventTarget {
     this.#materials.set(name, text);
     this.#setLabels(labels);
     return labels.find((/** @type {any} */ label) => label.name === name);
+  }
+
+  /** @param {import('./haptoflow.d.ts').ReliefOptions} options */
+  async createRelief(options) {
+    const full = fullRelief(options);
+    const number = await this.#ask({ type: 'relief', relief: full });
+    this.#newestRelief += 1;
+    const relief = new Relief(full, this.#newestRelief, (destroyed) => this.#destroyRelief(destroyed));
+    this.#reliefs.set(relief.number, relief);
+    this.#reliefNumbers.set(relief.number, number);
+    return relief;
+  }
+
+  #destroyRelief(/** @type {Relief} */ relief) {
+    const number = this.#reliefNumbers.get(relief.number);
+    this.#reliefs.delete(relief.number);
+    this.#reliefNumbers.delete(relief.number);
+    if (number !== undefined) this.#live.tell({ type: 'destroy-relief', number });
   }
 
   /** @param {string | object} scene */
@@ -388,7 +413,7 @@ export class HaptoFlow extends EventTarget {
     }
   }
 
-  /** Makes a new engine with the same voices and materials. */
+  /** Makes a new engine with the same voices, materials and reliefs. */
   async #recover(/** @type {HaptoFlowError} */ error) {
     if (this.#isClosed || this.#recovering) return;
     if (!this.#model) return;
@@ -416,10 +441,12 @@ export class HaptoFlow extends EventTarget {
 
   async #startAgain() {
     this.#live.end();
+    this.#reliefNumbers.clear();
     this.#live = this.#newLive();
     await this.#live.start({ model: this.#modelBytes, options: this.#engineOptions, onProgress: () => {} });
     // In the order of their indices, which scenes hold.
     for (const text of this.#materials.values()) await this.#live.ask({ type: 'material', text, replaced: -1 });
+    for (const [number, relief] of this.#reliefs) this.#reliefNumbers.set(number, await this.#live.ask({ type: 'relief', relief }));
     for (const voice of this.#voices) await voice.attach();
   }
 

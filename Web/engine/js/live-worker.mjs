@@ -1,5 +1,6 @@
 import { Core, createMemory } from './module.mjs';
 import { asHaptoFlowError, plainError } from './errors.mjs';
+import { makeRelief } from './relief.mjs';
 import { startRuntime } from './runtime.mjs';
 
 // The worker of a live engine: it loads model and tiers, generates segments, and where memory is not shared renders, too.
@@ -72,6 +73,8 @@ class LiveWorker {
       case 'start': return this.#start(request);
       case 'quality': return this.core.call('hapto_engine_set_quality', request.quality);
       case 'material': return this.#addMaterial(request);
+      case 'relief': return makeRelief(this.core, request.relief);
+      case 'destroy-relief': return this.core.call('hapto_relief_destroy', request.number);
       case 'open-voice': return this.#openVoice(request);
       case 'close-voice': return this.#closeVoice(request.voice);
       case 'ring': return this.#lengthenRing(request);

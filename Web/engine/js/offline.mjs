@@ -2,6 +2,7 @@ import { distribution } from './distribution.mjs';
 import { HaptoFlowError } from './errors.mjs';
 import { Core, createMemory } from './module.mjs';
 import { pause } from './pause.mjs';
+import { makeRelief, usualShare } from './relief.mjs';
 
 // What takes seconds: renders, learning, measuring. In a browser in a worker of its own (offline-worker.mjs), in Node here.
 
@@ -26,15 +27,26 @@ const texture = { texture: true, impact: false, edge: false };
  * @returns {import('./haptoflow.d.ts').Render}
  */
 export function render(core, options) {
-  const { scene, stroke, quality = '', seed = 1, leadMs = 8, rateHz = 48000, effects = texture, listen = false, actuator = null, delayMs = 0, fullScaleMps2 = 200, materials = [] } = options;
-  const figures = core.json('hapto_render', JSON.stringify({
-    scene: typeof scene === 'string' ? scene : JSON.stringify(scene),
-    stroke, quality, seed, leadMs, rateHz, effects, listen, fullScaleMps2, materials,
-    actuator: actuator ?? '',
-    delaySeconds: delayMs / 1000,
-  }));
-  const first = core.exports.hapto_samples() >> 2;
-  return { ...figures, samples: core.f32.slice(first, first + core.exports.hapto_sample_count()) };
+  const { scene, stroke, quality = '', seed = 1, leadMs = 8, rateHz = 48000, effects = texture, listen = false, actuator = null, delayMs = 0, fullScaleMps2 = 200, materials = [], reliefs = {} } = options;
+  /** @type {{surface: string, number: number, along: number, across: number, share: number}[]} */
+  const laid = [];
+  try {
+    for (const [surface, relief] of Object.entries(reliefs)) {
+      const [along, across] = relief.sizeMetres;
+      laid.push({ surface, number: makeRelief(core, relief), along, across, share: relief.share ?? usualShare });
+    }
+    const figures = core.json('hapto_render', JSON.stringify({
+      scene: typeof scene === 'string' ? scene : JSON.stringify(scene),
+      stroke, quality, seed, leadMs, rateHz, effects, listen, fullScaleMps2, materials,
+      reliefs: laid,
+      actuator: actuator ?? '',
+      delaySeconds: delayMs / 1000,
+    }));
+    const first = core.exports.hapto_samples() >> 2;
+    return { ...figures, samples: core.f32.slice(first, first + core.exports.hapto_sample_count()) };
+  } finally {
+    for (const { number } of laid) core.call('hapto_relief_destroy', number);
+  }
 }
 
 /** Copies floats in; 0 for none. */

@@ -1,5 +1,6 @@
 import { effectMask, field, fieldCount } from './contact-fields.mjs';
 import { HaptoFlowError } from './errors.mjs';
+import { usualShare } from './relief.mjs';
 
 const tipNumbers = 7;
 const readingNumbers = 9;
@@ -11,6 +12,7 @@ const emptyContact = () => ({
   timeSeconds: 0, touching: false, surfaceIndex: -1, surfaceName: '', penetrationMetres: 0, contactMetres: [0, 0, 0], normal: [0, 1, 0],
   velocityMps: [0, 0], forceNewtons: 0, approachSpeedMps: 0, touchCounter: 0, landingCounter: 0, edgeCounter: 0, edgeHeightMetres: 0,
   spatialScale: 1, toneDbPerOctave: 0, variation: 0, surfaceSeed: 0, placeMetres: [0, 0, 0], firstAxis: [0, 0, 0], secondAxis: [0, 0, 0],
+  relief: null, reliefPlace: [0, 0], reliefShare: 0,
 });
 
 /** The command line's contact model; see haptoflow.d.ts. */
@@ -23,6 +25,8 @@ export class Scene {
   #contact = emptyContact();
   /** @type {any[]} */
   #surfaces;
+  /** By a surface's index. @type {(import('./relief.mjs').Relief | null)[]} */
+  #reliefs = [];
   #updateRateHz;
   #isClosed = false;
 
@@ -90,6 +94,9 @@ export class Scene {
     copy(contact.firstAxis, at + field.firstAxis);
     copy(contact.secondAxis, at + field.secondAxis);
     contact.variation = numbers[at + field.variation];
+    contact.relief = numbers[at + field.relief] === 0 ? null : this.#reliefs[numbers[reading + 1]];
+    copy(contact.reliefPlace, at + field.reliefPlace);
+    contact.reliefShare = numbers[at + field.reliefShare];
     contact.timeSeconds = numbers[reading];
     contact.surfaceIndex = numbers[reading + 1];
     contact.surfaceName = this.#surfaces[contact.surfaceIndex]?.name ?? '';
@@ -115,14 +122,31 @@ export class Scene {
     return contact;
   }
 
+  #surfaceOf(/** @type {number | string} */ surface) {
+    this.#requireOpen();
+    const found = this.#surfaces.find(({ index, name }) => index === surface || name === surface);
+    if (!found) throw new HaptoFlowError('invalid-argument', `the scene has no surface ${JSON.stringify(surface)}`);
+    return found;
+  }
+
+  /**
+   * @param {number | string} surface
+   * @param {import('./relief.mjs').Relief | null} relief
+   * @param {{share?: number}} [options]
+   */
+  setRelief(surface, relief, { share = usualShare } = {}) {
+    const { index } = this.#surfaceOf(surface);
+    const [along, across] = relief?.sizeMetres ?? [1, 1];
+    this.#core.call('hapto_scene_set_relief', this.#index, index, relief?.number ?? 0, along, across, share);
+    this.#reliefs[index] = relief;
+  }
+
   /**
    * @param {number | string} surface
    * @param {{material?: import('./haptoflow.d.ts').Material, spatialScale?: number, toneDbPerOctave?: number, variation?: number}} change
    */
   setSurface(surface, { material, spatialScale = NaN, toneDbPerOctave = NaN, variation = NaN }) {
-    this.#requireOpen();
-    const found = this.#surfaces.find(({ index, name }) => index === surface || name === surface);
-    if (!found) throw new HaptoFlowError('invalid-argument', `the scene has no surface ${JSON.stringify(surface)}`);
+    const found = this.#surfaceOf(surface);
     const fields = new Float64Array(fieldCount);
     if (material !== undefined) this.#indices.write(material, fields);
     const core = this.#core;

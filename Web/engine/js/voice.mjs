@@ -22,6 +22,7 @@ const fadeMs = 30;
  * @property {number} ringFrames
  * @property {number} fullScaleMps2
  * @property {() => import('./live.mjs').Live} live
+ * @property {(number: number) => number} reliefNumber the present engine's number of a relief; 0 for none
  * @property {(error: HaptoFlowError) => void} onFault
  * @property {(voice: Voice) => void} forget
  */
@@ -185,9 +186,12 @@ export class Voice {
       const at = this.#address >> 3;
       // A view for `set` would be garbage of every frame.
       for (let index = 0; index < fieldCount; index += 1) shared[at + index] = numbers[first + index];
+      shared[at + field.relief] = this.#host.reliefNumber(numbers[first + field.relief]);
       core.exports.hapto_voice_publish(this.#index, this.#address);
     } else if (this.#index >= 0) {
-      this.#host.live().tell({ type: 'publish', voice: this.#index, fields: numbers.slice(first, first + fieldCount) });
+      const fields = numbers.slice(first, first + fieldCount);
+      fields[field.relief] = this.#host.reliefNumber(fields[field.relief]);
+      this.#host.live().tell({ type: 'publish', voice: this.#index, fields });
     }
   }
 

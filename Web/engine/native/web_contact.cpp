@@ -51,6 +51,24 @@ ResolvedScene resolveScene(const std::string& text, const KnownMaterials& materi
     return resolved;
 }
 
+void layRelief(engine::ContactState& surface, std::uint32_t number, double alongMetres, double acrossMetres,
+               double share) {
+    surface.relief = number;
+    // Tiles of a metre, as headless::propertiesOf leaves them for headless::stateOf.
+    surface.reliefPlace = {static_cast<float>(1.0 / alongMetres), static_cast<float>(1.0 / acrossMetres)};
+    surface.reliefShare = static_cast<float>(share);
+}
+
+engine::TimedContactState stateOf(const headless::ContactReading& reading, const ResolvedScene& scene,
+                                  effects::EffectMask effects) {
+    constexpr effects::EffectMask relief = effects::maskOf(effects::EffectKind::relief);
+    engine::TimedContactState state = headless::stateOf(reading, scene.surfaces, effects & ~relief);
+    if ((effects & relief) == 0) {
+        state.effects &= ~relief;
+    }
+    return state;
+}
+
 }  // namespace haptoflow::web
 
 namespace {
@@ -113,7 +131,9 @@ void writeState(const engine::ContactState& state, double* fields) {
     out.putAll(state.placeMetres);
     out.putAll(state.firstAxis);
     out.putAll(state.secondAxis);
-    out.put(state.variation);
+    out.put(state.variation, state.relief);
+    out.putAll(state.reliefPlace);
+    out.put(state.reliefShare);
 }
 
 }  // namespace
@@ -159,7 +179,7 @@ HAPTO_EXPORT HAPTO_NAMED("hapto_scene_update") int hapto_scene_update(int index,
             sample.forceNewtons = tip[5];
         }
         const headless::ContactReading found = open.tracker.update(sample);
-        writeState(headless::stateOf(found, open.resolved.surfaces, static_cast<effects::EffectMask>(tip[6])), fields);
+        writeState(stateOf(found, open.resolved, static_cast<effects::EffectMask>(tip[6])), fields);
         FieldWriter out(reading);
         out.put(found.timeSeconds, found.surfaceIndex, found.penetrationMetres);
         out.putAll(found.pointMetres);
@@ -187,6 +207,17 @@ HAPTO_EXPORT HAPTO_NAMED("hapto_scene_set_surface") int hapto_scene_set_surface(
                 state.material.add(static_cast<std::uint32_t>(labels[entry]), static_cast<float>(weights[entry]));
             }
         }
+        return 0;
+    });
+}
+
+/// `number`: of a relief, which may be that of another memory; 0 for none.
+HAPTO_EXPORT HAPTO_NAMED("hapto_scene_set_relief") int hapto_scene_set_relief(int index, int surface,
+                                                                              std::uint32_t number, double alongMetres,
+                                                                              double acrossMetres, double share) {
+    return guarded([&] {
+        layRelief(sceneAt(index).resolved.surfaces.at(static_cast<std::size_t>(surface)), number, alongMetres,
+                  acrossMetres, share);
         return 0;
     });
 }

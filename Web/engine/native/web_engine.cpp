@@ -143,6 +143,9 @@ haptoflow_contact_state stateFrom(const double* field) {
     std::generate(std::begin(state.first_axis), std::end(state.first_axis), nextFloat);
     std::generate(std::begin(state.second_axis), std::end(state.second_axis), nextFloat);
     state.variation = nextFloat();
+    state.relief = nextCount();
+    std::generate(std::begin(state.relief_place), std::end(state.relief_place), nextFloat);
+    state.relief_share = nextFloat();
     return state;
 }
 
@@ -294,6 +297,36 @@ HAPTO_EXPORT HAPTO_NAMED("hapto_material_add") int hapto_material_add(const char
     });
 }
 
+/// Returns the relief's number in this memory, above 0. The heights are copied.
+HAPTO_EXPORT HAPTO_NAMED("hapto_relief_create") int hapto_relief_create(const float* heightsMetres,
+                                                                        std::uint32_t columns, std::uint32_t rows,
+                                                                        int isTiled, float alongMetres,
+                                                                        float acrossMetres, float depthMetres,
+                                                                        float tipRadiusMetres) {
+    return guarded([&] {
+        auto options = sized<haptoflow_relief_options>();
+        options.columns = columns;
+        options.rows = rows;
+        options.is_tiled = isTiled != 0 ? 1 : 0;
+        options.heights_metres = heightsMetres;
+        options.size_metres[0] = alongMetres;
+        options.size_metres[1] = acrossMetres;
+        options.depth_metres = depthMetres;
+        options.tip_radius_metres = tipRadiusMetres;
+        haptoflow_relief relief = 0;
+        require(haptoflow_relief_create(&options, &relief));
+        return static_cast<int>(relief);
+    });
+}
+
+HAPTO_EXPORT HAPTO_NAMED("hapto_relief_destroy") int hapto_relief_destroy(int number) {
+    return guarded([&] {
+        auto relief = static_cast<haptoflow_relief>(number);
+        require(haptoflow_relief_destroy(&relief));
+        return 0;
+    });
+}
+
 HAPTO_EXPORT HAPTO_NAMED("hapto_voice_create") int hapto_voice_create(double rateHz) {
     return guarded([&] {
         std::size_t place = newestPlace;
@@ -411,6 +444,7 @@ HAPTO_EXPORT HAPTO_NAMED("hapto_voice_statistics") const char* hapto_voice_stati
                         {{"texture", effectJson(voice, HAPTOFLOW_EFFECT_TEXTURE)},
                          {"impact", effectJson(voice, HAPTOFLOW_EFFECT_IMPACT)},
                          {"edge", effectJson(voice, HAPTOFLOW_EFFECT_EDGE)},
+                         {"relief", effectJson(voice, HAPTOFLOW_EFFECT_RELIEF)},
                          {"delay", effectJson(voice, HAPTOFLOW_EFFECT_DELAY)},
                          {"compensation", effectJson(voice, HAPTOFLOW_EFFECT_COMPENSATION)},
                          {"listen", effectJson(voice, HAPTOFLOW_EFFECT_LISTEN)}}}});

@@ -83,7 +83,22 @@ effects::EffectMask effectsOf(const json& options) {
     for (const auto& [name, kind] : kinds) {
         mask |= options.at("effects").value(name, false) ? effects::maskOf(kind) : 0U;
     }
-    return mask;
+    // As at the command line: where a surface has one.
+    return options.at("effects").value("relief", true) ? mask | effects::maskOf(effects::EffectKind::relief) : mask;
+}
+
+void layReliefs(const json& reliefs, ResolvedScene& resolved) {
+    for (const json& relief : reliefs) {
+        const auto name = relief.at("surface").get<std::string>();
+        const auto& surfaces = resolved.scene.surfaces;
+        const auto found = std::ranges::find(surfaces, name, &headless::SceneSurface::name);
+        if (found == surfaces.end()) {
+            throw WebError("invalid-argument", "reliefs: the scene has no surface \"" + name + '"');
+        }
+        layRelief(resolved.surfaces[static_cast<std::size_t>(found - surfaces.begin())],
+                  relief.at("number").get<std::uint32_t>(), relief.at("along").get<double>(),
+                  relief.at("across").get<double>(), relief.at("share").get<double>());
+    }
 }
 
 engine::OfflineSettings settingsOf(const json& options, const model::ModelHeader& header) {
@@ -118,8 +133,9 @@ std::string render(const json& options) {
     const auto open = openModel();
     const model::ModelHeader& header = open->model.header();
     const engine::OfflineSettings settings = settingsOf(options, header);
-    const ResolvedScene resolved =
+    ResolvedScene resolved =
         resolveScene(options.at("scene").get<std::string>(), knownMaterials(header, settings.materials));
+    layReliefs(options.at("reliefs"), resolved);
     const std::string name = "stroke";
     const auto text = options.at("stroke").get<std::string>();
     const headless::Stroke stroke = headless::parseStroke(text, name);
@@ -139,7 +155,7 @@ std::string render(const json& options) {
         if (frame % framesPerReport == 0) {
             hapto_progress(static_cast<double>(frame) / static_cast<double>(frames), "rendering");
         }
-        return headless::stateOf(tracker.update(tip), resolved.surfaces, effects);
+        return stateOf(tracker.update(tip), resolved, effects);
     };
     samples.clear();
     MemorySink sink;

@@ -4,6 +4,7 @@ const effects = /** @type {const} */ ([
   ['texture', 'the material while the tip slides'],
   ['impact', 'the knock of a landing'],
   ['edge', 'the tick of a rim'],
+  ['relief', 'gaps, grout and letters of the surface'],
 ]);
 
 /** Effects: on or off, how often they ran, and what they cost. */
@@ -11,7 +12,7 @@ export class EffectsPanel {
   #haptics;
   #messages;
   #body = find('#effects');
-  #choice = { texture: true, impact: true, edge: true };
+  #choice = { texture: true, impact: true, edge: true, relief: true };
 
   /** @param {import('../../engine/js/haptoflow.d.ts').HaptoFlow} haptics @param {import('../messages.mjs').Messages} messages */
   constructor(haptics, messages) {

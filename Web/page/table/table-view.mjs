@@ -1,4 +1,5 @@
 import { tileMetres } from './fills.mjs';
+import { shadingOf } from './reliefs.mjs';
 
 const marginMetres = 0.012;
 const trailLength = 40;
@@ -21,9 +22,18 @@ export class TableView {
   #trails = [];
   /** Index of the outlined object, -1 for none. */
   selected = -1;
+  /** Pictures of reliefs, and what a texel of each is long. @type {Map<string, {picture: HTMLCanvasElement, scale: DOMMatrix}>} */
+  #shadings = new Map();
 
-  /** @param {HTMLCanvasElement} canvas @param {import('./table.mjs').Table} table @param {any} looks @param {import('./fills.mjs').Fills} fills */
-  constructor(canvas, table, looks, fills) {
+  /**
+   * @param {HTMLCanvasElement} canvas @param {import('./table.mjs').Table} table @param {any} looks @param {import('./fills.mjs').Fills} fills
+   * @param {Map<string, import('./reliefs.mjs').SurfaceRelief>} reliefs by names of surfaces
+   */
+  constructor(canvas, table, looks, fills, reliefs) {
+    for (const [name, relief] of reliefs) {
+      const { columns, rows, sizeMetres: [x, z] } = relief;
+      this.#shadings.set(name, { picture: shadingOf(relief), scale: new DOMMatrix([x / columns, 0, 0, -z / rows, 0, 0]) });
+    }
     this.#canvas = canvas;
     this.#table = table;
     this.#looks = looks;
@@ -141,11 +151,22 @@ export class TableView {
     context.restore();
     const main = typeof material === 'string' ? material : Object.entries(material).sort((a, b) => b[1] - a[1])[0][0];
     this.#shade(context, top, this.#fills.look(main).picture);
+    this.#drawRelief(context, top.name);
     if (!isDesk) {
       context.lineWidth = pixel;
       context.strokeStyle = 'rgb(255 255 255 / 0.35)';
       context.stroke();
     }
+  }
+
+  /** Fills the outline with the light and shade of its heights. */
+  #drawRelief(/** @type {CanvasRenderingContext2D} */ context, /** @type {string} */ name) {
+    const shading = this.#shadings.get(name);
+    if (!shading) return;
+    const pattern = /** @type {CanvasPattern} */ (context.createPattern(shading.picture, 'repeat'));
+    pattern.setTransform(shading.scale);
+    context.fillStyle = pattern;
+    context.fill();
   }
 
   #drawStill() {

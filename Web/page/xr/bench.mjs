@@ -3,6 +3,8 @@ import { mirrorPosition, mirrorRotation, mirrorTriangle } from './frames.mjs';
 // The scene's objects for three.js, in metres; `three` is its namespace, which is loaded only in a headset.
 
 const planeMetres = 20;
+/** Enough for a headset's depths to tell two faces apart. */
+const aboveMetres = 0.0002;
 const emptyPose = () => ({ position: [0, 0, 0], rotation: [0, 0, 0, 1] });
 
 /** Stretches texture coordinates from 0..1 to metres, so that every object shows a picture at its true size. */
@@ -25,6 +27,16 @@ function alongTheLength(geometry) {
 function boxOf(three, { size: [x, y, z] }) {
   const facing = (nx, ny) => (Math.abs(nx) > 0.5 ? [z, y] : Math.abs(ny) > 0.5 ? [x, z] : [x, y]);
   return scaleToMetres(new three.BoxGeometry(x, y, z), facing);
+}
+
+/** A face just above a box's upper one, with texture coordinates in metres, 0 in its middle: x and the scene's z. */
+function shadedTop(three, { size: [x, y, z] }, material) {
+  const geometry = new three.PlaneGeometry(x, z).rotateX(-Math.PI / 2);
+  const { uv } = geometry.attributes;
+  for (let index = 0; index < uv.count; index += 1) uv.setXY(index, (uv.getX(index) - 0.5) * x, (uv.getY(index) - 0.5) * z);
+  const face = new three.Mesh(geometry, material);
+  face.position.y = y / 2 + aboveMetres;
+  return face;
 }
 
 function meshOf(three, { vertices, triangles }) {
@@ -66,14 +78,16 @@ export class Bench {
    * @param {object} parts.scene SCENE.json
    * @param {import('../../engine/js/haptoflow.d.ts').Scene} parts.poses the same surfaces, perhaps with others after them
    * @param {{material: (material: string | Record<string, number>) => any}} parts.looks
+   * @param {Map<string, any>} [parts.shadings] by names of boxes: what lies over their upper faces, for texture coordinates in metres
    */
-  constructor({ three, scene, poses, looks }) {
+  constructor({ three, scene, poses, looks, shadings = new Map() }) {
     this.#looks = looks;
     this.#poses = poses;
     this.group = new three.Group();
     this.#objects = new Map(scene.surfaces.map((surface, index) => {
       const mesh = new three.Mesh(geometryOf(three, surface.shape), looks.material(surface.material));
       mesh.name = surface.name;
+      if (shadings.has(surface.name)) mesh.add(shadedTop(three, surface.shape.box, shadings.get(surface.name)));
       this.group.add(mesh);
       return [surface.name, { mesh, index, isMoving: Boolean(surface.motion), pose: emptyPose(), mirrored: emptyPose() }];
     }));

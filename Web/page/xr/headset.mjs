@@ -21,16 +21,17 @@ export async function headsetIsPossible() {
  *   `message` is for people, empty where nothing is wrong
  * @param {(paint: {surface: string, material: string}) => void} [options.onPaint]
  * @param {(voice: import('../../engine/js/haptoflow.d.ts').Voice) => void} [options.onVoice] gets each hand's voice before it sounds
+ * @param {(scene: import('../../engine/js/haptoflow.d.ts').Scene) => void} [options.onScene] gets each hand's scene before it is touched
  * @param {number} [options.newtonsAtFullPressure] the force at which a pen's tip reports 1; a guess of 1 N unless given
  * @returns {Promise<import('./visit.mjs').Visit>} `end()` leaves, `rates()` says how often poses come
  */
-export async function enterHeadset({ haptics, scene, looks, onEnd = () => {}, onPaint = () => {}, onVoice = () => {}, newtonsAtFullPressure = defaultNewtonsAtFullPressure }) {
+export async function enterHeadset({ haptics, scene, looks, onEnd = () => {}, onPaint = () => {}, onVoice = () => {}, onScene = () => {}, newtonsAtFullPressure = defaultNewtonsAtFullPressure }) {
   // Both need the gesture, which loading would outlast. Sound may come later than sight.
   haptics.resume().catch(() => {});
   const session = await navigator.xr.requestSession('immersive-vr', { requiredFeatures: ['local-floor'], optionalFeatures: ['hand-tracking'] });
   try {
     const [three, { Visit }] = await Promise.all([import('../three/three.module.js'), import('./visit.mjs')]);
-    return await Visit.begin({ haptics, scene, looks, three, session, newtonsAtFullPressure, onEnd, onPaint, onVoice });
+    return await Visit.begin({ haptics, scene, looks, three, session, newtonsAtFullPressure, onEnd, onPaint, onVoice, onScene });
   } catch (error) {
     await session.end().catch(() => {});
     throw error;

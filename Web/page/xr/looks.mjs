@@ -1,4 +1,5 @@
 import { Fills, tileMetres } from '../table/fills.mjs';
+import { shadingOf } from '../table/reliefs.mjs';
 
 // Materials of labels for three.js, with the pictures of the table.
 
@@ -37,6 +38,15 @@ export class Looks {
     const made = new this.#three.MeshLambertMaterial({ map });
     this.#materials.set(key, made);
     return made;
+  }
+
+  /** The light and shade of a relief, for texture coordinates in metres. @param {import('../table/reliefs.mjs').SurfaceRelief} relief */
+  shading(relief) {
+    const map = this.#texture(shadingOf(relief));
+    map.wrapS = this.#three.RepeatWrapping;
+    map.wrapT = this.#three.RepeatWrapping;
+    map.repeat.set(1 / relief.sizeMetres[0], 1 / relief.sizeMetres[1]);
+    return new this.#three.MeshBasicMaterial({ map, transparent: true, depthWrite: false });
   }
 
   /** A picture with the label's name below it, for texture coordinates from 0 to 1. */

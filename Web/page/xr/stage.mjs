@@ -1,6 +1,7 @@
 import { Bench, geometryOf } from './bench.mjs';
 import { boardTop, swatches, swatchMetres } from './board.mjs';
 import { mirrorPosition, mirrorRotation } from './frames.mjs';
+import { reliefsOf } from '../table/reliefs.mjs';
 import { Looks } from './looks.mjs';
 import { Panel, panelMetres } from './panel.mjs';
 import { Pens } from './pens.mjs';
@@ -51,7 +52,8 @@ export class Stage {
     // One looks at a tip from near by.
     this.#camera = new three.PerspectiveCamera(50, 1, 0.02, 60);
     this.#looks = new Looks(three, looks);
-    this.#bench = new Bench({ three, scene, poses, looks: this.#looks });
+    const shadings = new Map([...reliefsOf(scene, looks)].map(([name, relief]) => [name, this.#looks.shading(relief)]));
+    this.#bench = new Bench({ three, scene, poses, looks: this.#looks, shadings });
     this.#pens = new Pens(three, 2);
     this.panel = new Panel(three);
     this.#workbench = new three.Group();

@@ -52,7 +52,7 @@ export class Visit {
   ended;
 
   /** @param {any} parts see `enterHeadset`; `three` is the namespace, `session` is running */
-  static async begin({ haptics, scene, looks, three, session, newtonsAtFullPressure, onEnd, onPaint, onVoice }) {
+  static async begin({ haptics, scene, looks, three, session, newtonsAtFullPressure, onEnd, onPaint, onVoice, onScene }) {
     const labels = haptics.labels.map(({ name }) => name);
     const board = withBoard(scene, labels);
     const opened = [];
@@ -63,7 +63,10 @@ export class Visit {
     }, { once: true });
     try {
       for (let side = 0; side < 2; side += 1) opened.push(await openHand(haptics, board.scene));
-      for (const { voice } of opened) onVoice(voice);
+      for (const hand of opened) {
+        onVoice(hand.voice);
+        onScene(hand.scene);
+      }
       stage = new Stage({ three, scene, poses: opened[0].scene, looks, labels });
       await stage.renderer.xr.setSession(session);
       if (hasEnded) throw new Error('the headset was left while it loaded');
