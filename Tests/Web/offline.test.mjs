@@ -44,7 +44,7 @@ test('impacts, edges, listening, compensation and delay give the command line\'s
   const words = ['--quality', 'sketch', '--effects', 'texture,impact,edge', '--listen', '--actuator', 'voice-coil', '--delay-ms', '20', '--full-scale', '100'];
   const found = difference(web.samples, nativeSamples('taps', words));
   // The speed of an edge is rounded to single precision, and what ears hear of it is ten times as loud.
-  assert.ok(found < 2e-6, `difference ${found}`);
+  assert.ok(found < 4e-6, `difference ${found}`);
 });
 
 test('a second render of the same seed gives the same bytes, another seed others', () => {

@@ -53,7 +53,7 @@ haptoflow_status haptoflow_relief_destroy(haptoflow_relief* relief) {
 }
 
 haptoflow_status haptoflow_relief_heights_of_normals(const float* normals, uint32_t columns, uint32_t rows,
-                                                     const float size_metres[2], uint32_t is_tiled,
+                                                     const float* size_metres, uint32_t is_tiled,
                                                      float* heights_metres) {
     return guarded([&] {
         (void)require(normals, "normals");

@@ -167,6 +167,11 @@ TEST(ArgumentTest, NullPointersAreRefusedByEveryFunction) {
     haptoflow_learning* noLearning = nullptr;
     haptoflow_material* noMaterial = nullptr;
     haptoflow_voice noVoice = 0;
+    haptoflow_relief noRelief = 0;
+    auto reliefOptions = sized<haptoflow_relief_options>();
+    reliefOptions.heights_metres = data;
+    reliefOptions.columns = reliefOptions.rows = 1;
+    reliefOptions.size_metres[0] = reliefOptions.size_metres[1] = reliefOptions.depth_metres = 0.001F;
     // The outputs of a learning handle: see LearningApiTest.
     const auto* const learning = invented<haptoflow_learning>(1);
 
@@ -223,6 +228,9 @@ TEST(ArgumentTest, NullPointersAreRefusedByEveryFunction) {
     REFUSES_NULLS(haptoflow_wave_features_reset, nullptr);
     REFUSES_NULLS(haptoflow_wave_features_set_range, nullptr, 100.0, 200.0);
     REFUSES_NULLS(haptoflow_wave_features_process, features, data, 1, &frame, 1, &length);
+    REFUSES_NULLS(haptoflow_relief_create, &reliefOptions, &noRelief);
+    REFUSES_NULLS(haptoflow_relief_destroy, nullptr);
+    REFUSES_NULLS(haptoflow_relief_heights_of_normals, data, 1, 1, data, 1, data);
     REFUSES_NULLS(haptoflow_device_share, HAPTOFLOW_DEVICE_MOTOR, 1.0F, nullptr);
     REFUSES_NULLS(haptoflow_device_wave_create, 8000.0, nullptr);
     REFUSES_NULLS(haptoflow_device_wave_close, nullptr);
@@ -251,7 +259,7 @@ TEST(ArgumentTest, NullPointersAreRefusedByEveryFunction) {
     EXPECT_EQ(called, declared) << "each pointer of each function of the header has a call";
     EXPECT_TRUE(noRuntime == nullptr && noModel == nullptr && noGenerator == nullptr && noEngine == nullptr &&
                 noFeatures == nullptr && noRecording == nullptr && noLearning == nullptr && noMaterial == nullptr &&
-                noVoice == 0);
+                noVoice == 0 && noRelief == 0);
     EXPECT_EQ(haptoflow_material_close(&material), HAPTOFLOW_OK);
     EXPECT_EQ(haptoflow_generator_close(&generator), HAPTOFLOW_OK);
     EXPECT_EQ(haptoflow_wave_features_close(&features), HAPTOFLOW_OK);
