@@ -652,7 +652,8 @@ HAPTOFLOW_API haptoflow_status haptoflow_relief_destroy(haptoflow_relief* relief
 /* Writes the heights in metres of a normal map, columns * rows, row by row, of which the lowest is 0. normals: three
  * numbers for each texel, of any length: along the columns, along the rows, out of the surface. size_metres: length of
  * the map along its columns and its rows. The heights are those whose slopes differ least from the normals' (Frankot
- * and Chellappa 1988); a map that is not tiled is mirrored at its rims for that. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. [any-thread] */
+ * and Chellappa 1988); a map that is not tiled is mirrored at its rims for that. Errors: INVALID_ARGUMENT,
+ * OUT_OF_MEMORY. [any-thread] */
 HAPTOFLOW_API haptoflow_status haptoflow_relief_heights_of_normals(const float* normals, uint32_t columns,
                                                                    uint32_t rows, const float* size_metres,
                                                                    uint32_t is_tiled, float* heights_metres);
