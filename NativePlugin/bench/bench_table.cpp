@@ -129,7 +129,7 @@ std::vector<Table> tables() {
                       {"engine", "/first/engine_ms"}}})}};
 }
 
-/// The entries of a section, one for each row of its table.
+/// The JSON objects of a report's section from which the rows of its table are made, in the order of the rows.
 Json entriesOf(const Json& report, const std::string& key) {
     const Json& section = report[key];
     if (key == "inference_ms") {

@@ -20,6 +20,13 @@ std::array<float, 3> toFloats(const glm::dvec3& vector) {
 
 }  // namespace
 
+void layRelief(engine::ContactState& surface, std::uint32_t number, std::array<double, 2> sizeMetres, double share) {
+    surface.relief = number;
+    // Tiles of a metre, which stateOf multiplies by the place.
+    surface.reliefPlace = {static_cast<float>(1.0 / sizeMetres[0]), static_cast<float>(1.0 / sizeMetres[1])};
+    surface.reliefShare = static_cast<float>(share);
+}
+
 std::vector<engine::ContactState> propertiesOf(const Scene& scene, const IndexOfMaterial& indexOf,
                                                const std::string& sceneName, const NumberOfRelief& numberOf) {
     std::vector<engine::ContactState> surfaces;
@@ -35,11 +42,7 @@ std::vector<engine::ContactState> propertiesOf(const Scene& scene, const IndexOf
         properties.variation = static_cast<float>(surface.variation);
         properties.surfaceSeed = surface.seed;
         if (surface.relief && numberOf) {
-            properties.relief = numberOf(surface);
-            // Tiles of a metre, which stateOf multiplies by the place.
-            properties.reliefPlace = {static_cast<float>(1.0 / surface.relief->sizeMetres[0]),
-                                      static_cast<float>(1.0 / surface.relief->sizeMetres[1])};
-            properties.reliefShare = static_cast<float>(surface.relief->share);
+            layRelief(properties, numberOf(surface), surface.relief->sizeMetres, surface.relief->share);
         }
         for (const auto& [name, weight] : surface.material) {
             properties.material.add(indexOf(name), static_cast<float>(weight));

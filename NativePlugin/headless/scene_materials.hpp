@@ -8,6 +8,7 @@
 #include "model/material_file.hpp"
 #include "model/model_file.hpp"
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -24,6 +25,10 @@ using IndexOfMaterial = std::function<std::uint32_t(const std::string& name)>;
 
 /// The number by which contact states name the relief of a surface, which has one.
 using NumberOfRelief = std::function<std::uint32_t(const SceneSurface& surface)>;
+
+/// Lays a relief on the state of a surface, for `stateOf`: along the axes of the tip's velocity, 0 at the origin of the
+/// surface's frame. The number 0 takes it away. `sizeMetres`: of one tile.
+void layRelief(engine::ContactState& surface, std::uint32_t number, std::array<double, 2> sizeMetres, double share);
 
 /// A state with the material, feature scale, tone, variation and relief of each surface, in the scene's order. Without
 /// `numberOf` there is no relief. Throws InputError for a blend of too many labels.

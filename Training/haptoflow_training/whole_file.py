@@ -86,7 +86,7 @@ def check_writable(path: Path) -> None:
 
 
 def read_toml(path: Path, expected: str) -> dict[str, Any]:
-    """The content of a TOML file; InputError with what was expected if it cannot be read as one."""
+    """Reads a TOML file. Raises InputError, which says what was `expected`, if the file cannot be read or is not TOML."""
     try:
         return tomllib.loads(path.read_text(encoding="utf-8"))
     except OSError as error:

@@ -115,8 +115,8 @@ async function training({ all }) {
 }
 
 /**
- * The package's C# against the shim: all of it as players run it, two projects at once, and in the long form what must not
- * allocate as the editor runs it.
+ * The package's C# against the shim. All projects run in Release, as in a player. The long form also runs the tests of garbage
+ * in Debug, which the editor runs.
  */
 const managed = [
   { configuration: 'Release', target: 'HaptoFlow.slnx', projects: ['Tests', 'EditorTests', 'MissingLibraryTests', 'WrongLibraryTests'] },

@@ -26,14 +26,10 @@ haptoflow_status haptoflow_relief_create(const haptoflow_relief_options* options
         const auto given = readDescriptor(options, "options");
         (void)require(relief, "relief");
         (void)require(given.heights_metres, "heights_metres");
-        const std::size_t texels = std::size_t{given.columns} * given.rows;
-        if (texels > effects::ReliefMap::maximumTexels) {
-            throw std::invalid_argument("a relief has at most " + std::to_string(effects::ReliefMap::maximumTexels) +
-                                        " texels, not " + std::to_string(given.columns) + " x " +
-                                        std::to_string(given.rows) + "; use a smaller map");
-        }
+        // Before any of the heights is read.
+        effects::ReliefMap::requireTexels(given.columns, given.rows);
         *relief = engine::reliefs().add(std::make_shared<const effects::ReliefMap>(
-            std::span(given.heights_metres, texels),
+            std::span(given.heights_metres, std::size_t{given.columns} * given.rows),
             effects::ReliefDescription{.columns = given.columns,
                                        .rows = given.rows,
                                        .sizeMetres = sizeOf(given.size_metres),
@@ -59,13 +55,9 @@ haptoflow_status haptoflow_relief_heights_of_normals(const float* normals, uint3
         (void)require(normals, "normals");
         (void)require(size_metres, "size_metres");
         (void)require(heights_metres, "heights_metres");
-        const std::size_t texels = std::size_t{columns} * rows;
-        if (texels == 0 || texels > effects::ReliefMap::maximumTexels) {
-            throw std::invalid_argument("a normal map has 1 to " + std::to_string(effects::ReliefMap::maximumTexels) +
-                                        " texels, not " + std::to_string(columns) + " x " + std::to_string(rows));
-        }
+        effects::ReliefMap::requireTexels(columns, rows);
         const auto heights = effects::heightsOfNormals(
-            std::span(normals, 3 * texels), columns, rows,
+            std::span(normals, std::size_t{3} * columns * rows), columns, rows,
             {static_cast<double>(size_metres[0]), static_cast<double>(size_metres[1])}, is_tiled != 0);
         std::ranges::copy(heights, heights_metres);
     });

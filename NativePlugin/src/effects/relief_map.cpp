@@ -12,20 +12,6 @@ namespace {
 /// A tip feels up to 1 kHz; a texel that passes in less than this is averaged with its neighbours.
 constexpr double mostTexelsPerSecond = 3000.0;
 
-void requireSize(std::uint32_t columns, std::uint32_t rows, std::size_t numbers, std::array<double, 2> sizeMetres) {
-    const auto isLength = [](double metres) { return metres > 0.0 && metres <= 1e4; };
-    if (columns == 0 || rows == 0 || std::size_t{columns} * rows > ReliefMap::maximumTexels) {
-        throw std::invalid_argument("a relief has 1 to " + std::to_string(ReliefMap::maximumTexels) + " texels, not " +
-                                    std::to_string(columns) + " x " + std::to_string(rows));
-    }
-    if (numbers != std::size_t{columns} * rows) {
-        throw std::invalid_argument("a relief needs a height for each of its texels");
-    }
-    if (!isLength(sizeMetres[0]) || !isLength(sizeMetres[1])) {
-        throw std::invalid_argument("a relief's size is above 0 and at most 10 km along both sides");
-    }
-}
-
 std::int64_t wrapped(std::int64_t index, std::int64_t count, bool isTiled) noexcept {
     if (!isTiled) {
         return std::clamp<std::int64_t>(index, 0, count - 1);
@@ -159,9 +145,24 @@ std::array<double, 4> splineWeights(double fraction) noexcept {
 
 }  // namespace
 
+void ReliefMap::requireTexels(std::uint32_t columns, std::uint32_t rows) {
+    if (columns == 0 || rows == 0 || std::size_t{columns} * rows > maximumTexels) {
+        throw std::invalid_argument("a relief has 1 to " + std::to_string(maximumTexels) + " texels, not " +
+                                    std::to_string(columns) + " x " + std::to_string(rows) +
+                                    "; use a map of another size");
+    }
+}
+
 ReliefMap::ReliefMap(std::span<const float> heightsMetres, const ReliefDescription& description)
     : description_(description) {
-    requireSize(description.columns, description.rows, heightsMetres.size(), description.sizeMetres);
+    requireTexels(description.columns, description.rows);
+    if (heightsMetres.size() != std::size_t{description.columns} * description.rows) {
+        throw std::invalid_argument("a relief needs a height for each of its texels");
+    }
+    const auto isLength = [](double metres) { return metres > 0.0 && metres <= 1e4; };
+    if (!std::ranges::all_of(description.sizeMetres, isLength)) {
+        throw std::invalid_argument("a relief's size is above 0 and at most 10 km along both sides");
+    }
     if (!(description.depthMetres > 0.0 && description.depthMetres <= 1.0)) {
         throw std::invalid_argument("a relief's depth is above 0 and at most 1 m");
     }

@@ -32,6 +32,9 @@ class ReliefMap {
 public:
     static constexpr std::size_t maximumTexels = std::size_t{3} << 20U;
 
+    /// Throws std::invalid_argument for a map without or with too many texels.
+    static void requireTexels(std::uint32_t columns, std::uint32_t rows);
+
     /// `heightsMetres`: columns * rows, row by row, the first row at v = 0. Throws std::invalid_argument for a map
     /// without or with too many texels, a size or depth that is not above 0, and numbers that are not finite.
     ReliefMap(std::span<const float> heightsMetres, const ReliefDescription& description);

@@ -67,7 +67,7 @@ struct ContactState {
     std::uint32_t relief = 0;
     /// Where the contact point lies in the map, 0 to 1 over it.
     std::array<float, 2> reliefPlace{};
-    /// Share of the full scale that the relief may reach.
+    /// The relief's largest amplitude as a share of the full scale, so that the texture keeps the rest.
     float reliefShare = 0.0F;
 
     [[nodiscard]] bool hasEffect(effects::EffectKind kind) const noexcept {

@@ -51,10 +51,10 @@ public:
     void setBatch(std::size_t batch);
     /// Whether the graph has the input at this position of the signature.
     [[nodiscard]] bool hasInput(std::size_t input) const { return present_.at(input); }
-    /// Buffer of the input at this position of the signature, batch * its size numbers. May be written even if the
-    /// graph lacks the input, and then has no effect.
+    /// Buffer of the input at this position of the signature, one row for each member of the batch. It may be written
+    /// even if the graph lacks the input, and then has no effect.
     [[nodiscard]] std::span<float> input(std::size_t input);
-    /// batch * the output's size numbers, valid after `run`.
+    /// What the last `run` computed, one row for each member of the batch.
     [[nodiscard]] std::span<const float> output() const noexcept;
     /// Throws InferenceError.
     void run() {

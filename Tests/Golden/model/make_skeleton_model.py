@@ -113,7 +113,7 @@ def golden_case(sketch: SkeletonModel, refined: SkeletonModel, number: int) -> d
     phases = torch.cat([torch.rand(1, 3, generator=generator), torch.tensor([rates])], dim=1)
     previous = size * torch.randn(1, 1, 200, generator=generator)
     noise = torch.randn(1, 1, 200, generator=generator)
-    # What the skeleton has made beneath what was played.
+    # The skeleton's own share of what was played, without the network's corrections.
     own = size * torch.randn(1, 1, 200, generator=generator)
     motion, phases, previous, noise, own = (each.double() for each in (motion, phases, previous, noise, own))
     # Nothing rings on from before.

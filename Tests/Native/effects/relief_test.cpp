@@ -2,6 +2,7 @@
 
 #include "effects/relief_normals.hpp"
 #include "support/counting_new.hpp"
+#include "support/wave_measures.hpp"
 
 #include <gtest/gtest.h>
 
@@ -84,11 +85,7 @@ std::vector<float> played(const Stroke& stroke, double seconds, Relief* relief =
 }
 
 double rms(std::span<const float> wave) {
-    double squares = 0.0;
-    for (const float sample : wave) {
-        squares += static_cast<double>(sample) * static_cast<double>(sample);
-    }
-    return std::sqrt(squares / static_cast<double>(wave.size()));
+    return std::pow(10.0, haptoflow::testing::levelDecibels(wave) / 20.0);
 }
 std::span<const float> settled(const std::vector<float>& wave) {
     return std::span(wave).subspan(wave.size() / 4);
@@ -151,11 +148,7 @@ ReliefMap stepMap(double heightMetres) {
 }
 
 double largest(std::span<const float> wave) {
-    float most = 0.0F;
-    for (const float sample : wave) {
-        most = std::max(most, std::abs(sample));
-    }
-    return static_cast<double>(most);
+    return static_cast<double>(haptoflow::testing::peak(wave));
 }
 
 TEST(ReliefTest, AStepIsFeltMoreStronglyWhereItIsHigherAndWhereTheTipIsFaster) {

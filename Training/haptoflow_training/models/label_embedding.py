@@ -159,14 +159,15 @@ class SurfaceWaves(nn.Module):
         return torch.stack(cosines, dim=2), torch.stack(sines, dim=2)
 
 
-# Numbers that `rate_features` makes of the phases.
+# `rate_features` has two numbers for each family of waves: the size of its rate and its direction.
 RATE_FEATURES = 2 * FAMILIES
 _TURNING_HZ = 20.0
 
 
 def rate_features(phases: Tensor) -> Tensor:
-    """[B, 6]: of each family's rate the size on a logarithmic scale, and the direction, which turns smoothly through
-    rest. What a surface's waves sound like depends on their rates, not on the speed alone."""
+    """[B, 6]: the sizes of the three families' rates on a logarithmic scale, then their directions from -1 to 1, which
+    pass smoothly through 0 at rest. The network needs rates because they, and not the speed alone, decide how a
+    surface's waves sound."""
     rates = phases[:, FAMILIES : 2 * FAMILIES].detach()
     return torch.cat([rate_sizes(rates), rates / (rates.abs() + _TURNING_HZ)], dim=1)
 

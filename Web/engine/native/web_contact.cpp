@@ -51,14 +51,6 @@ ResolvedScene resolveScene(const std::string& text, const KnownMaterials& materi
     return resolved;
 }
 
-void layRelief(engine::ContactState& surface, std::uint32_t number, double alongMetres, double acrossMetres,
-               double share) {
-    surface.relief = number;
-    // Tiles of a metre, as headless::propertiesOf leaves them for headless::stateOf.
-    surface.reliefPlace = {static_cast<float>(1.0 / alongMetres), static_cast<float>(1.0 / acrossMetres)};
-    surface.reliefShare = static_cast<float>(share);
-}
-
 engine::TimedContactState stateOf(const headless::ContactReading& reading, const ResolvedScene& scene,
                                   effects::EffectMask effects) {
     constexpr effects::EffectMask relief = effects::maskOf(effects::EffectKind::relief);
@@ -216,8 +208,8 @@ HAPTO_EXPORT HAPTO_NAMED("hapto_scene_set_relief") int hapto_scene_set_relief(in
                                                                               std::uint32_t number, double alongMetres,
                                                                               double acrossMetres, double share) {
     return guarded([&] {
-        layRelief(sceneAt(index).resolved.surfaces.at(static_cast<std::size_t>(surface)), number, alongMetres,
-                  acrossMetres, share);
+        headless::layRelief(sceneAt(index).resolved.surfaces.at(static_cast<std::size_t>(surface)), number,
+                            {alongMetres, acrossMetres}, share);
         return 0;
     });
 }

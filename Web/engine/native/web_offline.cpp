@@ -95,9 +95,10 @@ void layReliefs(const json& reliefs, ResolvedScene& resolved) {
         if (found == surfaces.end()) {
             throw WebError("invalid-argument", "reliefs: the scene has no surface \"" + name + '"');
         }
-        layRelief(resolved.surfaces[static_cast<std::size_t>(found - surfaces.begin())],
-                  relief.at("number").get<std::uint32_t>(), relief.at("along").get<double>(),
-                  relief.at("across").get<double>(), relief.at("share").get<double>());
+        headless::layRelief(resolved.surfaces[static_cast<std::size_t>(found - surfaces.begin())],
+                            relief.at("number").get<std::uint32_t>(),
+                            {relief.at("along").get<double>(), relief.at("across").get<double>()},
+                            relief.at("share").get<double>());
     }
 }
 

@@ -31,11 +31,6 @@ struct ResolvedScene {
 /// Reads SCENE.json. Throws headless::InputError, also for a material that is not known, with the nearest names.
 [[nodiscard]] ResolvedScene resolveScene(const std::string& text, const KnownMaterials& materials);
 
-/// Lays a relief on a surface as those of scene files lie: along the axes of the tip's velocity, 0 at the origin of the
-/// surface's frame. The number 0 takes it away.
-void layRelief(engine::ContactState& surface, std::uint32_t number, double alongMetres, double acrossMetres,
-               double share);
-
 /// headless::stateOf, without the relief unless it is among the effects.
 [[nodiscard]] engine::TimedContactState stateOf(const headless::ContactReading& reading, const ResolvedScene& scene,
                                                 effects::EffectMask effects);

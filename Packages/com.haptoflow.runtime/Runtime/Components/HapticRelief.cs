@@ -65,7 +65,7 @@ namespace HaptoFlow
             set => Change(ref sizeMetres, value);
         }
 
-        /// <summary>Range of the heights, 0.01 to 20 mm.</summary>
+        /// <summary>Distance from the lowest to the highest possible height, 0.01 to 20 mm.</summary>
         public float DepthMillimetres
         {
             get => depthMillimetres;

@@ -3,7 +3,8 @@ using System;
 
 namespace HaptoFlow.Numerics
 {
-    /// <summary>A position or direction in double precision, in Unity's left-handed, y-up frame.</summary>
+    /// <summary>A position or direction in Unity's left-handed frame with y up. Its numbers are doubles, so that a hand's
+    /// motion stays precise far from the origin.</summary>
     /// <remarks>Single precision is not sufficient for contact: at 10 m from the origin its resolution is 1 micrometre,
     /// which is a tenth of a millimetre a second of velocity noise from one frame to the next at 90 Hz.</remarks>
     internal readonly struct Double3 : IEquatable<Double3>

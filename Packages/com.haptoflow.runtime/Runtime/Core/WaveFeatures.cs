@@ -76,8 +76,8 @@ namespace HaptoFlow.Outputs
         /// <summary>Discards the state before a new wave.</summary>
         public void Reset() => handle.Check(NativeMethods.WaveFeaturesReset(handle.Value));
 
-        /// <summary>Sets the device's frequency range from the next frame on, above 0 to 1000 Hz; equal limits for a
-        /// motor of one frequency.</summary>
+        /// <summary>Sets the frequencies that the device can play, from the next frame on: above 0, at most 1000 Hz. Equal
+        /// limits stand for a motor with a single frequency.</summary>
         public void SetRange(double minimumHz, double maximumHz) =>
             handle.Check(NativeMethods.WaveFeaturesSetRange(handle.Value, minimumHz, maximumHz));
 

@@ -182,7 +182,8 @@ def contact_from_height(frequency_hz: float, damping: float, rate_hz: float) -> 
 
 
 def absorption(db_per_octave: float, rate_hz: float) -> Section:
-    """A tilt of `db_per_octave` between 20 Hz and 1 kHz, 0 dB at 100 Hz: pole-zero pairs an octave apart."""
+    """A filter whose gain changes by `db_per_octave` from 20 Hz to 1 kHz and is 0 dB at 100 Hz, made of pairs of a pole and
+    a zero, an octave apart."""
     ratio = 2.0 ** (db_per_octave / 6.0206)
     sections = []
     gain_at_100 = 1.0
