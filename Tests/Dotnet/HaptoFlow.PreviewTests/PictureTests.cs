@@ -107,6 +107,36 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
+        public void TheHeightUnderTheTipIsDrawnBetweenWaveAndSpectrogram([Values] bool dark, [Values(1, 2)] int count)
+        {
+            Palette palette = dark ? Palette.Dark : Palette.Light;
+            var request = new PreviewRequest(ModelFiles.Default, PresetStrokes.Make(StrokePreset.BackAndForth, Usual),
+                new[] { new LabelMix("wood"), new LabelMix("stone") }.Take(count).ToArray())
+            {
+                IsSketch = true, Tier = "draft", Relief = ReliefPreviews.Bricks(),
+            };
+            PreviewResult result = worker.Do(request, CancellationToken.None);
+            Assert.That(result.Problem, Is.Null);
+            Box charts = (count == 1 ? new PreviewLayout(1200.0, 940.0) : new PreviewLayout(0.0, 0.0)).Charts;
+            using var canvas = new SkiaCanvas(charts.Width, charts.Height, 1.0, palette.Window);
+            result.Panel.Draw(canvas, palette, canvas.Whole, 0,
+                QualityRow.Of(MeasuredModel.Header(), MeasuredModel.Timings()), "standard");
+            Save($"charts-relief-{count}-{(dark ? "dark" : "light")}", canvas);
+            for (int index = 0; index < count; ++index)
+            {
+                IReadOnlyList<Box> plots = result.Panel.Plots(canvas.Whole, index);
+                Assert.That(plots.Select(plot => (plot.Left, plot.Width)).Distinct().Count(), Is.EqualTo(1),
+                    "one axis of time");
+                Assert.That(plots[0].Bottom, Is.LessThan(plots[1].Top));
+                Assert.That(plots[1].Bottom, Is.LessThan(plots[2].Top));
+                Assert.That(Count(canvas, plots[1], colour => colour.Equals(palette.Speed)), Is.GreaterThan(100));
+                Box air = plots[1].Columns(0.0, 0.03 * plots[1].Width);
+                Assert.That(Count(canvas, air, colour => colour.Equals(palette.Speed)), Is.Zero, "before the touch");
+            }
+            Assert.That(canvas.Texts.Select(each => each.Text), Has.Member("mm").And.Member("1.5"));
+        }
+
+        [Test]
         public void ChartsWithoutSoundsHaveTheirTitles()
         {
             using var canvas = new SkiaCanvas(700.0, 500.0, 1.0, Palette.Dark.Window);
@@ -165,7 +195,7 @@ namespace HaptoFlow.PreviewTests
                 Assert.That(window.Contains(boxes[index].Right, boxes[index].Bottom), Is.True);
                 Assert.That(boxes.Take(index).Any(other => LegibleTexts.Overlap(other, boxes[index])), Is.False);
             }
-            Assert.That(layout.Controls.Height, Is.GreaterThanOrEqualTo(458.0), "the controls need this height");
+            Assert.That(layout.Controls.Height, Is.GreaterThanOrEqualTo(478.0), "the controls need this height");
         }
     }
 

@@ -189,6 +189,101 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
+        public void AReliefIsChosenWithUndoAndItsChangesAreFollowed()
+        {
+            Window.Finish();
+            float[] even = Samples;
+            HapticRelief relief = Relief();
+            Undo.IncrementCurrentGroup();
+            Enter("Relief", relief);
+            Window.Finish();
+            float[] first = Samples;
+            Assert.That(first.SequenceEqual(even), Is.False);
+            Assert.That(Window.Session!.Shown!.Heights!.DepthMillimetres, Is.EqualTo(1.0).Within(1e-4));
+            Window.Step();
+            Assert.That(Window.Session.IsBusy, Is.False, "nothing has changed");
+            relief.SetHeights(2, 1, new[] { 1f, 0f });
+            Window.Step();
+            Assert.That(Window.Session.IsBusy, Is.True, "a script replaced the map");
+            Window.Finish();
+            Assert.That(Samples.SequenceEqual(first), Is.False);
+            relief.Share = 0.1f;
+            Window.Step();
+            Assert.That(Window.Session.IsBusy, Is.True, "the share");
+            Undo.PerformUndo();
+            Assert.That(State.Relief == null, Is.True);
+            Window.Finish();
+            Assert.That(Samples, Is.EqualTo(even));
+        }
+
+        [Test]
+        public void AReliefWithoutHeightsIsEvenAndSaysSo()
+        {
+            Window.Finish();
+            float[] even = Samples;
+            HapticRelief relief = Keep(ScriptableObject.CreateInstance<HapticRelief>());
+            relief.name = "Waves";
+            State.Change("Relief", state => state.Relief = relief);
+            Window.Finish();
+            Assert.That(Samples, Is.EqualTo(even));
+            Drawn help = Screen().Single(item => item.Kind == DrawnKind.Help);
+            Assert.That((help.Label, help.Value),
+                Is.EqualTo(("Waves has no heights: the stroke goes over an even surface.", "Info")));
+        }
+
+        [Test]
+        public void AReliefThatIsDestroyedIsNoneAndAReloadKeepsTheOthers()
+        {
+            HapticRelief relief = Relief();
+            State.Change("Relief", state => state.Relief = relief);
+            Window.Finish();
+            float[] first = Samples;
+            WindowHost.Reload(Window);
+            WindowHost.Update();
+            Window.Finish();
+            Assert.That(Window.Session!.Shown!.Heights, Is.Not.Null);
+            Assert.That(Samples, Is.EqualTo(first));
+            UnityEngine.Object.DestroyImmediate(relief);
+            Window.Finish();
+            Assert.That(Window.Session.Shown!.Heights, Is.Null);
+            Assert.That(Samples.SequenceEqual(first), Is.False);
+            Screen();
+        }
+
+        [Test]
+        public void AnObjectsReliefComesAlongWithItsMaterialInOneUndo()
+        {
+            HapticSurface wall = Make("Wall").AddComponent<HapticSurface>();
+            wall.Material.Label = "stone";
+            wall.Relief = Relief();
+            Selection.activeObject = wall.gameObject;
+            Window.Finish();
+            Undo.IncrementCurrentGroup();
+            Press("Take from Selection");
+            Assert.That((State.First.Label, State.Relief), Is.EqualTo(("stone", wall.Relief)));
+            Assert.That(WindowHost.Notification, Is.EqualTo("Took stone from Wall with its relief Waves"));
+            Undo.PerformUndo();
+            Assert.That((State.First.Label, State.Relief == null), Is.EqualTo(("wood", true)));
+            TexturePreviewWindow.Open(wall);
+            Assert.That(State.Relief, Is.SameAs(wall.Relief));
+            HapticMaterial asset = Keep(ScriptableObject.CreateInstance<HapticMaterial>());
+            Enter("Take from", asset);
+            Assert.That(State.Relief, Is.SameAs(wall.Relief), "a material has none, and takes none away");
+            wall.Relief = null;
+            Press("Take from Selection");
+            Assert.That(State.Relief == null, Is.True, "the even wall is previewed");
+        }
+
+        private HapticRelief Relief()
+        {
+            HapticRelief relief = Keep(ScriptableObject.CreateInstance<HapticRelief>());
+            relief.name = "Waves";
+            relief.SizeMetres = new Vector2(0.01f, 0.01f);
+            relief.SetHeights(4, 1, new[] { 0f, 1f, 1f, 0f });
+            return relief;
+        }
+
+        [Test]
         public void TheQualityListHasTheTiersOfTheModel()
         {
             Window.Finish();

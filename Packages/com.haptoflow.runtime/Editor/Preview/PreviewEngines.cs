@@ -22,6 +22,7 @@ namespace HaptoFlow.Preview
         private readonly List<(string Text, int Index)> materials = new List<(string, int)>();
         private bool used;
         private (HapticQuality Quality, ulong Seed) options;
+        private (ReliefHeights Heights, HapticReliefMap Map)? relief;
 
         private OnnxRuntime Runtime => runtime ??= OnnxRuntime.Open();
 
@@ -76,6 +77,31 @@ namespace HaptoFlow.Preview
             return index;
         }
 
+        /// <summary>The library's number of a relief, whose map is kept until another one or none is asked for; 0 for
+        /// none.</summary>
+        /// <exception cref="HaptoFlowException">The library refuses the relief.</exception>
+        public uint Relief(PreviewRelief? asked)
+        {
+            if (relief.HasValue && !ReferenceEquals(relief.Value.Heights, asked?.Heights))
+            {
+                CloseRelief();
+            }
+            if (asked == null)
+            {
+                return 0;
+            }
+            try
+            {
+                relief ??= (asked.Heights, asked.Heights.MakeMap());
+            }
+            catch (HaptoFlowException refusal)
+            {
+                throw new HaptoFlowException(
+                    refusal.Status, $"the relief {asked.Name} cannot be felt: {refusal.Message}");
+            }
+            return relief.Value.Map.Number;
+        }
+
         /// <summary>A generator of one tier, for timing. The caller disposes it.</summary>
         /// <exception cref="HaptoFlowException">A library is missing, or the model cannot be used.</exception>
         public HapticGenerator Generator(byte[] modelFile, string tier)
@@ -102,8 +128,15 @@ namespace HaptoFlow.Preview
         public void Dispose()
         {
             CloseModel();
+            CloseRelief();
             runtime?.Dispose();
             runtime = null;
+        }
+
+        private void CloseRelief()
+        {
+            relief?.Map.Dispose();
+            relief = null;
         }
 
         private void CloseEngine()

@@ -61,10 +61,13 @@ namespace HaptoFlow.Preview
         /// <param name="engine">Without worker. If no voice was opened in it before and its lead is fixed, the samples
         /// depend only on stroke and seed.</param>
         /// <param name="surface">Material, effects, feature scale, tone of the surface; its motion is ignored.</param>
+        /// <param name="relief">The relief of the surface, which says where each state lies in its map; null for
+        /// none.</param>
         /// <returns>Samples at <see cref="PreviewSound.RateHz"/>, as long as the stroke.</returns>
         /// <exception cref="OperationCanceledException">The token was cancelled.</exception>
         public static float[] Render(
-            HapticEngine engine, Stroke stroke, in ContactState surface, CancellationToken token)
+            HapticEngine engine, Stroke stroke, in ContactState surface, PreviewRelief? relief,
+            CancellationToken token)
         {
             using HapticVoice voice = engine.OpenVoice(PreviewSound.RateHz);
             var samples = new float[Frames(stroke.DurationSeconds)];
@@ -74,7 +77,10 @@ namespace HaptoFlow.Preview
                 int begin = Frames(index / Stroke.UpdateRateHz);
                 int end = Frames((index + 1) / Stroke.UpdateRateHz);
                 Span<float> block = samples.AsSpan(begin, end - begin);
-                voice.Publish(stroke.States[index].ContactOn(surface));
+                StrokeState state = stroke.States[index];
+                ContactState contact = state.ContactOn(surface);
+                contact.ReliefPlace = relief?.PlaceOf(state) ?? default;
+                voice.Publish(contact);
                 voice.Render(block.Slice(0, 1), 1, 0, PreviewSound.RateHz);
                 engine.Step();
                 voice.Render(block.Slice(1), 1, 0, PreviewSound.RateHz);

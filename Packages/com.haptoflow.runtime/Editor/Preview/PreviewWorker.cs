@@ -25,6 +25,7 @@ namespace HaptoFlow.Preview
         {
             IReadOnlyList<AnalysedSound> sounds = Array.Empty<AnalysedSound>();
             IReadOnlyList<QualityRow> qualities = Array.Empty<QualityRow>();
+            HeightCurve? heights = null;
             string? problem = null;
             try
             {
@@ -34,6 +35,7 @@ namespace HaptoFlow.Preview
                 sounds = request.Materials.Select(material => Sound(request, material, names, token)).ToArray();
                 KeepOnly(sounds);
                 sounds = Through(request.Device, sounds, token);
+                heights = request.Relief != null ? new HeightCurve(request.Stroke, request.Relief) : null;
                 Measure(request, header, token);
                 qualities = QualityRow.Of(header, timings);
             }
@@ -43,7 +45,7 @@ namespace HaptoFlow.Preview
                 sounds = Array.Empty<AnalysedSound>();
             }
             token.ThrowIfCancellationRequested();
-            return new PreviewResult(request, sounds, qualities, problem);
+            return new PreviewResult(request, sounds, qualities, problem, heights);
         }
 
         public void Dispose() => engines.Dispose();
@@ -64,14 +66,19 @@ namespace HaptoFlow.Preview
             int registered = material.IsRegistered
                 ? engines.MaterialIndex(material.MaterialText(engines.Model(request.ModelFile), request.Sliders))
                 : -1;
+            uint relief = engines.Relief(request.Relief);
             var surface = new ContactState
             {
                 Material = material.ToBlend(names, registered),
-                Effects = request.Effects,
+                Effects = relief == 0
+                    ? request.Effects
+                    : (request.Effects & ~HapticEffects.Nothing) | HapticEffects.Relief,
                 SpatialScale = material.FeatureScale,
                 ToneDbPerOctave = material.ToneDbPerOctave,
+                Relief = relief,
+                ReliefShare = request.Relief?.Share ?? 0f,
             };
-            float[] samples = StrokeRenderer.Render(engine, request.Stroke, surface, token);
+            float[] samples = StrokeRenderer.Render(engine, request.Stroke, surface, request.Relief, token);
             AnalysedSound made = AnalysedSound.Of(new PreviewSound(material, request.Stroke, samples), token);
             kept.Add((request, made));
             return made;
@@ -119,7 +126,7 @@ namespace HaptoFlow.Preview
         private static bool CanServe(PreviewRequest made, PreviewRequest wanted) =>
             ReferenceEquals(made.ModelFile, wanted.ModelFile) && ReferenceEquals(made.Stroke, wanted.Stroke) &&
             made.Tier == wanted.Tier && made.Seed == wanted.Seed && made.Effects == wanted.Effects &&
-            (!made.IsSketch || wanted.IsSketch);
+            Equals(made.Relief, wanted.Relief) && (!made.IsSketch || wanted.IsSketch);
     }
 
     /// <summary>The input of a preview. Immutable by convention once submitted.</summary>
@@ -135,6 +142,9 @@ namespace HaptoFlow.Preview
         public string Tier { get; set; } = "standard";
 
         public HapticEffects Effects { get; set; } = HapticEffects.Texture;
+
+        /// <summary>The heights under the stroke; null for an even surface.</summary>
+        public PreviewRelief? Relief { get; set; }
 
         /// <summary>If this is not an actuator, its sound is shown beside the first material's.</summary>
         public PreviewDevice Device { get; set; }
@@ -154,10 +164,11 @@ namespace HaptoFlow.Preview
     /// there is a problem.</param>
     /// <param name="Qualities">One for each tier; none if the model cannot be read.</param>
     /// <param name="Problem">Why there is no sound; null if there is one.</param>
+    /// <param name="Heights">Under the tip; null without a relief.</param>
     internal sealed record PreviewResult(PreviewRequest Request, IReadOnlyList<AnalysedSound> Sounds,
-        IReadOnlyList<QualityRow> Qualities, string? Problem)
+        IReadOnlyList<QualityRow> Qualities, string? Problem, HeightCurve? Heights)
     {
-        public SoundPanel Panel { get; } = new SoundPanel(Sounds);
+        public SoundPanel Panel { get; } = new SoundPanel(Sounds, Heights);
     }
 
     /// <summary>The tiers of a model that an engine plays at one of its fixed qualities: those can be previewed.</summary>

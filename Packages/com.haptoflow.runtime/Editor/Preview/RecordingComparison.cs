@@ -93,7 +93,7 @@ namespace HaptoFlow.Preview
                     Effects = HapticEffects.Texture,
                 };
                 Stroke stroke = RecordingSound.StrokeOf(request.Recording, request.TurnDegrees);
-                float[] samples = StrokeRenderer.Render(engine, stroke, surface, token);
+                float[] samples = StrokeRenderer.Render(engine, stroke, surface, null, token);
                 result = new PreviewSound(new LabelMix(material.Name), stroke, samples);
                 rendered = requested;
             }

@@ -6,8 +6,8 @@ using System.Linq;
 namespace HaptoFlow.Preview
 {
     /// <summary>The right side of a preview window: waveform and spectrogram of one or two sounds on the same scales,
-    /// their spectra, and what each quality costs. Images and scales are computed once, by the constructor, on any
-    /// thread.</summary>
+    /// with the height of a relief under the tip between them, their spectra, and what each quality costs. Images and
+    /// scales are computed once, by the constructor, on any thread.</summary>
     internal sealed class SoundPanel
     {
         private const double AxisWidth = 42.0;
@@ -18,15 +18,18 @@ namespace HaptoFlow.Preview
         private const double TableWidth = 450.0;
 
         private readonly IReadOnlyList<AnalysedSound> sounds;
+        private readonly HeightCurve? heights;
         private readonly ColourImage[] spectrograms;
         private readonly double waveformLimitMps2;
         private readonly double spectrogramTopDecibels;
         private readonly double spectrumTopDecibels;
 
         /// <param name="sounds">None, one, or two to compare.</param>
-        public SoundPanel(IReadOnlyList<AnalysedSound> sounds)
+        /// <param name="heights">Of the relief under all of them; null without one.</param>
+        public SoundPanel(IReadOnlyList<AnalysedSound> sounds, HeightCurve? heights = null)
         {
             this.sounds = sounds;
+            this.heights = heights;
             waveformLimitMps2 = WaveformChart.Limit(sounds.Select(each => each.Sound.PeakMps2).DefaultIfEmpty().Max());
             spectrogramTopDecibels = Levels.Top(Highest(sounds.Select(each => (double)each.Spectrogram.Highest)));
             spectrumTopDecibels = Levels.Top(Highest(sounds.Select(each => SpectrumChart.Highest(each.Spectrum))));
@@ -50,19 +53,37 @@ namespace HaptoFlow.Preview
         public void Draw(ICanvas canvas, Palette palette, Box box, int active) =>
             DrawSpectra(canvas, palette, DrawUpper(canvas, palette, box, active));
 
-        public static Box Waveform(Box box, int index, int count)
+        /// <summary>The plots of one sound that share an axis of time, from the top: the waveform, the height of a
+        /// relief where there is one, the spectrogram.</summary>
+        public IReadOnlyList<Box> Plots(Box box, int index) => heights == null
+            ? new[] { Waveform(box, index, sounds.Count), SpectrogramBox(box, index, sounds.Count) }
+            : new[]
+            {
+                Waveform(box, index, sounds.Count, true), Heights(box, index, sounds.Count),
+                SpectrogramBox(box, index, sounds.Count, true),
+            };
+
+        public static Box Waveform(Box box, int index, int count, bool hasHeights = false)
         {
             Box column = Column(box, index, count);
-            double height = 0.4 * (Upper(box).Height - HeaderHeight - 44.0);
+            double height = (hasHeights ? 0.31 : 0.4) * PlotsHeight(box);
             return new Box(column.Left + AxisWidth, column.Top + HeaderHeight, column.Width - AxisWidth, height);
         }
 
-        public static Box SpectrogramBox(Box box, int index, int count)
+        public static Box Heights(Box box, int index, int count)
         {
-            Box waveform = Waveform(box, index, count);
-            double top = waveform.Bottom + Gap;
-            return new Box(waveform.Left, top, waveform.Width, Upper(box).Bottom - 30.0 - top);
+            Box waveform = Waveform(box, index, count, true);
+            return new Box(waveform.Left, waveform.Bottom + Gap, waveform.Width, 0.17 * PlotsHeight(box));
         }
+
+        public static Box SpectrogramBox(Box box, int index, int count, bool hasHeights = false)
+        {
+            Box above = hasHeights ? Heights(box, index, count) : Waveform(box, index, count);
+            double top = above.Bottom + Gap;
+            return new Box(above.Left, top, above.Width, Upper(box).Bottom - 30.0 - top);
+        }
+
+        private static double PlotsHeight(Box box) => Upper(box).Height - HeaderHeight - 44.0;
 
         private static Box Upper(Box box) => box.Rows(0.0, Math.Round(0.63 * box.Height));
 
@@ -85,17 +106,27 @@ namespace HaptoFlow.Preview
             canvas.FillRectangle(upper, palette.Card, CardRadius);
             for (int index = 0; index < sounds.Count; ++index)
             {
+                IReadOnlyList<Box> plots = Plots(box, index);
                 DrawHeader(canvas, palette, Column(box, index, sounds.Count), index, active);
-                WaveformChart.Draw(canvas, palette, Waveform(box, index, sounds.Count), sounds[index].Sound,
-                    ColourOf(palette, index), waveformLimitMps2);
-                SpectrogramChart.Draw(canvas, palette, SpectrogramBox(box, index, sounds.Count),
-                    spectrograms[index], sounds[index].Sound.DurationSeconds);
+                WaveformChart.Draw(canvas, palette, plots[0], sounds[index].Sound, ColourOf(palette, index),
+                    waveformLimitMps2);
+                if (heights != null)
+                {
+                    HeightChart.Draw(canvas, palette, plots[1], heights);
+                }
+                SpectrogramChart.Draw(canvas, palette, plots[plots.Count - 1], spectrograms[index],
+                    sounds[index].Sound.DurationSeconds);
             }
             if (sounds.Count > 0)
             {
-                DrawUnit(canvas, palette, Waveform(box, 0, sounds.Count), "m/s\u00b2");
-                DrawUnit(canvas, palette, SpectrogramBox(box, 0, sounds.Count), "Hz");
-                Box last = SpectrogramBox(box, sounds.Count - 1, sounds.Count);
+                IReadOnlyList<Box> first = Plots(box, 0);
+                DrawUnit(canvas, palette, first[0], "m/s\u00b2");
+                if (heights != null)
+                {
+                    DrawUnit(canvas, palette, first[1], "mm");
+                }
+                DrawUnit(canvas, palette, first[first.Count - 1], "Hz");
+                Box last = Plots(box, sounds.Count - 1)[first.Count - 1];
                 SpectrogramChart.DrawLegend(canvas, palette,
                     new Box(last.Right + 12.0, last.Top, 9.0, last.Height), spectrogramTopDecibels);
             }

@@ -305,14 +305,17 @@ namespace HaptoFlow.Editor
             }
         }
 
-        /// <summary>Draws a line through every waveform and spectrogram.</summary>
-        public static void DrawLines(Box charts, IReadOnlyList<AnalysedSound> sounds, double seconds, Palette palette)
+        /// <summary>Draws a line through every plot over time.</summary>
+        public static void DrawLines(
+            Box charts, SoundPanel panel, IReadOnlyList<AnalysedSound> sounds, double seconds, Palette palette)
         {
             for (int index = 0; index < sounds.Count; ++index)
             {
                 double share = seconds / sounds[index].Sound.DurationSeconds;
-                Draw(SoundPanel.Waveform(charts, index, sounds.Count), share, palette);
-                Draw(SoundPanel.SpectrogramBox(charts, index, sounds.Count), share, palette);
+                foreach (Box plot in panel.Plots(charts, index))
+                {
+                    Draw(plot, share, palette);
+                }
             }
         }
 

@@ -69,7 +69,7 @@ namespace HaptoFlow.Editor
                 picture!.OnGUI(shown, View);
                 if (Player!.PlayedSeconds is { } seconds)
                 {
-                    Playhead.DrawLines(layout.Charts, shown.Sounds, seconds, View.Palette);
+                    Playhead.DrawLines(layout.Charts, shown.Panel, shown.Sounds, seconds, View.Palette);
                 }
             }
         }

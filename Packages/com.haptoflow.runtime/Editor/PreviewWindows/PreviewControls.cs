@@ -49,6 +49,8 @@ namespace HaptoFlow.Editor
             new GUIContent("Share", "Share of the second label in the blend. 0: only the first. 1: only the second.");
         private static readonly GUIContent Compare =
             new GUIContent("Compare", "Shows a second material beside the first, with the same axes.");
+        private static readonly GUIContent Relief = new GUIContent("Relief",
+            "Heights under the stroke. The map begins at the lower left corner of the patch.");
         private static readonly GUIContent StrokeChoice =
             new GUIContent("Stroke", "Motion of the tip. A stroke drawn on the patch replaces it.");
         private static readonly GUIContent Speed =
@@ -93,6 +95,9 @@ namespace HaptoFlow.Editor
             {
                 DrawMaterial(Second, state.Second, model, 1);
             }
+            state.Enter("Relief", state.Relief,
+                (HapticRelief?)EditorGUILayout.ObjectField(Relief, state.Relief, typeof(HapticRelief), false),
+                (changed, chosen) => changed.Relief = chosen);
             EditorGUILayout.Space(4f);
             DrawStroke();
             DrawEffects();

@@ -16,8 +16,9 @@ namespace HaptoFlow.Editor
         private readonly LatestTask<PreviewRequest, PreviewResult> task;
         private (StrokePreset, StrokeSettings, DrawnPoint[])? strokeSource;
         private Stroke stroke = DrawnStroke.Of(Array.Empty<DrawnPoint>());
-        private (int Version, PreviewModel Model, int Measurement)? requested;
+        private (int Version, PreviewModel Model, int Measurement, PreviewRelief? Relief)? requested;
         private bool requestedSketch;
+        private PreviewRelief? relief;
         private HapticModelAsset? modelAsset;
         private int measurement = 1;
         private string? failure;
@@ -40,6 +41,11 @@ namespace HaptoFlow.Editor
 
         /// <summary>Why there is no sound; null if there is one, or will be.</summary>
         public string? Problem => Model.Problem ?? failure ?? Shown?.Problem;
+
+        /// <summary>What keeps the chosen relief from being previewed, beside a sound; null for nothing.</summary>
+        public string? Remark => state.Relief != null && !state.Relief.IsBaked
+            ? $"{state.Relief.name} has no heights: the stroke goes over an even surface."
+            : null;
 
         public Stroke Stroke
         {
@@ -68,7 +74,7 @@ namespace HaptoFlow.Editor
                 modelAsset = present;
                 Model = PreviewModel.Of(present);
             }
-            (int, PreviewModel, int) current = (state.Version, Model, measurement);
+            (int, PreviewModel, int, PreviewRelief?) current = (state.Version, Model, measurement, Relief());
             bool same = current.Equals(requested);
             if (same && (!requestedSketch || isDragging))
             {
@@ -121,6 +127,20 @@ namespace HaptoFlow.Editor
             worker.Dispose();
         }
 
+        /// <summary>The chosen relief as it is now: its Inspector, a script or a bake may have changed it since it was
+        /// requested.</summary>
+        private PreviewRelief? Relief()
+        {
+            ReliefHeights? heights = state.Relief != null ? state.Relief.Heights : null;
+            if (heights == null)
+            {
+                return relief = null;
+            }
+            bool isSame = relief != null && ReferenceEquals(relief.Heights, heights) &&
+                relief.Share.Equals(state.Relief!.Share);
+            return isSame ? relief : relief = new PreviewRelief(state.Relief!.name, heights, state.Relief.Share);
+        }
+
         private PreviewRequest Request()
         {
             IReadOnlyList<LabelMix> mixes = state.Mixes(Model.Labels);
@@ -131,6 +151,7 @@ namespace HaptoFlow.Editor
                 Tier = Model.TierOrDefault(state.Tier),
                 Seed = unchecked((ulong)state.Seed),
                 Effects = state.Effects,
+                Relief = Relief(),
                 Device = state.Device,
                 IsSketch = requestedSketch,
                 Measurement = measurement,

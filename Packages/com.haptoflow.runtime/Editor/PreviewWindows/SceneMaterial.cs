@@ -125,7 +125,9 @@ namespace HaptoFlow.Editor
     /// its surface or by a rule. Main thread.</summary>
     internal readonly struct SelectedMaterial
     {
-        private SelectedMaterial(Object? described, string remark = "") => (Described, Remark) = (described, remark);
+        private SelectedMaterial(
+            Object? described, string remark = "", bool isObject = false, HapticRelief? relief = null) =>
+            (Described, Remark, IsObject, Relief) = (described, remark, isObject, relief);
 
         /// <summary>The surface or the Haptic Material with the description; null if the object has none.</summary>
         public Object? Described { get; }
@@ -134,15 +136,27 @@ namespace HaptoFlow.Editor
         /// without a remark.</summary>
         public string Remark { get; }
 
+        /// <summary>True for a surface or an object of the scene, which alone can have a relief.</summary>
+        public bool IsObject { get; }
+
+        /// <summary>The relief of the surface, or of the part of the object that was used; null for none.</summary>
+        public HapticRelief? Relief { get; }
+
         public static SelectedMaterial Of(Object? selected)
         {
             if (selected is GameObject owner && owner != null)
             {
                 return OfObject(owner);
             }
-            bool describes = selected != null && (selected is HapticMaterial || selected is HapticSurface);
-            return new SelectedMaterial(describes ? selected : null);
+            if (selected is HapticSurface surface && surface != null)
+            {
+                return OfSurface(surface);
+            }
+            return new SelectedMaterial(selected is HapticMaterial && selected != null ? selected : null);
         }
+
+        private static SelectedMaterial OfSurface(HapticSurface surface, string remark = "") =>
+            new SelectedMaterial(surface, remark, true, surface.Relief != null ? surface.Relief : null);
 
         /// <summary>In this order: the object's own surface, its colliders' material, a disabled surface.</summary>
         private static SelectedMaterial OfObject(GameObject owner)
@@ -150,7 +164,7 @@ namespace HaptoFlow.Editor
             bool hasOwn = owner.TryGetComponent(out HapticSurface own);
             if (hasOwn && own.enabled)
             {
-                return new SelectedMaterial(own);
+                return OfSurface(own);
             }
             var maps = new SceneMaps();
             ColliderMaterial[] answers = SceneColliders.Below(new[] { owner }).Select(maps.Ask)
@@ -158,7 +172,7 @@ namespace HaptoFlow.Editor
             ColliderMaterial? touchable = answers.FirstOrDefault(answer => answer.CanBeFelt);
             if (touchable != null)
             {
-                return touchable.Surface is object ? new SelectedMaterial(touchable.Surface) : OfRule(owner, touchable);
+                return touchable.Surface is object ? OfSurface(touchable.Surface) : OfRule(owner, touchable);
             }
             HapticSurface? described = hasOwn ? own
                 : answers.Length == 0 ? SurfaceRegistry.OwnerOf(owner.transform)
@@ -166,8 +180,7 @@ namespace HaptoFlow.Editor
                     .FirstOrDefault(surface => surface != null);
             if (described != null)
             {
-                return new SelectedMaterial(
-                    described, described.isActiveAndEnabled ? "" : "its Haptic Surface is disabled");
+                return OfSurface(described, described.isActiveAndEnabled ? "" : "its Haptic Surface is disabled");
             }
             return new SelectedMaterial(null, WhyNot(answers));
         }
@@ -198,7 +211,8 @@ namespace HaptoFlow.Editor
                     ? $"without its mask {part.Mask.name}"
                     : $"the first material of its mask {part.Mask.name}");
             }
-            return new SelectedMaterial(part.Material ?? FirstOf(part.Mask), string.Join("; ", remarks));
+            return new SelectedMaterial(
+                part.Material ?? FirstOf(part.Mask), string.Join("; ", remarks), true, part.Relief);
         }
 
         private static HapticMaterial? FirstOf(HapticMaskMap? mask) => mask is null
@@ -228,7 +242,7 @@ namespace HaptoFlow.Editor
             "Drop a Haptic Material here to preview it in place of the active material.");
         private static readonly GUIContent Take = new GUIContent("Take from Selection",
             "Previews the material of the selection in place of the active one: that of a Haptic Material, or of an " +
-            "object by its Haptic Surface or by a rule.");
+            "object by its Haptic Surface or by a rule, with the object's relief.");
         private static readonly GUIContent Apply = new GUIContent("Apply to Selection",
             "Assigns the active material to the selected objects and Haptic Materials. Can be undone.");
 
@@ -271,8 +285,9 @@ namespace HaptoFlow.Editor
                     ? selected!.name + " has no haptic material" + remark
                     : "Select an object of the scene or a Haptic Material first";
             }
-            state.Take(mix, learnt);
-            return $"Took {state.PlayedMix(model.Labels).Title} from {selected!.name}{remark}";
+            state.Take(mix, learnt, found);
+            string relief = found.Relief != null ? $" with its relief {found.Relief.name}" : "";
+            return $"Took {state.PlayedMix(model.Labels).Title} from {selected!.name}{relief}{remark}";
         }
     }
 }

@@ -21,6 +21,9 @@ namespace HaptoFlow.Editor
         public MaterialChoice Second = new MaterialChoice();
         public bool Compares = true;
 
+        /// <summary>The heights under the stroke, for both materials; null for an even surface.</summary>
+        public HapticRelief? Relief;
+
         /// <summary>Index of the material that is played and exported, if two are shown.</summary>
         public int Active;
         public StrokePreset Preset = StrokePreset.BackAndForth;
@@ -86,6 +89,14 @@ namespace HaptoFlow.Editor
         /// <param name="learnt">A learnt material that replaces the mix's first label; null for the label.</param>
         public void Take(LabelMix mix, HapticMaterial? learnt) =>
             Change("Material", changed => changed.Material(changed.PlayedIndex).Take(mix, learnt));
+
+        /// <summary>Replaces the active material, and the relief by that of the object which the material was found on.
+        /// Can be undone.</summary>
+        public void Take(LabelMix mix, HapticMaterial? learnt, SelectedMaterial found) => Change("Material", changed =>
+        {
+            changed.Material(changed.PlayedIndex).Take(mix, learnt);
+            changed.Relief = found.IsObject ? found.Relief : changed.Relief;
+        });
     }
 
     /// <summary>A material chosen in the Texture Preview window.</summary>

@@ -31,13 +31,14 @@ namespace HaptoFlow.Editor
         [MenuItem("Window/HaptoFlow/Texture Preview", false, 2100)]
         internal static void Open() => Open<TexturePreviewWindow>(1200f, 940f);
 
-        /// <summary>Opens the window with the material of a surface or of a Haptic Material asset.</summary>
+        /// <summary>Opens the window with the material of a surface, with its relief, or of a Haptic Material
+        /// asset.</summary>
         internal static void Open(Object described)
         {
             Open();
             if (SceneMaterial.TryRead(described, out LabelMix mix, out HapticMaterial? learnt))
             {
-                GetWindow<TexturePreviewWindow>().State.Take(mix, learnt);
+                GetWindow<TexturePreviewWindow>().State.Take(mix, learnt, SelectedMaterial.Of(described));
             }
         }
 
@@ -202,15 +203,21 @@ namespace HaptoFlow.Editor
                 chartsPicture!.OnGUI(shown, View);
                 if (Player!.PlayedSeconds is { } seconds)
                 {
-                    Playhead.DrawLines(panel, shown.Sounds, seconds, View.Palette);
+                    Playhead.DrawLines(panel, shown.Panel, shown.Sounds, seconds, View.Palette);
                 }
             }
             if (Session.Problem is { } problem)
             {
-                Box help = panel.Inside(16.0).Rows(0.0, 56.0);
-                EditorGUI.HelpBox(help.ToRect(), problem, MessageType.Error);
+                ShowHelp(panel, problem, MessageType.Error);
+            }
+            else if (Session.Remark is { } remark)
+            {
+                ShowHelp(panel, remark, MessageType.Info);
             }
         }
+
+        private static void ShowHelp(Box panel, string text, MessageType type) =>
+            EditorGUI.HelpBox(panel.Inside(16.0).Rows(0.0, 56.0).ToRect(), text, type);
 
         private void DrawStroke(ICanvas canvas) =>
             StrokePanel.Draw(canvas, View.Palette, View.Layout.StrokePanel, Session!.Stroke);

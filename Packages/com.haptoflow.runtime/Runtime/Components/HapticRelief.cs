@@ -53,6 +53,9 @@ namespace HaptoFlow
         private int rows;
 
         [NonSerialized]
+        private ReliefHeights? present;
+
+        [NonSerialized]
         private HapticReliefMap? map;
 
         [NonSerialized]
@@ -104,6 +107,27 @@ namespace HaptoFlow
         /// <summary>The height of a texel, 0 to 1 of the depth.</summary>
         internal float HeightAt(int column, int row) => heights[row * columns + column] / (float)ushort.MaxValue;
 
+        /// <summary>The heights as they are now, the same object until something changes; null where there are
+        /// none.</summary>
+        internal ReliefHeights? Heights
+        {
+            get
+            {
+                if (present == null && IsBaked)
+                {
+                    Vector2 size = SizeMetres;
+                    present = new ReliefHeights(heights, columns)
+                    {
+                        SizeMetres = (size.x, size.y),
+                        DepthMetres = 0.001f * depthMillimetres,
+                        TipRadiusMetres = 0.001f * tipRadiusMillimetres,
+                        IsTiled = repeats,
+                    };
+                }
+                return present;
+            }
+        }
+
         /// <summary>The native library's number of the relief, which is made on first use; 0 where there are no
         /// heights, and where the library refused them.</summary>
         internal uint Number
@@ -140,19 +164,17 @@ namespace HaptoFlow
             }
             this.columns = columns;
             this.rows = rows;
-            heights = Array.ConvertAll(shares, share => (ushort)(Mathf.Clamp01(share) * ushort.MaxValue + 0.5f));
+            // A share that is not a number is 0.
+            heights = Array.ConvertAll(
+                shares, share => (ushort)((share > 0f ? Mathf.Min(1f, share) : 0f) * ushort.MaxValue + 0.5f));
             Release();
         }
 
         private void Make()
         {
-            float metres = 0.001f * depthMillimetres;
-            Vector2 size = SizeMetres;
             try
             {
-                map = new HapticReliefMap(
-                    Array.ConvertAll(heights, height => metres * height / ushort.MaxValue), columns,
-                    (size.x, size.y), metres, 0.001f * tipRadiusMillimetres, repeats);
+                map = Heights!.MakeMap();
             }
             catch (HaptoFlowException refusal)
             {
@@ -171,6 +193,7 @@ namespace HaptoFlow
         {
             map?.Dispose();
             map = null;
+            present = null;
             isRefused = false;
         }
 
