@@ -2,12 +2,12 @@ import assert from 'node:assert/strict';
 import { writeFileSync } from 'node:fs';
 import path from 'node:path';
 import { test } from 'node:test';
-import { crc32, deflateSync } from 'node:zlib';
 import { LabelIndices } from '../../Web/engine/js/contact-fields.mjs';
 import { render } from '../../Web/engine/js/offline.mjs';
 import { Relief } from '../../Web/engine/js/relief.mjs';
 import { Scene } from '../../Web/engine/js/scene.mjs';
 import { coreWithModel, hasCommandLine, native, pageCore, wavSamples } from './support/engine.mjs';
+import { png } from './support/png.mjs';
 
 const core = await coreWithModel();
 const { labels } = core.json('hapto_model_json');
@@ -66,23 +66,6 @@ test('a flat relief adds nothing', () => {
   assert.ok(flat.samples.every((sample) => Math.abs(sample) < 1e-7));
 });
 
-/** A grey PNG file of 8 bits. */
-function png(columns, rows, greys) {
-  const chunk = (type, content) => {
-    const body = Buffer.concat([Buffer.from(type, 'latin1'), content]);
-    const [length, sum] = [Buffer.alloc(4), Buffer.alloc(4)];
-    length.writeUInt32BE(content.length);
-    sum.writeUInt32BE(crc32(body));
-    return Buffer.concat([length, body, sum]);
-  };
-  const header = Buffer.alloc(13);
-  header.writeUInt32BE(columns, 0);
-  header.writeUInt32BE(rows, 4);
-  header[8] = 8;
-  const lines = Buffer.concat(Array.from({ length: rows }, (_, row) => Buffer.from([0, ...greys.slice(row * columns, (row + 1) * columns)])));
-  return Buffer.concat([Buffer.from('\x89PNG\r\n\x1a\n', 'latin1'), chunk('IHDR', header), chunk('IDAT', deflateSync(lines)), chunk('IEND', Buffer.alloc(0))]);
-}
-
 test('the samples over a relief are those of the command line over an image of the same heights', { skip: !hasCommandLine }, () => {
   const [columns, rows, depth] = [40, 30, 2e-4];
   const greys = Array.from({ length: columns * rows }, (_, index) => (index * 37 + 11 * Math.floor(index / columns) ** 2) % 256);
@@ -92,7 +75,7 @@ test('the samples over a relief are those of the command line over an image of t
   const web = renderOver({ stroke, effects, reliefs: { table: relief } });
   const expected = native((folder) => {
     const [scene, strokeFile] = [path.join(folder, 'scene.json'), path.join(folder, 'stroke.csv')];
-    writeFileSync(path.join(folder, 'heights.png'), png(columns, rows, greys));
+    writeFileSync(path.join(folder, 'heights.png'), png({ width: columns, height: rows, numbers: greys }));
     writeFileSync(scene, JSON.stringify(tableOf({ relief: { image: 'heights.png', size: [0.03, 0.02], depth, share: 0.3 } })));
     writeFileSync(strokeFile, stroke);
     return ['render', scene, '--stroke', strokeFile, '-o', path.join(folder, 'out.wav'), '--quiet', '--quality', 'sketch', '--effects', 'texture,impact,edge'];

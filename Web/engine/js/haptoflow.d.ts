@@ -146,10 +146,40 @@ export interface ReliefOptions {
   isTiled?: boolean;
 }
 
+/**
+ * A decoded image: four numbers for each pixel, row by row: red, green, blue and opacity, of which the last is ignored. They end at 255,
+ * at 65535 in a Uint16Array, at 1 in a Float32Array. An ImageData is one, and `decodePng` of haptoflow-web/node gives one.
+ */
+export interface ReliefImage {
+  readonly width: number;
+  readonly height: number;
+  readonly data: Uint8ClampedArray | Uint8Array | Uint16Array | Float32Array;
+}
+
+/** A relief of an image, which lies as it is drawn: heights from black (0) to white (the depth), of the mean of its colours. */
+export interface ReliefImageOptions extends Omit<ReliefOptions, 'columns' | 'rows' | 'heightsMetres'> {
+  image: ReliefImage;
+  /** The image has normals, right in red, up in green, outwards in blue; their heights then span the depth. Takes seconds, in a worker. */
+  isNormalMap?: boolean;
+}
+
+/** What a scene says of a surface's relief; see Documentation~/scene-and-stroke.md. */
+export interface SceneRelief {
+  /** The name of a PNG file, relative to the scene. */
+  readonly image: string;
+  readonly isNormalMap: boolean;
+  readonly sizeMetres: readonly [number, number];
+  readonly depthMetres: number;
+  readonly isTiled: boolean;
+  readonly share: number;
+}
+
 /** Heights that the tip of a pen follows, pressed on a spring: gaps, ribs, letters. Stays the same over recoveries. */
 export interface Relief extends Readonly<Required<ReliefOptions>> {
   /** By which contact states name it; never 0, and never used again. */
   readonly number: number;
+  /** Its heights as a PNG file of 16 bits, for `relief` in a scene. */
+  png(): Promise<Uint8Array>;
   /** A state or a surface that still names it has no relief from then on. */
   destroy(): void;
 }
@@ -347,6 +377,8 @@ export interface SceneSurface {
   readonly index: number;
   readonly name: string;
   readonly material: Material;
+  /** Where the scene names one: `HaptoFlow.loadReliefs` lays it. */
+  readonly relief?: SceneRelief;
 }
 
 /** The contact model of the command line's scenes (Documentation~/scene-and-stroke.md), with one tip. */
@@ -358,6 +390,7 @@ export interface Pose {
 
 export interface Scene {
   readonly updateRateHz: number;
+  readonly tipRadiusMetres: number;
   readonly surfaces: readonly SceneSurface[];
   /** Computes contact. Times must not go back; `reset` begins again. Takes microseconds. */
   update(tip: TipSample): SceneContact;
@@ -400,7 +433,11 @@ export interface RenderOptions extends Locations {
   /** Texts of material files, whose names the scene may use. */
   materials?: readonly string[];
   /** Reliefs by the names of their surfaces, with `share` as in `Scene.setRelief`. */
-  reliefs?: Readonly<Record<string, ReliefOptions & { share?: number }>>;
+  reliefs?: Readonly<Record<string, (ReliefOptions | ReliefImageOptions) & { share?: number }>>;
+  /** Images by the names that the scene gives them. A browser reads the others from `sceneBase`; Node must be given all. */
+  images?: Readonly<Record<string, ReliefImage>>;
+  /** The scene's address or its folder's, for images; the page's unless given. In a browser only. */
+  sceneBase?: string | URL;
   signal?: AbortSignal;
   onProgress?: (share: number, doing: string) => void;
 }
@@ -534,6 +571,13 @@ export class HaptoFlow extends EventTarget {
   static learn(options: LearnOptions): Promise<LearntMaterial>;
   /** Whether this page may share memory between threads (COOP and COEP). */
   static readonly canShareMemory: boolean;
+  /** Of a relief. */
+  static readonly mostTexels: number;
+  /**
+   * The pixels of a picture, with all 16 bits of a PNG file; other kinds come through a canvas, which has 8 and no colours where they
+   * are transparent. One of more than `mostPixels` is made smaller. @throws HaptoFlowError
+   */
+  static decodeImage(file: Blob, options?: { mostPixels?: number }): Promise<ReliefImage & { readonly fullWidth: number; readonly fullHeight: number }>;
 
   readonly model: ModelInfo;
   /** Those of the model and what was added. */
@@ -550,9 +594,14 @@ export class HaptoFlow extends EventTarget {
   /** Adds a learnt material as a label, or replaces the one of its name. Text or object of a .haptomaterial file. */
   addMaterial(material: string | object): Promise<Label>;
   /** Makes a relief of heights, for any number of surfaces, scenes and states. Takes about 0.1 s for 10^6 texels. */
-  createRelief(options: ReliefOptions): Promise<Relief>;
-  /** Reads SCENE.json, text or object; images of reliefs in it are not loaded. Throws HaptoFlowError that names the key. */
+  createRelief(options: ReliefOptions | ReliefImageOptions): Promise<Relief>;
+  /** Reads SCENE.json, text or object; `loadReliefs` then loads the images of its reliefs. Throws HaptoFlowError that names the key. */
   loadScene(scene: string | object): Scene;
+  /**
+   * Makes the reliefs that a scene names and lays them on its surfaces: of `images`, or of the PNG files beside the scene at `sceneBase`
+   * (the page's address unless given). Whoever closes the scene destroys them. @throws HaptoFlowError that names file, key and remedy
+   */
+  loadReliefs(scene: Scene, options?: Pick<RenderOptions, 'images' | 'sceneBase' | 'signal'>): Promise<Relief[]>;
   render(options: RenderOptions): Promise<Render>;
   learn(options: LearnOptions): Promise<LearntMaterial>;
   /** Times tiers in a worker of its own; all of the model unless named. */

@@ -5,8 +5,10 @@ import { engineModule, modelBytes, placesOf } from './files.mjs';
 import { Live } from './live.mjs';
 import { Core, createMemory } from './module.mjs';
 import { OutputWatch } from './output-watch.mjs';
-import { fullRelief, Relief } from './relief.mjs';
+import { decodeImage } from './decode-image.mjs';
+import { fullRelief, mostTexels, normalMapOf, Relief, withHeights } from './relief.mjs';
 import { Scene } from './scene.mjs';
+import { loadedImages, optionsOf } from './scene-reliefs.mjs';
 import { runTask } from './task.mjs';
 import { Voice } from './voice.mjs';
 
@@ -58,6 +60,9 @@ function sharingOf(wanted = 'auto') {
   if (wanted === 'ring') return { isShared: false, note: 'the page chose the ring' };
   return { isShared: note === '', note };
 }
+
+/** Where the images of a scene are, for a worker too. @param {string | URL} [base] */
+const sceneBaseOf = (base = '.') => new URL(base, globalThis.document?.baseURI).href;
 
 /** The engine; see haptoflow.d.ts. */
 export class HaptoFlow extends EventTarget {
@@ -140,8 +145,20 @@ export class HaptoFlow extends EventTarget {
   }
 
   /** @param {import('./haptoflow.d.ts').RenderOptions} options */
-  static render(options) {
-    return runTask('render', options);
+  static async render(options) {
+    return runTask('render', { ...options, sceneBase: sceneBaseOf(options.sceneBase) });
+  }
+
+  static get mostTexels() {
+    return mostTexels;
+  }
+
+  /**
+   * @param {Blob} file
+   * @param {{mostPixels?: number}} [options]
+   */
+  static decodeImage(file, options) {
+    return decodeImage(file, options);
   }
 
   /** @param {import('./haptoflow.d.ts').LearnOptions} options */
@@ -286,9 +303,10 @@ export class HaptoFlow extends EventTarget {
     return labels.find((/** @type {any} */ label) => label.name === name);
   }
 
-  /** @param {import('./haptoflow.d.ts').ReliefOptions} options */
+  /** @param {import('./haptoflow.d.ts').ReliefOptions | import('./haptoflow.d.ts').ReliefImageOptions} options */
   async createRelief(options) {
-    const full = fullRelief(options);
+    const normals = normalMapOf(options);
+    const full = fullRelief(withHeights(options, normals && await runTask('heights', { ...this.#taskOptions, map: normals })));
     const number = await this.#ask({ type: 'relief', relief: full });
     this.#newestRelief += 1;
     const relief = new Relief(full, this.#newestRelief, (destroyed) => this.#destroyRelief(destroyed));
@@ -310,13 +328,35 @@ export class HaptoFlow extends EventTarget {
     return new Scene(this.#contactCore, this.#indices, this.#labels, scene);
   }
 
+  /**
+   * @param {Scene} scene
+   * @param {{images?: Readonly<Record<string, import('./haptoflow.d.ts').ReliefImage>>, sceneBase?: string | URL, signal?: AbortSignal}} [options]
+   */
+  async loadReliefs(scene, { images, sceneBase, signal } = {}) {
+    const named = scene.surfaces.filter(({ relief }) => relief).map(({ index, name, relief }) => ({ index, surface: name, relief }));
+    const all = await loadedImages(named, { images, sceneBase: sceneBaseOf(sceneBase), signal });
+    /** @type {Relief[]} */
+    const made = [];
+    try {
+      for (const each of named) {
+        requireNotAborted(signal);
+        made.push(await this.createRelief(optionsOf(each, all, scene.tipRadiusMetres)));
+      }
+      named.forEach(({ index, relief }, at) => scene.setRelief(index, made[at], { share: relief.share }));
+      return made;
+    } catch (error) {
+      for (const relief of made) relief.destroy();
+      throw error;
+    }
+  }
+
   get #taskOptions() {
     return { base: this.#places.base, onnxRuntime: this.#places.onnxRuntime, model: this.#modelBytes, module: this.#module };
   }
 
   /** @param {any} options */
-  render(options) {
-    return runTask('render', { materials: [...this.#materials.values()], ...this.#taskOptions, ...options });
+  async render(options) {
+    return runTask('render', { materials: [...this.#materials.values()], ...this.#taskOptions, ...options, sceneBase: sceneBaseOf(options.sceneBase) });
   }
 
   /** @param {any} options */

@@ -2,6 +2,8 @@ import { readFile } from 'node:fs/promises';
 import { learn, offlineCore, render } from './offline.mjs';
 import { startRuntimeFrom } from './runtime.mjs';
 
+export { decodePng } from './png.mjs';
+
 const own = (/** @type {string} */ name) => new URL(name, import.meta.url);
 
 /**

@@ -1,6 +1,8 @@
 import { plainError } from './errors.mjs';
 import { measureEffects } from './effect-costs.mjs';
-import { learn, measure, offlineCore, render } from './offline.mjs';
+import { Core, createMemory } from './module.mjs';
+import { imagesOf, learn, measure, offlineCore, render } from './offline.mjs';
+import { heightsOfNormals } from './relief.mjs';
 import { startRuntime } from './runtime.mjs';
 
 // A worker for one task.
@@ -9,9 +11,14 @@ const onProgress = (/** @type {number} */ share, /** @type {string} */ doing) =>
 
 globalThis.onmessage = async (/** @type {MessageEvent<any>} */ { data: { module, onnxRuntime, model, task, options } }) => {
   try {
+    if (task === 'heights') {
+      const heights = heightsOfNormals(new Core(module, { memory: createMemory({ isLarge: true }), mayWait: true }), options.map);
+      postMessage({ result: heights }, { transfer: [/** @type {ArrayBuffer} */ (heights.buffer)] });
+      return;
+    }
     const core = offlineCore({ module, model, runtime: await startRuntime(onnxRuntime), onProgress });
     if (task === 'render') {
-      const result = render(core, options);
+      const result = render(core, { ...options, images: await imagesOf(core, options) });
       postMessage({ result }, { transfer: [/** @type {ArrayBuffer} */ (result.samples.buffer)] });
     } else if (task === 'learn') {
       postMessage({ result: learn(core, options) });

@@ -2,7 +2,8 @@ import { distribution } from './distribution.mjs';
 import { HaptoFlowError } from './errors.mjs';
 import { Core, createMemory } from './module.mjs';
 import { pause } from './pause.mjs';
-import { makeRelief, usualShare } from './relief.mjs';
+import { heightsOfNormals, makeRelief, normalMapOf, usualShare, withHeights } from './relief.mjs';
+import { loadedImages, optionsOf } from './scene-reliefs.mjs';
 
 // What takes seconds: renders, learning, measuring. In a browser in a worker of its own (offline-worker.mjs), in Node here.
 
@@ -21,22 +22,47 @@ export function offlineCore({ module, runtime, model, onProgress }) {
 
 const texture = { texture: true, impact: false, edge: false };
 
+const textOf = (/** @type {string | object} */ scene) => (typeof scene === 'string' ? scene : JSON.stringify(scene));
+
+/**
+ * The reliefs that the scene itself names and that are felt, with the radius of its tip.
+ * @param {Core} core
+ * @param {import('./haptoflow.d.ts').RenderOptions} options
+ * @returns {{tipRadiusMetres: number, named: import('./scene-reliefs.mjs').NamedRelief[]}}
+ */
+function reliefsOf(core, { scene, reliefs = {}, effects = texture }) {
+  const { tipRadiusMetres, reliefs: named } = core.json('hapto_scene_reliefs', textOf(scene));
+  const isFelt = effects.relief !== false;
+  return { tipRadiusMetres, named: named.filter((/** @type {{surface: string}} */ { surface }) => isFelt && !Object.hasOwn(reliefs, surface)) };
+}
+
+/**
+ * The images that the render needs.
+ * @param {Core} core
+ * @param {import('./haptoflow.d.ts').RenderOptions & {sceneBase: string}} options
+ */
+export const imagesOf = (core, options) => loadedImages(reliefsOf(core, options).named, options);
+
 /**
  * @param {Core} core
  * @param {import('./haptoflow.d.ts').RenderOptions} options
  * @returns {import('./haptoflow.d.ts').Render}
  */
 export function render(core, options) {
-  const { scene, stroke, quality = '', seed = 1, leadMs = 8, rateHz = 48000, effects = texture, listen = false, actuator = null, delayMs = 0, fullScaleMps2 = 200, materials = [], reliefs = {} } = options;
+  const { scene, stroke, quality = '', seed = 1, leadMs = 8, rateHz = 48000, effects = texture, listen = false, actuator = null, delayMs = 0, fullScaleMps2 = 200, materials = [], reliefs = {}, images = {} } = options;
+  const { tipRadiusMetres, named } = reliefsOf(core, options);
+  const own = named.map((each) => /** @type {const} */ ([each.surface, optionsOf(each, images, tipRadiusMetres)]));
   /** @type {{surface: string, number: number, along: number, across: number, share: number}[]} */
   const laid = [];
   try {
-    for (const [surface, relief] of Object.entries(reliefs)) {
+    for (const [surface, relief] of [...own, ...Object.entries(reliefs)]) {
       const [along, across] = relief.sizeMetres;
-      laid.push({ surface, number: makeRelief(core, relief), along, across, share: relief.share ?? usualShare });
+      const normals = normalMapOf(relief);
+      const number = makeRelief(core, withHeights(relief, normals && heightsOfNormals(core, normals)));
+      laid.push({ surface, number, along, across, share: relief.share ?? usualShare });
     }
     const figures = core.json('hapto_render', JSON.stringify({
-      scene: typeof scene === 'string' ? scene : JSON.stringify(scene),
+      scene: textOf(scene),
       stroke, quality, seed, leadMs, rateHz, effects, listen, fullScaleMps2, materials,
       reliefs: laid,
       actuator: actuator ?? '',

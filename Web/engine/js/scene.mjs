@@ -28,6 +28,7 @@ export class Scene {
   /** By a surface's index. @type {(import('./relief.mjs').Relief | null)[]} */
   #reliefs = [];
   #updateRateHz;
+  #tipRadiusMetres;
   #isClosed = false;
 
   /**
@@ -41,13 +42,18 @@ export class Scene {
     this.#indices = indices;
     this.#index = core.call('hapto_scene_open', typeof scene === 'string' ? scene : JSON.stringify(scene), JSON.stringify(labels));
     this.#address = core.allocate(8 * (tipNumbers + fieldCount + readingNumbers));
-    const { updateRateHz, surfaces } = core.json('hapto_scene_json', this.#index);
+    const { updateRateHz, tipRadiusMetres, surfaces } = core.json('hapto_scene_json', this.#index);
     this.#surfaces = surfaces;
     this.#updateRateHz = updateRateHz;
+    this.#tipRadiusMetres = tipRadiusMetres;
   }
 
   get updateRateHz() {
     return this.#updateRateHz;
+  }
+
+  get tipRadiusMetres() {
+    return this.#tipRadiusMetres;
   }
 
   get surfaces() {

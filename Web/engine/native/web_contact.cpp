@@ -51,6 +51,12 @@ ResolvedScene resolveScene(const std::string& text, const KnownMaterials& materi
     return resolved;
 }
 
+json reliefJson(const headless::SceneRelief& relief) {
+    return {{"image", relief.image},           {"isNormalMap", relief.isNormalMap},
+            {"sizeMetres", relief.sizeMetres}, {"depthMetres", relief.depthMetres},
+            {"isTiled", relief.isTiled},       {"share", relief.share}};
+}
+
 engine::TimedContactState stateOf(const headless::ContactReading& reading, const ResolvedScene& scene,
                                   effects::EffectMask effects) {
     constexpr effects::EffectMask relief = effects::maskOf(effects::EffectKind::relief);
@@ -153,8 +159,13 @@ HAPTO_EXPORT HAPTO_NAMED("hapto_scene_json") const char* hapto_scene_json(int in
                 material[name] = weight;
             }
             surfaces.push_back({{"index", surfaces.size()}, {"name", surface.name}, {"material", std::move(material)}});
+            if (surface.relief) {
+                surfaces.back()["relief"] = reliefJson(*surface.relief);
+            }
         }
-        return dumped({{"updateRateHz", scene.updateRateHz}, {"surfaces", std::move(surfaces)}});
+        return dumped({{"updateRateHz", scene.updateRateHz},
+                       {"tipRadiusMetres", scene.tipRadiusMetres},
+                       {"surfaces", std::move(surfaces)}});
     });
 }
 

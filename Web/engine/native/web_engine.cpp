@@ -319,6 +319,18 @@ HAPTO_EXPORT HAPTO_NAMED("hapto_relief_create") int hapto_relief_create(const fl
     });
 }
 
+/// Writes the heights of a normal map, as many as texels; `normals` are three numbers for each.
+HAPTO_EXPORT HAPTO_NAMED("hapto_relief_heights_of_normals") int hapto_relief_heights_of_normals(
+    const float* normals, std::uint32_t columns, std::uint32_t rows, int isTiled, float alongMetres, float acrossMetres,
+    float* heightsMetres) {
+    return guarded([&] {
+        const float sizeMetres[] = {alongMetres, acrossMetres};
+        require(haptoflow_relief_heights_of_normals(normals, columns, rows, sizeMetres, isTiled != 0 ? 1 : 0,
+                                                    heightsMetres));
+        return 0;
+    });
+}
+
 HAPTO_EXPORT HAPTO_NAMED("hapto_relief_destroy") int hapto_relief_destroy(int number) {
     return guarded([&] {
         auto relief = static_cast<haptoflow_relief>(number);

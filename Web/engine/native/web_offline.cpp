@@ -3,6 +3,7 @@
 #include "effects/effect.hpp"
 #include "engine/offline_renderer.hpp"
 #include "headless/contact_tracker.hpp"
+#include "headless/scene_file.hpp"
 #include "headless/scene_materials.hpp"
 #include "headless/stroke_file.hpp"
 #include "inference/random_requests.hpp"
@@ -172,6 +173,22 @@ std::string render(const json& options) {
 }
 
 }  // namespace
+
+/// JSON of the tip's radius, and of each surface of SCENE.json that has a relief.
+HAPTO_EXPORT HAPTO_NAMED("hapto_scene_reliefs") const char* hapto_scene_reliefs(const char* text) {
+    return guardedText([&] {
+        const headless::Scene scene = headless::parseSceneText(text, "scene");
+        json reliefs = json::array();
+        for (std::size_t index = 0; index < scene.surfaces.size(); ++index) {
+            const headless::SceneSurface& surface = scene.surfaces[index];
+            if (surface.relief) {
+                reliefs.push_back(
+                    {{"index", index}, {"surface", surface.name}, {"relief", reliefJson(*surface.relief)}});
+            }
+        }
+        return dumped({{"tipRadiusMetres", scene.tipRadiusMetres}, {"reliefs", std::move(reliefs)}});
+    });
+}
 
 /// Renders by options as JSON (offline.mjs) into hapto_samples. Returns JSON of figures.
 HAPTO_EXPORT HAPTO_NAMED("hapto_render") const char* hapto_render(const char* options) {

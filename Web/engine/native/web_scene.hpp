@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,9 @@ struct ResolvedScene {
 
 /// Reads SCENE.json. Throws headless::InputError, also for a material that is not known, with the nearest names.
 [[nodiscard]] ResolvedScene resolveScene(const std::string& text, const KnownMaterials& materials);
+
+/// What a scene says of a surface's relief, for scripts: see SceneRelief in haptoflow.d.ts.
+[[nodiscard]] nlohmann::json reliefJson(const headless::SceneRelief& relief);
 
 /// headless::stateOf, without the relief unless it is among the effects.
 [[nodiscard]] engine::TimedContactState stateOf(const headless::ContactReading& reading, const ResolvedScene& scene,
