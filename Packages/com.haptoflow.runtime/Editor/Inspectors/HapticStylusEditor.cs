@@ -89,6 +89,10 @@ namespace HaptoFlow.Editor
                 Add("Force", "{0:0.00} N", contact.ForceNewtons);
                 Add("Speed", "{0:0} mm/s", 1000.0 * contact.TangentialVelocity.magnitude);
                 Add("Penetration", "{0:0.0} mm", 1000.0 * contact.PenetrationMetres);
+                if (stylus.TryGetRelief(out HapticRelief relief, out MapPlace place) && relief.Heights is { } heights)
+                {
+                    Add("Height", "{0:0.00} mm of {1}", 1000.0 * heights.MetresAt(place), relief.name);
+                }
             }
             else
             {

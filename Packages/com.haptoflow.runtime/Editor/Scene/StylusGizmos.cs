@@ -37,6 +37,7 @@ namespace HaptoFlow.Editor
             {
                 DrawContact(stylus.Contact, isSelected);
             }
+            ReliefGizmos.Draw(stylus, isSelected);
         }
 
         private static void DrawContact(in HapticContact contact, bool withCaption)

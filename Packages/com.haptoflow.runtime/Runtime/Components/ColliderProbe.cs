@@ -71,7 +71,7 @@ namespace HaptoFlow
         }
 
         /// <summary>A box around the collider in its local frame, before its scale; false where there is none.</summary>
-        private static bool TryGetBounds(Collider collider, out Bounds bounds)
+        internal static bool TryGetBounds(Collider collider, out Bounds bounds)
         {
             bounds = collider switch
             {

@@ -77,6 +77,8 @@ namespace HaptoFlow
         private int steppedFrame = -1;
         private Vector3 steppedPlace;
         private HapticContact contact;
+        private HapticRelief? relief;
+        private MapPlace reliefPlace;
 
         /// <summary>The tip touched a surface. Main thread.</summary>
         public event HapticContactHandler? TouchBegan;
@@ -190,6 +192,14 @@ namespace HaptoFlow
             EndTouch();
         }
 
+        /// <summary>The relief under the tip as of the last update, and the place in its map; false without one.
+        /// </summary>
+        internal bool TryGetRelief(out HapticRelief felt, out MapPlace place)
+        {
+            (felt, place) = (relief!, reliefPlace);
+            return touching && relief is object && relief != null;
+        }
+
         internal Vector3 TipPosition => tip != null ? tip.position : transform.position;
 
         /// <summary>The name that people know: the pen's, for a stylus on the child Tip of a pen.</summary>
@@ -279,6 +289,9 @@ namespace HaptoFlow
             using (Markers.Publish.Auto())
             {
                 ReliefPlace.Write(contacts.Touched, ref reading);
+                (relief, reliefPlace) = reading.State.Relief != 0
+                    ? (contacts.Touched!.Felt.Relief, reading.State.ReliefPlace)
+                    : (null, default);
                 Voices.Publish(reading, contacts.Touched?.Felt.On(contacts.Scale) ?? default, session);
             }
         }

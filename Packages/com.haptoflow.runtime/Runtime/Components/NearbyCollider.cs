@@ -53,11 +53,17 @@ namespace HaptoFlow
             Surface = surface;
             ByRules = byRules;
             (Place, Felt) = (default, default);
+            Tracked.Restart(GrainOf(collider, surface), 0.0);
+            Tracked.Seed = SurfaceSeeds.Of(collider, surface);
+        }
+
+        /// <summary>The grain in the collider's local frame.</summary>
+        public static Double3 GrainOf(Collider collider, HapticSurface? surface)
+        {
             Vector3 grain = surface is object
                 ? surface.transform.TransformDirection(surface.Grain)
                 : collider.transform.TransformDirection(Vector3.right);
-            Tracked.Restart(ColliderProbe.PoseOf(collider).DirectionToLocal(grain.ToDouble()), 0.0);
-            Tracked.Seed = SurfaceSeeds.Of(collider, surface);
+            return ColliderProbe.PoseOf(collider).DirectionToLocal(grain.ToDouble());
         }
 
         /// <summary>True for this collider with the same source of its material.</summary>

@@ -15,8 +15,13 @@ namespace HaptoFlow
         public static void Write(NearbyCollider? touched, ref ContactReading reading)
         {
             HapticRelief? relief = touched?.Felt.Relief;
-            if (relief is null || relief.Number == 0 ||
-                !TryFind(relief, touched!, reading.State, out MapPlace place))
+            if (relief is null || relief.Number == 0)
+            {
+                return;
+            }
+            Double3 normal = Double3.Cross(Vector(reading.State.FirstAxis), Vector(reading.State.SecondAxis));
+            if (!TryFind(
+                relief, touched!.Collider!, touched.Tracked.Frame, touched.Place, normal, out MapPlace place))
             {
                 return;
             }
@@ -25,17 +30,20 @@ namespace HaptoFlow
             reading.State.ReliefPlace = place;
         }
 
-        private static bool TryFind(
-            HapticRelief relief, NearbyCollider touched, in ContactState state, out MapPlace found)
+        /// <summary>Where a place on a collider lies in the map; false where the collider has none.</summary>
+        /// <param name="frame">Has the grain of what is touched.</param>
+        /// <param name="outward">The normal in the collider's local frame.</param>
+        public static bool TryFind(HapticRelief relief, Collider collider, TangentFrame frame, in TouchedPlace touched,
+            Double3 outward, out MapPlace found)
         {
             Vector2 size = relief.SizeMetres;
-            Double3 place = touched.Place.LocalMetres;
-            switch (touched.Collider)
+            Double3 place = touched.LocalMetres;
+            switch (collider)
             {
                 case BoxCollider box:
                     Double3 centre = Double3.Scale(box.center.ToDouble(), box.transform.lossyScale.ToDouble());
-                    Double3 normal = FaceOf(Double3.Cross(Vector(state.FirstAxis), Vector(state.SecondAxis)));
-                    Double3 columns = touched.Tracked.Frame.FirstAxisOfNewTouch(normal);
+                    Double3 normal = FaceOf(outward);
+                    Double3 columns = frame.FirstAxisOfNewTouch(normal);
                     // Seen from outside, in Unity's left-handed space, the rows go up where the columns go right.
                     Double3 rows = Double3.Cross(columns, normal);
                     found = new MapPlace(0.5 + Double3.Dot(place - centre, columns) / size.x,
@@ -46,8 +54,8 @@ namespace HaptoFlow
                     return true;
                 default:
                     found = default;
-                    if (!touched.Place.TryGetMesh(out Mesh mesh) || !MeshCoordinates.Of(mesh).TryFind(
-                        touched.Place, touched.Collider!.transform.lossyScale.ToDouble(), out found))
+                    if (!touched.TryGetMesh(out Mesh mesh) || !MeshCoordinates.Of(mesh).TryFind(
+                        touched, collider.transform.lossyScale.ToDouble(), out found))
                     {
                         return false;
                     }
