@@ -165,8 +165,8 @@ describe('the live page', { skip: !hasBrowser }, () => {
     const found = await inPage(async () => {
       clearInterval(globalThis.timer);
       const { record, haptics } = globalThis.haptoflowPage;
-      const { strokes, scene } = record.last;
-      const render = await haptics.render({ scene, stroke: strokes[0], effects: { texture: true, impact: true, edge: true } });
+      const { strokes, scene, reliefs } = record.last;
+      const render = await haptics.render({ scene, reliefs, stroke: strokes[0], effects: { texture: true, impact: true, edge: true } });
       return { heard: [...new Set(globalThis.heard)], stroke: strokes[0], scene, strokes: strokes.length, seconds: render.seconds, touches: render.touches, level: Math.hypot(...[...render.samples].filter((_, index) => index % 16 === 0)) };
     });
     assert.equal(found.strokes, 1);

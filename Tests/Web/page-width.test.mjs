@@ -30,6 +30,10 @@ function openAll() {
   set('#measure-json', JSON.stringify({ userAgent: navigator.userAgent, long: 'y'.repeat(300) }, null, 2));
   set('#measure-progress', address);
   set('#learn-result', `“${name}” is in the palette: paint an object with it. ${address}`);
+  set('#relief-lay', `Lay it on: ${name}`);
+  set('#relief-remove', `Take it off: ${name}`);
+  set('#relief-note', `“${name}.png” lies on ${name}: 60 × 45 mm, 0.4 mm deep. ${address}`);
+  set('#record-note', 'A picture was laid or taken off meanwhile: before that, another relief was felt.');
   set('#learn-doing', `fitting ${name} (50 %)`);
   set('#compare-state', `B: ${name} on ${name}`);
   set('#output-note', `Gamepad: ${name} (STANDARD GAMEPAD Vendor: 045e Product: 02ea).`);

@@ -3,7 +3,7 @@ import { find, make, shown, slider } from './dom.mjs';
 import { Hand } from './table/hand.mjs';
 import { presetStrokes } from './table/preset-strokes.mjs';
 import { Tip } from './table/tip.mjs';
-import { fittedTo, forgetModel, keptModel } from './model-file.mjs';
+import { fittedTo, forgetModel, isModel, keptModel } from './model-file.mjs';
 import { deviceSentences, Messages, sentenceOf, silenceSentence } from './messages.mjs';
 import { ComparePanel } from './panels/compare.mjs';
 import { DevicePanel } from './panels/device.mjs';
@@ -14,12 +14,13 @@ import { OwnMaterialPanel } from './panels/own-material.mjs';
 import { Palette } from './panels/palette.mjs';
 import { QualityPanel } from './panels/quality.mjs';
 import { RecordPanel } from './panels/record.mjs';
+import { isPicture, ReliefPanel } from './panels/relief.mjs';
 import { Recorder } from './recorder.mjs';
 import { Ears } from './ears.mjs';
 import { Scope } from './scope.mjs';
 import { Fills } from './table/fills.mjs';
 import { ProfileView } from './table/profile.mjs';
-import { layerOf, reliefsOf } from './table/reliefs.mjs';
+import { reliefsOf, TableReliefs } from './table/reliefs.mjs';
 import { TableView } from './table/table-view.mjs';
 import { Table } from './table/table.mjs';
 
@@ -83,13 +84,14 @@ class Page {
 
   /**
    * @param {HaptoFlow} haptics @param {any} scene @param {any} looks @param {TableView} view @param {Table} table @param {Fills} fills @param {Tip[]} tips
-   * @param {(scene: import('../engine/js/haptoflow.d.ts').Scene) => void} layReliefs @param {string} fileName of the model that was given, or ''
+   * @param {TableReliefs} reliefs @param {string} fileName of the model that was given, or ''
    */
-  constructor(haptics, scene, looks, view, table, fills, tips, layReliefs, fileName) {
+  constructor(haptics, scene, looks, view, table, fills, tips, reliefs, fileName) {
     this.haptics = haptics;
     this.scene = scene;
     this.looks = looks;
-    this.layReliefs = layReliefs;
+    this.reliefs = reliefs;
+    reliefs.onChange = () => view.setReliefs(reliefs.present);
     this.view = view;
     this.table = table;
     this.tips = tips;
@@ -117,9 +119,7 @@ class Page {
       haptics, fills,
       objects: scene.surfaces.map((/** @type {any} */ surface, /** @type {number} */ index) => ({ value: String(index), text: this.titleOf(index) })),
       paint: (index, material) => this.paint(index, material),
-      onSelect: (index) => {
-        view.selected = index;
-      },
+      onSelect: (index) => this.#select(index),
       restore: () => scene.surfaces.forEach((/** @type {any} */ surface, /** @type {number} */ index) => this.paint(index, surface.material)),
     });
     this.quality = new QualityPanel(haptics, messages);
@@ -134,13 +134,23 @@ class Page {
       play: () => this.#playOver(Math.max(0, view.selected)),
     });
     this.recorder = new Recorder(tips);
-    this.record = new RecordPanel(this.recorder, () => table.sceneNow());
+    this.record = new RecordPanel(this.recorder, () => this.#recorded(), () => reliefs.changes);
+    this.relief = new ReliefPanel({
+      reliefs,
+      mostTexels: HaptoFlow.mostTexels,
+      decode: (file, options) => HaptoFlow.decodeImage(file, options),
+      object: () => Math.max(0, view.selected),
+      nameOf: (index) => scene.surfaces[index].name,
+      titleOf: (index) => this.titleOf(index),
+      isFlat: (index) => table.tops[index].kind === 'box',
+      isOn: () => this.effects.isOn('relief'),
+    });
     this.ownMaterial = new OwnMaterialPanel(haptics, (name) => {
       table.setLabels(haptics.labels);
       this.palette.chosen = name;
       this.palette.refresh();
       this.compare.refresh();
-    }, (files) => this.model.take(files));
+    }, (files, event) => this.#takeDropped(files, event));
     this.model = new ModelPanel(haptics.model, fileName, () => location.reload());
     this.outputs = new Outputs(this.voices, messages);
     this.device = new DevicePanel(haptics, this.hand, this.voices[0]);
@@ -161,7 +171,7 @@ class Page {
     this.voices.forEach(this.adopt);
     this.hand.onHover = (place) => this.#showHover(place);
     view.selected = scene.surfaces.findIndex((/** @type {any} */ surface) => surface.name === 'corduroy swatch');
-    this.palette.select(view.selected);
+    this.#select(view.selected);
     this.#listenToEngine();
     this.#offerHeadset();
     this.#deviceLine();
@@ -181,13 +191,42 @@ class Page {
     this.view.refresh();
   }
 
+  #select(/** @type {number} */ index) {
+    if (index < 0) return;
+    this.view.selected = index;
+    this.palette.select(index);
+    this.relief.refresh();
+  }
+
+  /** Pictures become reliefs, of what they are dropped on, and models play. Returns whether the files were any. */
+  #takeDropped(/** @type {File[]} */ files, /** @type {DragEvent} */ event) {
+    const picture = files.find(isPicture);
+    if (picture) {
+      if (event.target === find('#table')) {
+        const { x, z } = this.view.placeOf(event);
+        this.#select(this.table.at(x, z));
+      }
+      void this.relief.take(picture);
+    } else if (files.some(({ name }) => isModel(name))) {
+      this.model.take(files);
+    } else {
+      return false;
+    }
+    return true;
+  }
+
+  /** What a recording is rendered with: the scene of now, with the reliefs that are felt. */
+  #recorded() {
+    const scene = this.table.sceneNow();
+    return this.effects.isOn('relief') ? this.reliefs.withFiles(scene) : { scene, files: new Map(), reliefs: {} };
+  }
+
   #touched(/** @type {number} */ x, /** @type {number} */ z) {
     void this.haptics.resume();
     this.table.moveTo((performance.now() - epochMs) / 1000);
     const index = this.table.at(x, z);
     if (index < 0) return;
-    this.view.selected = index;
-    this.palette.select(index);
+    this.#select(index);
     if (this.palette.isPainting) this.paint(index, this.palette.material);
   }
 
@@ -286,9 +325,10 @@ class Page {
           haptics: this.haptics,
           scene: this.table.sceneNow(),
           looks: this.looks,
+          reliefs: this.reliefs.present,
           onPaint: ({ surface, material }) => this.paint(this.scene.surfaces.findIndex((/** @type {any} */ { name }) => name === surface), material),
           onVoice: this.adopt,
-          onScene: this.layReliefs,
+          onScene: this.reliefs.lay,
           onEnd: ({ message, posesPerSecond }) => {
             button.disabled = false;
             this.device.posesPerSecond = posesPerSecond;
@@ -380,8 +420,8 @@ try {
   const movingScene = matchMedia('(prefers-reduced-motion: reduce)').matches ? withoutMotion(plainScene) : plainScene;
   const table = new Table(movingScene);
   const fills = new Fills(looks.labels);
-  const reliefs = reliefsOf(movingScene, looks);
-  const view = new TableView(find('#table'), table, looks, fills, reliefs);
+  const ownReliefs = reliefsOf(movingScene, looks);
+  const view = new TableView(find('#table'), table, looks, fills, ownReliefs);
   // The table is there before the engine is.
   view.draw(0, []);
   given = await keptModel();
@@ -390,15 +430,16 @@ try {
   const { scene, lacking } = fittedTo(movingScene, haptics.labels);
   table.materials = scene.surfaces.map((/** @type {any} */ surface) => surface.material);
   view.refresh();
-  const layReliefs = await layerOf(haptics, reliefs);
+  const reliefs = new TableReliefs(haptics, ownReliefs, table.tipRadius);
+  await reliefs.start();
   const tips = [];
   for (let index = 0; index < tipCount; index += 1) {
     const contactScene = haptics.loadScene(scene);
-    layReliefs(contactScene);
+    reliefs.follow(contactScene);
     tips.push(new Tip(table, await haptics.openVoice(), contactScene));
     table.follow(contactScene);
   }
-  const page = new Page(haptics, scene, looks, view, table, fills, tips, layReliefs, given?.name ?? '');
+  const page = new Page(haptics, scene, looks, view, table, fills, tips, reliefs, given?.name ?? '');
   page.run();
   if (lacking.length > 0) messages.show(`This model has no ${lacking.join(', ')}: these objects are of other materials.`);
   // For tests and for the curious at the console.

@@ -39,6 +39,10 @@ export class EffectsPanel {
     voice.effects = { ...this.#choice };
   }
 
+  isOn(/** @type {'texture' | 'impact' | 'edge' | 'relief'} */ effect) {
+    return this.#choice[effect];
+  }
+
   async measure(/** @type {any} */ button) {
     button.disabled = true;
     button.textContent = 'Measuring …';

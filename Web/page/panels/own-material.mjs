@@ -1,6 +1,5 @@
 import { download, find } from '../dom.mjs';
 import { sentenceOf } from '../messages.mjs';
-import { isModel } from '../model-file.mjs';
 
 const isRecording = (/** @type {string} */ name) => /\.(csv|wav)$/i.test(name);
 /** The recording first, then its sidecar and its table of motion, which are smaller. */
@@ -23,8 +22,8 @@ export class OwnMaterialPanel {
   /** @type {import('../../engine/js/haptoflow.d.ts').LearntMaterial | null} */
   #learnt = null;
 
-  /** @param {import('../../engine/js/haptoflow.d.ts').HaptoFlow} haptics @param {(name: string) => void} onMaterial @param {(files: File[]) => void} onModel */
-  constructor(haptics, onMaterial, onModel) {
+  /** @param {import('../../engine/js/haptoflow.d.ts').HaptoFlow} haptics @param {(name: string) => void} onMaterial @param {(files: File[], event: DragEvent) => boolean} takeOther whether dropped files are of another kind, which it then takes */
+  constructor(haptics, onMaterial, takeOther) {
     this.#haptics = haptics;
     this.#onMaterial = onMaterial;
     const input = find('#recording');
@@ -46,8 +45,7 @@ export class OwnMaterialPanel {
       event.preventDefault();
       this.#area.classList.remove('is-over');
       const files = [...(event.dataTransfer?.files ?? [])];
-      if (files.some(({ name }) => isModel(name))) onModel(files);
-      else if (files.length > 0) void this.learn(files);
+      if (files.length > 0 && !takeOther(files, event)) void this.learn(files);
     });
   }
 

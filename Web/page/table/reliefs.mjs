@@ -146,14 +146,126 @@ export function reliefsOf(scene, looks) {
   return found;
 }
 
-/**
- * Makes the reliefs in an engine. Returns what lays them on a contact scene of the same surfaces.
- * @param {import('../../engine/js/haptoflow.d.ts').HaptoFlow} haptics @param {Map<string, SurfaceRelief>} reliefs
- */
-export async function layerOf(haptics, reliefs) {
-  const made = new Map();
-  for (const relief of new Set(reliefs.values())) made.set(relief, await haptics.createRelief(relief));
-  return (/** @type {import('../../engine/js/haptoflow.d.ts').Scene} */ scene) => {
-    for (const [name, relief] of reliefs) scene.setRelief(name, made.get(relief), { share: relief.share });
+/** The image with its middle at the corner, which lies in the middle of a surface. @param {import('../../engine/js/haptoflow.d.ts').ReliefImage} image */
+function rolled({ width, height, data }) {
+  const turned = data.slice();
+  const [left, top] = [Math.floor(width / 2), Math.floor(height / 2)];
+  for (let row = 0; row < height; row += 1) {
+    const from = 4 * width * ((row + top) % height);
+    const to = 4 * width * row;
+    turned.set(data.subarray(from + 4 * left, from + 4 * width), to);
+    turned.set(data.subarray(from, from + 4 * left), to + 4 * (width - left));
+  }
+  return { width, height, data: turned };
+}
+
+/** @typedef {{scene: any, files: Map<string, () => Promise<Uint8Array>>, reliefs: Record<string, SurfaceRelief>}} SceneWithReliefs files: PNG by name; reliefs by surface */
+
+/** The reliefs of a table's surfaces, drawn and felt: those of its looks, and pictures in their place. */
+export class TableReliefs {
+  #haptics;
+  #own;
+  #tipRadius;
+  /** In the engine, by what is drawn. @type {Map<SurfaceRelief, import('../../engine/js/haptoflow.d.ts').Relief>} */
+  #made = new Map();
+  /** By names of surfaces. @type {Map<string, SurfaceRelief>} */
+  #pictures = new Map();
+  /** @type {import('../../engine/js/haptoflow.d.ts').Scene[]} */
+  #scenes = [];
+  /** How often a picture was laid or taken off. */
+  changes = 0;
+  onChange = () => {};
+
+  /** @param {import('../../engine/js/haptoflow.d.ts').HaptoFlow} haptics @param {Map<string, SurfaceRelief>} own by names of surfaces @param {number} tipRadius */
+  constructor(haptics, own, tipRadius) {
+    this.#haptics = haptics;
+    this.#own = own;
+    this.#tipRadius = tipRadius;
+  }
+
+  /** Makes those of the looks in the engine. */
+  async start() {
+    for (const relief of new Set(this.#own.values())) this.#made.set(relief, await this.#haptics.createRelief(relief));
+  }
+
+  /** What lies on each surface now. */
+  get present() {
+    return new Map([...this.#own, ...this.#pictures]);
+  }
+
+  hasPicture(/** @type {string} */ name) {
+    return this.#pictures.has(name);
+  }
+
+  /** Lays them on a contact scene of the same surfaces. */
+  lay = (/** @type {import('../../engine/js/haptoflow.d.ts').Scene} */ scene) => {
+    for (const name of this.present.keys()) this.#layOne(scene, name);
   };
+
+  /** Lays them on a scene, also those that come later. @param {import('../../engine/js/haptoflow.d.ts').Scene} scene */
+  follow(scene) {
+    this.#scenes.push(scene);
+    this.lay(scene);
+  }
+
+  #layOne(/** @type {import('../../engine/js/haptoflow.d.ts').Scene} */ scene, /** @type {string} */ name) {
+    const relief = this.#pictures.get(name) ?? this.#own.get(name);
+    scene.setRelief(name, relief ? /** @type {any} */ (this.#made.get(relief)) : null, relief && { share: relief.share });
+  }
+
+  /**
+   * Lays a picture on a surface, its middle in the surface's middle; it goes on beyond its rims.
+   * @param {string} name @param {import('../../engine/js/haptoflow.d.ts').ReliefImage} image
+   * @param {{isNormalMap: boolean, sizeMetres: [number, number], depthMetres: number, share: number}} options
+   * @returns {Promise<SurfaceRelief>}
+   */
+  async put(name, image, { share, ...options }) {
+    const made = await this.#haptics.createRelief({ ...options, image: rolled(image), tipRadiusMetres: this.#tipRadius });
+    const { columns, rows, heightsMetres, sizeMetres, depthMetres, tipRadiusMetres, isTiled } = made;
+    const relief = { columns, rows, heightsMetres, sizeMetres, depthMetres, tipRadiusMetres, isTiled, share, surfaceMetres: heightsMetres.reduce((most, height) => Math.max(most, height), 0) };
+    this.#made.set(relief, made);
+    this.#exchange(name, relief);
+    return relief;
+  }
+
+  /** Takes the picture off; the surface then has what it had at first. @param {string} name */
+  remove(name) {
+    this.#exchange(name, null);
+  }
+
+  #exchange(/** @type {string} */ name, /** @type {SurfaceRelief | null} */ relief) {
+    const before = this.#pictures.get(name);
+    if (relief) this.#pictures.set(name, relief);
+    else this.#pictures.delete(name);
+    for (const scene of this.#scenes) this.#layOne(scene, name);
+    // Only now, so that a tip on it goes over to the next one.
+    if (before) {
+      this.#made.get(before)?.destroy();
+      this.#made.delete(before);
+    }
+    this.changes += 1;
+    this.onChange();
+  }
+
+  /**
+   * A scene with all of them as files, for the command line.
+   * @param {any} scene SCENE.json
+   * @returns {SceneWithReliefs}
+   */
+  withFiles(scene) {
+    const { present } = this;
+    /** @type {Map<SurfaceRelief, string>} */
+    const names = new Map();
+    for (const [surface, relief] of present) if (!names.has(relief)) names.set(relief, `relief-${surface.replaceAll(/[^a-z0-9]+/gi, '-')}.png`);
+    const files = new Map([...names].map(([relief, file]) => {
+      const made = this.#made.get(relief);
+      return /** @type {const} */ ([file, () => /** @type {any} */ (made).png()]);
+    }));
+    const surfaces = scene.surfaces.map((/** @type {any} */ surface) => {
+      const relief = present.get(surface.name);
+      if (!relief) return surface;
+      return { ...surface, relief: { image: names.get(relief), size: relief.sizeMetres, depth: relief.depthMetres, share: relief.share } };
+    });
+    return { scene: { ...scene, surfaces }, files, reliefs: Object.fromEntries(present) };
+  }
 }

@@ -22,18 +22,17 @@ export class TableView {
   #trails = [];
   /** Index of the outlined object, -1 for none. */
   selected = -1;
-  /** Pictures of reliefs, and what a texel of each is long. @type {Map<string, {picture: HTMLCanvasElement, scale: DOMMatrix}>} */
-  #shadings = new Map();
+  /** By names of surfaces. @type {Map<string, import('./reliefs.mjs').SurfaceRelief>} */
+  #reliefs = new Map();
+  /** Pictures of reliefs, and what a texel of each is long. @type {WeakMap<import('./reliefs.mjs').SurfaceRelief, {picture: HTMLCanvasElement, scale: DOMMatrix}>} */
+  #shadings = new WeakMap();
 
   /**
    * @param {HTMLCanvasElement} canvas @param {import('./table.mjs').Table} table @param {any} looks @param {import('./fills.mjs').Fills} fills
    * @param {Map<string, import('./reliefs.mjs').SurfaceRelief>} reliefs by names of surfaces
    */
   constructor(canvas, table, looks, fills, reliefs) {
-    for (const [name, relief] of reliefs) {
-      const { columns, rows, sizeMetres: [x, z] } = relief;
-      this.#shadings.set(name, { picture: shadingOf(relief), scale: new DOMMatrix([x / columns, 0, 0, -z / rows, 0, 0]) });
-    }
+    this.#reliefs = reliefs;
     this.#canvas = canvas;
     this.#table = table;
     this.#looks = looks;
@@ -49,6 +48,19 @@ export class TableView {
   /** Draws all anew at the next frame: a material, the size or the colours have changed. */
   refresh() {
     this.#isStale = true;
+  }
+
+  /** Shows other reliefs. @param {Map<string, import('./reliefs.mjs').SurfaceRelief>} reliefs by names of surfaces */
+  setReliefs(reliefs) {
+    this.#reliefs = reliefs;
+    this.refresh();
+  }
+
+  #shadingOf(/** @type {import('./reliefs.mjs').SurfaceRelief} */ relief) {
+    const { columns, rows, sizeMetres: [x, z] } = relief;
+    const shading = this.#shadings.get(relief) ?? { picture: shadingOf(relief), scale: new DOMMatrix([x / columns, 0, 0, -z / rows, 0, 0]) };
+    this.#shadings.set(relief, shading);
+    return shading;
   }
 
   get #width() {
@@ -161,8 +173,9 @@ export class TableView {
 
   /** Fills the outline with the light and shade of its heights. */
   #drawRelief(/** @type {CanvasRenderingContext2D} */ context, /** @type {string} */ name) {
-    const shading = this.#shadings.get(name);
-    if (!shading) return;
+    const relief = this.#reliefs.get(name);
+    if (!relief) return;
+    const shading = this.#shadingOf(relief);
     const pattern = /** @type {CanvasPattern} */ (context.createPattern(shading.picture, 'repeat'));
     pattern.setTransform(shading.scale);
     context.fillStyle = pattern;

@@ -17,6 +17,7 @@ export async function headsetIsPossible() {
  * @param {import('../../engine/js/haptoflow.d.ts').HaptoFlow} options.haptics
  * @param {object} options.scene SCENE.json as an object, about 0.5 m wide, its table's top at y = 0
  * @param {{labels: Record<string, {colour: string, accent?: string, picture?: string, picture_metres?: number}>}} options.looks
+ * @param {Map<string, import('../table/reliefs.mjs').SurfaceRelief>} [options.reliefs] to be drawn, by names of surfaces; `onScene` lays them
  * @param {(end: {reason: 'left' | 'graphics-lost' | 'failed', message: string, framesPerSecond: number, posesPerSecond: number}) => void} [options.onEnd]
  *   `message` is for people, empty where nothing is wrong
  * @param {(paint: {surface: string, material: string}) => void} [options.onPaint]
@@ -25,13 +26,13 @@ export async function headsetIsPossible() {
  * @param {number} [options.newtonsAtFullPressure] the force at which a pen's tip reports 1; a guess of 1 N unless given
  * @returns {Promise<import('./visit.mjs').Visit>} `end()` leaves, `rates()` says how often poses come
  */
-export async function enterHeadset({ haptics, scene, looks, onEnd = () => {}, onPaint = () => {}, onVoice = () => {}, onScene = () => {}, newtonsAtFullPressure = defaultNewtonsAtFullPressure }) {
+export async function enterHeadset({ haptics, scene, looks, reliefs = new Map(), onEnd = () => {}, onPaint = () => {}, onVoice = () => {}, onScene = () => {}, newtonsAtFullPressure = defaultNewtonsAtFullPressure }) {
   // Both need the gesture, which loading would outlast. Sound may come later than sight.
   haptics.resume().catch(() => {});
   const session = await navigator.xr.requestSession('immersive-vr', { requiredFeatures: ['local-floor'], optionalFeatures: ['hand-tracking'] });
   try {
     const [three, { Visit }] = await Promise.all([import('../three/three.module.js'), import('./visit.mjs')]);
-    return await Visit.begin({ haptics, scene, looks, three, session, newtonsAtFullPressure, onEnd, onPaint, onVoice, onScene });
+    return await Visit.begin({ haptics, scene, looks, reliefs, three, session, newtonsAtFullPressure, onEnd, onPaint, onVoice, onScene });
   } catch (error) {
     await session.end().catch(() => {});
     throw error;

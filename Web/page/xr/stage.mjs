@@ -1,7 +1,6 @@
 import { Bench, geometryOf } from './bench.mjs';
 import { boardTop, swatches, swatchMetres } from './board.mjs';
 import { mirrorPosition, mirrorRotation } from './frames.mjs';
-import { reliefsOf } from '../table/reliefs.mjs';
 import { Looks } from './looks.mjs';
 import { Panel, panelMetres } from './panel.mjs';
 import { Pens } from './pens.mjs';
@@ -42,9 +41,10 @@ export class Stage {
    * @param {object} parts.scene SCENE.json, without the board
    * @param {import('../../engine/js/haptoflow.d.ts').Scene} parts.poses where its surfaces are
    * @param {{labels: Record<string, any>}} parts.looks
+   * @param {Map<string, import('../table/reliefs.mjs').SurfaceRelief>} parts.reliefs by names of surfaces
    * @param {readonly string[]} parts.labels
    */
-  constructor({ three, scene, poses, looks, labels }) {
+  constructor({ three, scene, poses, looks, reliefs, labels }) {
     this.#three = three;
     this.renderer = new three.WebGLRenderer({ antialias: true });
     this.renderer.xr.enabled = true;
@@ -52,7 +52,7 @@ export class Stage {
     // One looks at a tip from near by.
     this.#camera = new three.PerspectiveCamera(50, 1, 0.02, 60);
     this.#looks = new Looks(three, looks);
-    const shadings = new Map([...reliefsOf(scene, looks)].map(([name, relief]) => [name, this.#looks.shading(relief)]));
+    const shadings = new Map([...reliefs].map(([name, relief]) => [name, this.#looks.shading(relief)]));
     this.#bench = new Bench({ three, scene, poses, looks: this.#looks, shadings });
     this.#pens = new Pens(three, 2);
     this.panel = new Panel(three);

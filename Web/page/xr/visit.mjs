@@ -52,7 +52,7 @@ export class Visit {
   ended;
 
   /** @param {any} parts see `enterHeadset`; `three` is the namespace, `session` is running */
-  static async begin({ haptics, scene, looks, three, session, newtonsAtFullPressure, onEnd, onPaint, onVoice, onScene }) {
+  static async begin({ haptics, scene, looks, reliefs, three, session, newtonsAtFullPressure, onEnd, onPaint, onVoice, onScene }) {
     const labels = haptics.labels.map(({ name }) => name);
     const board = withBoard(scene, labels);
     const opened = [];
@@ -67,7 +67,7 @@ export class Visit {
         onVoice(hand.voice);
         onScene(hand.scene);
       }
-      stage = new Stage({ three, scene, poses: opened[0].scene, looks, labels });
+      stage = new Stage({ three, scene, poses: opened[0].scene, looks, reliefs, labels });
       await stage.renderer.xr.setSession(session);
       if (hasEnded) throw new Error('the headset was left while it loaded');
       const [left, right] = opened;
