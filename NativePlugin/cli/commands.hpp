@@ -18,6 +18,7 @@ void addInspectCommand(CLI::App& app);
 void addActuatorCommand(CLI::App& app);
 void addBenchCommand(CLI::App& app);
 void addLearnCommand(CLI::App& app);
+void addExportSetCommand(CLI::App& app);
 
 /// Plays the stroke in the scene at the scene's update rate, or in frames at its own samples, and writes one CSV line
 /// per frame. Throws InputError if the stroke, named `strokeName`, is too long.

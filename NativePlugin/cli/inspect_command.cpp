@@ -1,3 +1,4 @@
+#include "clip_output.hpp"
 #include "commands.hpp"
 #include "headless/command_files.hpp"
 #include "messages.hpp"
@@ -24,6 +25,7 @@ using Row = std::vector<std::string>;
 
 struct InspectOptions {
     std::string modelPath;
+    std::string picturePath;
     bool json = false;
 };
 
@@ -215,6 +217,13 @@ void inspectMaterial(const InspectOptions& options) {
 }
 
 void runInspect(const InspectOptions& options) {
+    if (clipFormatOf(options.modelPath)) {
+        inspectClip(options.modelPath, options.json, options.picturePath);
+        return;
+    }
+    if (!options.picturePath.empty()) {
+        throw UsageError("--picture draws clips; " + options.modelPath + " is none (.haptic, .ahap, .hjif)");
+    }
     if (options.modelPath.ends_with(".haptomaterial")) {
         inspectMaterial(options);
         return;
@@ -233,15 +242,18 @@ void runInspect(const InspectOptions& options) {
 }  // namespace
 
 void addInspectCommand(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("inspect", "Verify a model or material file and show its content");
+    CLI::App* command = app.add_subcommand("inspect", "Verify a model, a material or a clip and show its content");
     const auto options = std::make_shared<InspectOptions>();
-    command->add_option("model", options->modelPath, "The .haptoflow or .haptomaterial file")
+    command->add_option("model", options->modelPath, "The .haptoflow, .haptomaterial, .haptic, .ahap or .hjif file")
         ->required()
         ->type_name("FILE");
-    command->add_flag("--json", options->json, "Print the file's header, size and checksum as JSON");
+    command->add_flag("--json", options->json, "Print the file's header, size and checksum, or a clip's figures, as JSON");
+    command->add_option("--picture", options->picturePath, "Draw a clip's amplitude and frequency over time")
+        ->type_name("OUT.svg");
     command->footer(
-        "Example:\n"
-        "  haptoflow inspect default.haptoflow --json");
+        "Examples:\n"
+        "  haptoflow inspect default.haptoflow --json\n"
+        "  haptoflow inspect click.haptic --picture click.svg");
     command->callback([options] { runInspect(*options); });
 }
 

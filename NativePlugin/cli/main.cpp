@@ -88,6 +88,7 @@ int run(int argc, char** argv) {
         "  haptoflow inspect default.haptoflow\n"
         "  haptoflow actuator show voice-coil\n"
         "  haptoflow learn denim.csv -o denim.haptomaterial\n"
+        "  haptoflow export-set -o clips --labels wood,fabric\n"
         "  haptoflow bench --quick\n"
         "Exit codes: 0 done, 2 wrong usage, 3 bad input file, 4 internal error.");
 
@@ -96,6 +97,7 @@ int run(int argc, char** argv) {
     addInspectCommand(app);
     addActuatorCommand(app);
     addLearnCommand(app);
+    addExportSetCommand(app);
     addBenchCommand(app);
 
     const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);

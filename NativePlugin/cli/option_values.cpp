@@ -8,6 +8,7 @@
 #include "recordings/table_rows.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cstdlib>
 #include <optional>
@@ -180,6 +181,24 @@ std::shared_ptr<const inference::Runtime> openRuntime() {
 
 std::shared_ptr<const inference::Runtime> openRuntimeFor(std::span<const model::Tier> tiers) {
     return std::ranges::any_of(tiers, &model::Tier::needsOnnxRuntime) ? openRuntime() : nullptr;
+}
+
+const model::Tier& chooseTier(const model::ModelFile& model, const std::string& quality) {
+    if (quality.empty()) {
+        return model.header().tiers[model.header().defaultTier];
+    }
+    if (const model::Tier* tier = model.findTier(quality)) {
+        return *tier;
+    }
+    std::vector<std::string> tiers;
+    std::string listed;
+    for (const model::Tier& tier : model.header().tiers) {
+        tiers.push_back(tier.name);
+        listed += (listed.empty() ? "" : ", ") + tier.name;
+    }
+    const std::string meant = headless::likelyWord(quality, tiers);
+    throw UsageError("--quality " + quality + ": " +
+                     (meant.empty() ? "" : headless::didYouMean(std::array{meant}) + " ") + "This model has " + listed);
 }
 
 }  // namespace haptoflow::cli

@@ -41,6 +41,9 @@ namespace haptoflow::cli {
 /// Reads a model; errors become InputError.
 [[nodiscard]] model::ModelFile readModel(const std::filesystem::path& path);
 
+/// The tier of this name; the default tier for an empty one. Throws UsageError that lists the model's.
+[[nodiscard]] const model::Tier& chooseTier(const model::ModelFile& model, const std::string& quality);
+
 /// Opens the ONNX Runtime that findOnnxRuntime finds; errors become InputError.
 [[nodiscard]] std::shared_ptr<const inference::Runtime> openRuntime();
 /// The same where one of the tiers needs it; null otherwise.

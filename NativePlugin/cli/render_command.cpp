@@ -1,3 +1,4 @@
+#include "clip_output.hpp"
 #include "commands.hpp"
 #include "effects/actuator_profile.hpp"
 #include "effects/effect.hpp"
@@ -39,6 +40,8 @@ struct RenderOptions {
     /// Paths of the outputs; empty if there is none of the kind.
     std::string outputPath;
     std::string parametricPath;
+    std::string tablePath;
+    std::vector<std::string> clipPaths;
     std::string modelPath;
     std::vector<std::string> materials;
     std::string quality;
@@ -51,6 +54,11 @@ struct RenderOptions {
     double delayMs = 0.0;
     engine::OfflineSettings engine;
     bool quiet = false;
+
+    /// Whether the amplitude and frequency over time are asked for.
+    [[nodiscard]] bool needsFrames() const {
+        return !parametricPath.empty() || !tablePath.empty() || !clipPaths.empty();
+    }
 };
 
 const std::map<std::string, effects::EffectKind>& effectNames() {
@@ -74,24 +82,6 @@ const std::map<std::string, inference::SolverKind>& solverNames() {
                                                                     {"midpoint", inference::SolverKind::midpoint},
                                                                     {"heun", inference::SolverKind::heun}};
     return names;
-}
-
-const model::Tier& chooseTier(const model::ModelFile& model, const std::string& quality) {
-    if (quality.empty()) {
-        return model.header().tiers[model.header().defaultTier];
-    }
-    if (const model::Tier* tier = model.findTier(quality)) {
-        return *tier;
-    }
-    std::vector<std::string> tiers;
-    std::string listed;
-    for (const model::Tier& tier : model.header().tiers) {
-        tiers.push_back(tier.name);
-        listed += (listed.empty() ? "" : ", ") + tier.name;
-    }
-    const std::string meant = headless::likelyWord(quality, tiers);
-    throw UsageError("--quality " + quality + ": " +
-                     (meant.empty() ? "" : headless::didYouMean(std::array{meant}) + " ") + "This model has " + listed);
 }
 
 /// The solver of the options, if the tier can use it.
@@ -165,9 +155,17 @@ public:
         if (!options.reportPath.empty()) {
             report_.emplace("--report", options.reportPath);
         }
+        if (options.needsFrames()) {
+            frames_.emplace(options.engine.outputRateHz);
+        }
         if (!options.parametricPath.empty()) {
             parametric_.emplace("-o", options.parametricPath);
-            frames_.emplace(options.engine.outputRateHz);
+        }
+        if (!options.tablePath.empty()) {
+            table_.emplace("-o", options.tablePath);
+        }
+        for (const std::string& path : options.clipPaths) {
+            clips_.push_back(std::make_unique<OutputFile>("-o", path));
         }
     }
 
@@ -188,6 +186,18 @@ public:
         }
     }
 
+    /// No samples follow. Writes the clips.
+    [[nodiscard]] std::vector<ClipFigures> finish(const clips::ClipOrigin& origin) {
+        std::vector<ClipFigures> figures;
+        if (frames_) {
+            frames_->finish();
+        }
+        for (const auto& file : clips_) {
+            figures.push_back(writeClipFile(*file, frames_->toClip(origin)));
+        }
+        return figures;
+    }
+
     void complete(const std::string& report) {
         if (wavWriter_) {
             wavWriter_->close();
@@ -201,11 +211,15 @@ public:
         if (parametric_) {
             writeText(*parametric_, frames_->toJson());
         }
-        for (std::optional<OutputFile>* file : {&wav_, &waveform_, &report_, &parametric_}) {
+        if (table_) {
+            writeText(*table_, frames_->toCsv());
+        }
+        for (std::optional<OutputFile>* file : {&wav_, &waveform_, &report_, &parametric_, &table_}) {
             if (*file) {
                 (*file)->commit();
             }
         }
+        std::ranges::for_each(clips_, [](const auto& file) { file->commit(); });
     }
 
 private:
@@ -215,20 +229,34 @@ private:
     std::optional<WavWriter> waveformWriter_;
     std::optional<OutputFile> report_;
     std::optional<OutputFile> parametric_;
+    std::optional<OutputFile> table_;
+    std::vector<std::unique_ptr<OutputFile>> clips_;
     std::optional<ParametricFrames> frames_;
     float fullScaleMps2_;
     std::vector<float> scaled_;
 };
 
-/// Assigns the outputs to their formats: one WAV and one JSON file at most.
+std::string kindOfOutput(std::string_view path) {
+    if (const auto clip = clipFormatOf(path)) {
+        return std::string(clips::endingOf(*clip));
+    }
+    return path.ends_with(".json") ? "json" : path.ends_with(".csv") ? "csv" : "wav";
+}
+
+/// Assigns the outputs to their formats: one file of each at most.
 void sortOutputs(RenderOptions& options) {
+    std::map<std::string, std::string> byKind;
     for (const std::string& output : options.outputs) {
-        std::string& path = output.ends_with(".json") ? options.parametricPath : options.outputPath;
-        if (!path.empty()) {
-            throw UsageError("-o " + output + ": -o " + path +
-                             " is of the same kind; give one .wav and one .json at most");
+        const std::string kind = kindOfOutput(output);
+        if (const auto [other, isNew] = byKind.emplace(kind, output); !isNew) {
+            throw UsageError("-o " + output + ": -o " + other->second +
+                             " is of the same kind; give one .wav, .haptic, .ahap, .hjif, .csv and .json at most");
         }
-        path = output;
+        if (clipFormatOf(output)) {
+            options.clipPaths.push_back(output);
+        } else {
+            (kind == "json" ? options.parametricPath : kind == "csv" ? options.tablePath : options.outputPath) = output;
+        }
     }
 }
 
@@ -240,9 +268,10 @@ void requireSoundOptions(const RenderOptions& options) {
         throw UsageError(
             "--quality auto depends on measured times, so that two renders could differ; name a quality of the model");
     }
-    if (!options.parametricPath.empty() && std::fmod(options.engine.outputRateHz, inference::waveformRateHz) != 0.0) {
-        throw UsageError("-o " + options.parametricPath +
-                         " needs a --rate that is a multiple of 2000 Hz, such as 48000");
+    if (options.needsFrames() && std::fmod(options.engine.outputRateHz, inference::waveformRateHz) != 0.0) {
+        const auto framed = std::ranges::find_if(
+            options.outputs, [](const std::string& output) { return kindOfOutput(output) != "wav"; });
+        throw UsageError("-o " + *framed + " needs a --rate that is a multiple of 2000 Hz, such as 48000");
     }
 }
 
@@ -276,6 +305,24 @@ void explainSilence(const RenderOptions& options, const engine::OfflineFigures& 
         note(stroke + ": " + std::to_string(figures.silentTouches) + " of " + std::to_string(figures.touches) +
              " touches make no sound: a texture sounds only while the tip slides.");
     }
+}
+
+/// What a clip says of the render.
+clips::ClipOrigin originOf(const RenderOptions& options, const std::vector<std::string>& labels,
+                           const std::string& modelName, const std::string& quality,
+                           const model::ModelHeader& header) {
+    std::string title;
+    for (const std::string& label : labels) {
+        title += (title.empty() ? "" : ", ") + label;
+    }
+    const auto nameOf = [](const std::string& path) { return std::filesystem::path(path).filename().string(); };
+    return {.title = title,
+            .description = nameOf(options.strokePath) + " over " + nameOf(options.scenePath) + "; " + modelName +
+                           ", quality " + quality + ", seed " + std::to_string(options.engine.seed) + "; " +
+                           header.provenance.licence,
+            .editor = "HaptoFlow " HAPTOFLOW_VERSION,
+            .source = nameOf(options.strokePath),
+            .tags = labels};
 }
 
 void runRender(const RenderOptions& options) {
@@ -327,7 +374,9 @@ void runRender(const RenderOptions& options) {
 
     const std::uint64_t allTouches = touchesOfEverySample(scene, stroke, frames, settings);
     const std::uint64_t missedTouches = allTouches - std::min(allTouches, figures.touches);
-    const std::filesystem::path wav(options.outputPath.empty() ? options.parametricPath : options.outputPath);
+    const std::filesystem::path wav(options.outputPath.empty() ? options.outputs.front() : options.outputPath);
+    const std::vector<ClipFigures> clipFigures =
+        files.finish(originOf(options, labelsIn(scene), modelPath.filename().string(), tier.name, model.header()));
     const bool isEuler = tier.kind == model::TierKind::averageVelocity;
     files.complete(renderReport({.name = wav.stem().string(),
                                  .model = modelPath.filename().string(),
@@ -339,7 +388,8 @@ void runRender(const RenderOptions& options) {
                                                             : std::string(model::solverName(solver.kind)),
                                  .steps = solver.steps,
                                  .outputRateHz = options.engine.outputRateHz,
-                                 .missedTouches = missedTouches},
+                                 .missedTouches = missedTouches,
+                                 .clips = clipFigures},
                                 figures));
     explainSilence(options, figures, missedTouches, scene.updateRateHz);
 }
@@ -357,10 +407,10 @@ void addRenderCommand(CLI::App& app) {
         ->type_name("STROKE.csv");
     command
         ->add_option("-o,--output", options->outputs,
-                     "OUT.wav: one channel of 32-bit float; - for standard output. OUT.json: frames for a device with "
-                     "one carrier, with "
-                     "amplitude, frequency and transients every 5 ms at the perceived intensity of the wave. May be "
-                     "given once for each")
+                     "OUT.wav: one channel of 32-bit float; - for standard output. OUT.haptic (Meta, Lofelt), OUT.ahap "
+                     "(Apple), OUT.hjif (MPEG-I): a clip for other tools, with amplitude, frequency and transients. "
+                     "OUT.json, OUT.csv: the same every 5 ms, at the perceived intensity of the wave. May be given once "
+                     "for each")
         ->required()
         ->allow_extra_args(false)
         ->type_name("FILE");
@@ -420,6 +470,7 @@ void addRenderCommand(CLI::App& app) {
         "  haptoflow render scene.json --stroke stroke.csv -o draft.wav --quality draft\n"
         "  haptoflow render scene.json --stroke stroke.csv -o taps.wav --effects texture,impact,edge --actuator "
         "voice-coil\n"
+        "  haptoflow render scene.json --stroke stroke.csv -o stroke.haptic -o stroke.ahap --effects texture,impact\n"
         "+-1 in the WAV is 200 m/s^2 (see --full-scale): most textures are quiet, at their true level.");
     command->callback([options] {
         sortOutputs(*options);

@@ -1,6 +1,10 @@
 #include "render_output.hpp"
+
+#include "clips/clip_making.hpp"
 #include "effects/carrier_rendering.hpp"
 #include "effects/device_loudness.hpp"
+
+#include "model/plain_text.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -29,7 +33,7 @@ nlohmann::ordered_json effectsOf(const engine::OfflineFigures& figures) {
 
 std::string renderReport(const RenderIdentity& identity, const engine::OfflineFigures& figures) {
     const bool isSolved = !identity.solver.empty();
-    const nlohmann::ordered_json report{
+    nlohmann::ordered_json report{
         {"name", identity.name},
         {"model", identity.model},
         {"labels", identity.labels},
@@ -59,6 +63,14 @@ std::string renderReport(const RenderIdentity& identity, const engine::OfflineFi
           {"outlier_share", figures.seamStatistics.outlierShare},
           {"jump_ratio", figures.seamStatistics.jumpRatio}}},
     };
+    for (const ClipFigures& clip : identity.clips) {
+        report["clips"].push_back({{"file", clip.file},
+                                   {"amplitude_points", clip.amplitudePoints},
+                                   {"frequency_points", clip.frequencyPoints},
+                                   {"transients", clip.transients},
+                                   {"amplitude_error_db", clip.amplitudeErrorDb},
+                                   {"frequency_error_percent", clip.frequencyErrorPercent}});
+    }
     return report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
 }
 
@@ -71,6 +83,9 @@ const effects::WaveFeatureOptions& options() {
     static const effects::WaveFeatureOptions usual;
     return usual;
 }
+
+/// The last frame is complete only some samples after its end.
+constexpr std::size_t trailingSamples = WaveFeatures::lookaheadSamples + WaveDecimation::delaySamples;
 
 /// Time in the render, in seconds, of a sample of the features, with the delay of the decimation subtracted.
 double secondsAt(std::uint64_t sample) {
@@ -125,11 +140,41 @@ void ParametricFrames::feed(float sampleMps2) {
     }
 }
 
-std::string ParametricFrames::toJson() {
-    // The last frame is complete only some samples after its end.
-    for (std::size_t i = 0; i < WaveFeatures::lookaheadSamples + WaveDecimation::delaySamples; ++i) {
+void ParametricFrames::finish() {
+    for (std::size_t i = 0; i < trailingSamples; ++i) {
         feed(0.0F);
     }
+}
+
+clips::HapticClip ParametricFrames::toClip(clips::ClipOrigin origin) const {
+    const auto wave = std::span(wave_).first(wave_.size() - WaveFeatures::lookaheadSamples);
+    return clips::clipOf(wave.subspan(std::min(wave.size(), WaveDecimation::delaySamples)),
+                         {.origin = std::move(origin)});
+}
+
+std::string ParametricFrames::toCsv() const {
+    std::string table =
+        "seconds,amplitude_mps2,frequency_hz,intensity,device_share,transient_seconds,transient_mps2,transient_hz\n";
+    for (const effects::WaveFrame& frame : frames_) {
+        const double seconds = secondsAt(frame.firstSample);
+        const auto add = [&table](double value, char after) { (table += model::shortNumber(value)) += after; };
+        add(seconds, ',');
+        add(static_cast<double>(frame.amplitudeMps2), ',');
+        add(static_cast<double>(frame.frequencyHz), ',');
+        add(static_cast<double>(frame.intensity), ',');
+        add(static_cast<double>(shareOf(frame.amplitudeMps2)), ',');
+        if (frame.transient.amplitudeMps2 > 0.0F) {
+            add(seconds + static_cast<double>(frame.transient.offsetSeconds), ',');
+            add(static_cast<double>(frame.transient.amplitudeMps2), ',');
+            add(static_cast<double>(frame.transient.frequencyHz), '\n');
+        } else {
+            table += ",,\n";
+        }
+    }
+    return table;
+}
+
+std::string ParametricFrames::toJson() const {
     nlohmann::ordered_json frames = nlohmann::ordered_json::array();
     nlohmann::ordered_json transients = nlohmann::ordered_json::array();
     for (const effects::WaveFrame& frame : frames_) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "clip_output.hpp"
+#include "clips/haptic_clip.hpp"
 #include "effects/wave_features.hpp"
 #include "engine/offline_renderer.hpp"
 
@@ -22,13 +24,15 @@ struct RenderIdentity {
     double outputRateHz = 0.0;
     /// Touches of the stroke that begin and end between two frames.
     std::uint64_t missedTouches = 0;
+    std::vector<ClipFigures> clips{};
 };
 
 /// One render as JSON: `name`, `labels`, `wav`, `seconds`, `rms_mps2`, `peak`, `segments`, `inference_ms` {p50, p99},
-/// `nonfinite`, `underruns` and the engine's other counts. `solver` and `steps` are null for a tier without them.
+/// `nonfinite`, `underruns` and the engine's other counts. `solver` and `steps` are null for a tier without them; `clips`
+/// is there if clips were written.
 [[nodiscard]] std::string renderReport(const RenderIdentity& identity, const engine::OfflineFigures& figures);
 
-/// Collects the frames that a device with one carrier gets for a render.
+/// Collects what a device with one carrier gets for a render.
 class ParametricFrames {
 public:
     /// `outputRateHz`: a multiple of 2000 Hz. Throws std::invalid_argument.
@@ -36,8 +40,14 @@ public:
 
     /// Processes the next samples, +-1 at `fullScaleMps2`.
     void take(std::span<const float> samples, float fullScaleMps2);
+    /// No samples follow. Called once, before what is below.
+    void finish();
     /// The frames as JSON; Documentation~/effects-and-outputs.md describes the format.
-    [[nodiscard]] std::string toJson();
+    [[nodiscard]] std::string toJson() const;
+    /// The frames as a table.
+    [[nodiscard]] std::string toCsv() const;
+    /// Throws ClipError.
+    [[nodiscard]] clips::HapticClip toClip(clips::ClipOrigin origin) const;
 
 private:
     void feed(float sampleMps2);
@@ -45,7 +55,7 @@ private:
     effects::WaveDecimation decimation_;
     effects::WaveFeatures features_;
     std::vector<effects::WaveFrame> frames_;
-    // The wave at 2 kHz, for the errors of the played intensity.
+    // The wave at 2 kHz, with the decimation's delay before it and the silence that completes the last frame after it.
     std::vector<float> wave_;
 };
 

@@ -1,5 +1,7 @@
 #include "svg_plot.hpp"
 
+#include "model/plain_text.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <locale>
@@ -49,30 +51,41 @@ std::string svgLine(double x1, double y1, double x2, double y2, const std::strin
 }
 
 /// Maps values of a horizontal axis to positions.
-class LogAxis {
+class HorizontalAxis {
 public:
-    explicit LogAxis(const PlotAxis& axis)
-        : unit_(axis.unit),
-          lowest_(axis.values.front()),
-          octaves_(std::log2(axis.values.back() / axis.values.front())) {}
+    explicit HorizontalAxis(const PlotAxis& axis)
+        : unit_(axis.unit), isLinear_(axis.isLinear), lowest_(axis.values.front()), highest_(axis.values.back()) {}
 
     [[nodiscard]] double at(double value) const {
-        return plotLeft + (pictureWidth - plotLeft - plotRight) * std::log2(value / lowest_) / octaves_;
+        const double share = isLinear_ ? (value - lowest_) / (highest_ - lowest_)
+                                       : std::log2(value / lowest_) / std::log2(highest_ / lowest_);
+        return plotLeft + (pictureWidth - plotLeft - plotRight) * share;
     }
 
     [[nodiscard]] std::string draw(double top, double height, bool isNamed) const {
         std::string drawn;
-        for (int decade = 0; decade < 6; ++decade) {
-            for (int digit = 1; digit < 10; ++digit) {
-                const double value = std::pow(10.0, decade) * digit;
-                if (value < lowest_ * 0.999 || value > lowest_ * std::exp2(octaves_) * 1.001) {
-                    continue;
-                }
-                const bool isLabelled = digit == 1 || digit == 2 || digit == 5;
-                drawn += svgLine(at(value), top, at(value), top + height,
-                                 isLabelled ? "stroke=\"#ccc\"" : "stroke=\"#eee\"");
-                if (isNamed && isLabelled) {
-                    drawn += svgText(at(value), top + height + 17.0, "middle", svgNumber(value));
+        const auto mark = [&](double value, bool isLabelled) {
+            if (value < lowest_ - 0.001 * std::abs(lowest_) || value > highest_ * 1.001) {
+                return;
+            }
+            drawn += svgLine(at(value), top, at(value), top + height,
+                             isLabelled ? "stroke=\"#ccc\"" : "stroke=\"#eee\"");
+            if (isNamed && isLabelled) {
+                drawn += svgText(at(value), top + height + 17.0, "middle", model::shortNumber(value));
+            }
+        };
+        if (isLinear_) {
+            // Five to ten steps.
+            const double decade = std::pow(10.0, std::floor(std::log10(0.2 * (highest_ - lowest_))));
+            const double steps = 0.2 * (highest_ - lowest_) / decade;
+            const double step = decade * (steps < 2.0 ? 1.0 : steps < 5.0 ? 2.0 : 5.0);
+            for (double value = std::ceil(lowest_ / step) * step; value <= highest_ * 1.001; value += step) {
+                mark(value, true);
+            }
+        } else {
+            for (int decade = 0; decade < 6; ++decade) {
+                for (int digit = 1; digit < 10; ++digit) {
+                    mark(std::pow(10.0, decade) * digit, digit == 1 || digit == 2 || digit == 5);
                 }
             }
         }
@@ -83,8 +96,9 @@ public:
 
 private:
     std::string unit_;
+    bool isLinear_;
     double lowest_;
-    double octaves_;
+    double highest_;
 };
 
 std::string svgPoint(double x, double y, const std::string& colour) {
@@ -92,7 +106,7 @@ std::string svgPoint(double x, double y, const std::string& colour) {
            "\" fill=\"" + colour + "\"/>\n";
 }
 
-std::string drawPlotLine(const PlotLine& drawn, const std::vector<double>& panelAcross, const LogAxis& axis,
+std::string drawPlotLine(const PlotLine& drawn, const std::vector<double>& panelAcross, const HorizontalAxis& axis,
                          const PlotPanel& panel, double top) {
     const std::vector<double>& across = drawn.across.empty() ? panelAcross : drawn.across;
     std::string path;
@@ -118,7 +132,7 @@ std::string drawPlotLine(const PlotLine& drawn, const std::vector<double>& panel
 }
 
 std::string drawPlotPanel(const PlotPanel& panel, const PlotAxis& across, double top, bool isNamed) {
-    const LogAxis axis(across);
+    const HorizontalAxis axis(across);
     std::string drawn = axis.draw(top, panel.height, isNamed);
     const auto lastTick = std::lround(std::floor((panel.highest + 1e-9) / panel.tick));
     for (auto tick = std::lround(std::ceil(panel.lowest / panel.tick)); tick <= lastTick; ++tick) {

@@ -10,7 +10,7 @@ struct PlotLine {
     std::string name;
     /// A CSS colour.
     std::string colour;
-    std::vector<double> values;
+    std::vector<double> values{};
     bool isDashed = false;
     /// Where the values are; empty for the panel's own.
     std::vector<double> across{};
@@ -18,11 +18,12 @@ struct PlotLine {
     bool hasLine = true;
 };
 
-/// A horizontal axis on a logarithmic scale.
+/// A horizontal axis, logarithmic or from 0 on.
 struct PlotAxis {
     std::string unit;
     /// Rising; the first and the last are the ends of the axis.
     std::vector<double> values;
+    bool isLinear = false;
 
     bool operator==(const PlotAxis&) const = default;
 };
@@ -40,7 +41,7 @@ struct PlotPanel {
     std::optional<PlotAxis> across{};
 };
 
-/// An SVG picture of values over the logarithm of frequency or of another quantity, with the panels below each other.
+/// An SVG picture of values over the logarithm of frequency, over time or over another quantity, with the panels below each other.
 /// Each line has a value for each frequency; values that are not finite are skipped, values outside the axis are drawn
 /// at its edge. Home-made: the build has no plotting library for C++, and a few kinds of panel are all that is needed.
 [[nodiscard]] std::string svgPlot(const std::string& title, const std::vector<double>& frequencyHz,

@@ -10,7 +10,7 @@ import { CommandError, inRepository, run, succeeds } from './process.mjs';
 import { aot, mono } from './runtime_tests.mjs';
 
 /** Programs of Tests/Native that every platform builds. */
-const portablePrograms = ['model', 'dsp', 'effects', 'headless', 'inference', 'learning', 'engine', 'capi', 'unity'];
+const portablePrograms = ['model', 'dsp', 'effects', 'clips', 'headless', 'inference', 'learning', 'engine', 'capi', 'unity'];
 
 /**
  * What runs under which sanitizers: programs that read untrusted input, hand memory across the C ABI, or share it between
@@ -21,6 +21,7 @@ const sanitized = [
   { preset: 'asan-ubsan', program: 'capi', except: ['*ClosedLoop*', '*HardCaseTest.*Shipped*', '*HardSceneTest.*Shipped*', '*RangeSweepSound*'] },
   { preset: 'asan-ubsan', program: 'unity' },
   { preset: 'asan-ubsan', program: 'model' },
+  { preset: 'asan-ubsan', program: 'clips' },
   { preset: 'asan-ubsan', program: 'headless', long: true },
   { preset: 'asan-ubsan', program: 'learning', except: ['*LearnerTest*'], long: true },
   {

@@ -1,0 +1,52 @@
+#include "clip_output.hpp"
+
+#include "messages.hpp"
+#include "model/plain_text.hpp"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+
+namespace haptoflow::cli {
+
+std::optional<clips::ClipFormat> clipFormatOf(std::string_view path) {
+    for (const clips::ClipFormat format :
+         {clips::ClipFormat::haptic, clips::ClipFormat::ahap, clips::ClipFormat::hjif}) {
+        if (path.ends_with('.' + std::string(clips::endingOf(format)))) {
+            return format;
+        }
+    }
+    return std::nullopt;
+}
+
+std::string today() {
+    const std::chrono::year_month_day date(
+        std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now()));
+    std::array<char, 16> text{};
+    (void)std::snprintf(text.data(), text.size(), "%04d-%02u-%02u", static_cast<int>(date.year()),
+                        static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()));
+    return text.data();
+}
+
+ClipFigures writeClipFile(const OutputFile& file, const clips::HapticClip& clip) {
+    const std::string path = file.path().string();
+    const clips::ClipWriting writing{.format = clipFormatOf(path).value(), .date = today()};
+    const clips::WrittenClip written = clips::writeClip(clip, writing);
+    writeText(file, written.text);
+    // A tenth above the tolerance: the error is measured as a ratio, the tolerance is one of both signs.
+    if (written.amplitudeErrorDb > 1.1 * writing.toleranceDb) {
+        note(path + ": " + model::shortNumber(writing.pointsPerSecond) +
+             " points a second follow this wave's amplitude within " + fixedDecimals(written.amplitudeErrorDb, 1) +
+             " dB");
+    }
+    return {.file = file.path().filename().string(),
+            .amplitudePoints = written.amplitudePoints,
+            .frequencyPoints = written.frequencyPoints,
+            .transients = clip.transients.size(),
+            .amplitudeErrorDb = written.amplitudeErrorDb,
+            .frequencyErrorPercent = written.frequencyErrorPercent};
+}
+
+}  // namespace haptoflow::cli
