@@ -30,7 +30,7 @@ namespace HaptoFlow.Editor
             }
             Vector2? size = source.MetresOf();
             Vector2 before = surface.Relief != null ? surface.Relief.SizeMetres : new Vector2(0.1f, 0.1f);
-            Heights heights;
+            BakedHeights heights;
             try
             {
                 heights = Bake(source, size ?? before);
@@ -43,17 +43,9 @@ namespace HaptoFlow.Editor
             {
                 return $"The map {source.Texture.name} of {source.Material.name} is even: it has no heights.";
             }
-            Undo.IncrementCurrentGroup();
-            Undo.SetCurrentGroupName($"Take the Relief of {surface.name}");
-            int group = Undo.GetCurrentGroup();
-            HapticRelief relief = surface.Relief != null ? surface.Relief : Create(surface, source.Material);
-            Undo.RecordObject(relief, "Bake the Relief");
-            (relief.Tiling, relief.Offset, relief.Repeats) = (source.Tiling, source.Offset, source.Repeats);
-            relief.DepthMillimetres = heights.DepthMillimetres;
-            relief.SizeMetres = size ?? before;
-            relief.SetHeights(heights.Columns, heights.Rows, heights.Shares);
-            EditorUtility.SetDirty(relief);
-            Undo.CollapseUndoOperations(group);
+            heights.SizeMetres = size ?? before;
+            (heights.Tiling, heights.Offset, heights.Repeats) = (source.Tiling, source.Offset, source.Repeats);
+            HapticRelief relief = Write(surface, source.Material, heights);
             return size.HasValue
                 ? null
                 : $"{relief.name} does not know how large its map is, because the mesh of {source.Renderer.name} is " +
@@ -61,40 +53,75 @@ namespace HaptoFlow.Editor
                     "model's import settings and bake again.";
         }
 
-        private static HapticRelief Create(HapticSurface surface, Material material)
+        /// <summary>Writes into the surface's relief, or into a new asset beside what the heights are from, as one step
+        /// of undo.</summary>
+        public static HapticRelief Write(HapticSurface surface, Object from, in BakedHeights heights)
+        {
+            Undo.IncrementCurrentGroup();
+            Undo.SetCurrentGroupName($"Take the Relief of {surface.name}");
+            int group = Undo.GetCurrentGroup();
+            HapticRelief relief = surface.Relief != null ? surface.Relief : Create(surface, from);
+            Write(relief, heights);
+            Undo.CollapseUndoOperations(group);
+            return relief;
+        }
+
+        /// <summary>Can be undone.</summary>
+        public static void Write(HapticRelief relief, in BakedHeights heights)
+        {
+            Undo.RecordObject(relief, "Bake the Relief");
+            (relief.Tiling, relief.Offset) = (heights.Tiling, heights.Offset);
+            relief.Repeats = heights.Repeats ?? relief.Repeats;
+            relief.DepthMillimetres = heights.DepthMillimetres;
+            relief.SizeMetres = heights.SizeMetres;
+            relief.SetHeights(heights.Columns, heights.Rows, heights.Shares);
+            EditorUtility.SetDirty(relief);
+        }
+
+        private static HapticRelief Create(HapticSurface surface, Object from)
         {
             var relief = ScriptableObject.CreateInstance<HapticRelief>();
-            string folder = Path.GetDirectoryName(AssetDatabase.GetAssetPath(material))?.Replace('\\', '/') ?? "";
+            string folder = Path.GetDirectoryName(AssetDatabase.GetAssetPath(from))?.Replace('\\', '/') ?? "";
             folder = folder.StartsWith("Assets", StringComparison.Ordinal) ? folder : "Assets";
             AssetDatabase.CreateAsset(
-                relief, AssetDatabase.GenerateUniqueAssetPath($"{folder}/{material.name} Relief.asset"));
+                relief, AssetDatabase.GenerateUniqueAssetPath($"{folder}/{from.name} Relief.asset"));
             Undo.RegisterCreatedObjectUndo(relief, "Create the Relief");
             SerializedFields.Set(surface, "relief", property => property.objectReferenceValue = relief);
             return relief;
         }
 
-        private static Heights Bake(ReliefSource source, Vector2 sizeMetres)
+        private static BakedHeights Bake(ReliefSource source, Vector2 sizeMetres)
         {
-            (int columns, int rows) = (source.Texture.width, source.Texture.height);
-            Color[] pixels = PixelsOf(source.Texture);
+            if (source.IsNormals)
+            {
+                return BakeNormals(source.Texture, source.NormalScale, sizeMetres, source.Repeats);
+            }
+            (Color[] pixels, int columns, int rows) = TexelsOf(source.Texture);
+            float[] values = HeightsOf(pixels, source.IsRed);
+            float? depth = 1000f * source.DepthMetresOf(sizeMetres);
+            return new BakedHeights(columns, rows, values, depth > 0f ? depth.Value : DefaultDepthMillimetres,
+                values.Max() - values.Min() < SmallestRange);
+        }
+
+        /// <summary>The heights of a normal map.</summary>
+        /// <exception cref="HaptoFlowException">As of <see cref="HapticReliefMap.HeightsOfNormals"/>.</exception>
+        public static BakedHeights BakeNormals(Texture2D texture, float scale, Vector2 sizeMetres, bool repeats)
+        {
+            (Color[] pixels, int columns, int rows) = TexelsOf(texture);
+            return BakedHeights.OfMetres(columns, rows, HapticReliefMap.HeightsOfNormals(
+                NormalsOf(pixels, scale), columns, (sizeMetres.x, sizeMetres.y), repeats));
+        }
+
+        /// <summary>The pixels, averaged until a relief can have so many.</summary>
+        private static (Color[] Pixels, int Columns, int Rows) TexelsOf(Texture2D texture)
+        {
+            (Color[] pixels, int columns, int rows) = (PixelsOf(texture), texture.width, texture.height);
             while ((long)columns * rows > HapticReliefMap.MaximumTexels)
             {
                 pixels = Halved(pixels, columns, rows);
                 (columns, rows) = (columns / 2, rows / 2);
             }
-            float[] values = source.IsNormals
-                ? HapticReliefMap.HeightsOfNormals(
-                    NormalsOf(pixels, source.NormalScale), columns, (sizeMetres.x, sizeMetres.y), source.Repeats)
-                : HeightsOf(pixels, source.IsRed);
-            if (!source.IsNormals)
-            {
-                float? depth = 1000f * source.DepthMetresOf(sizeMetres);
-                return new Heights(columns, rows, values, depth > 0f ? depth.Value : DefaultDepthMillimetres,
-                    values.Max() - values.Min() < SmallestRange);
-            }
-            float highest = values.Max();
-            return new Heights(columns, rows, Array.ConvertAll(values, height => height / highest), 1000f * highest,
-                1000f * highest < HapticRelief.MinimumDepthMillimetres);
+            return (pixels, columns, rows);
         }
 
         /// <summary>The pixels as a shader reads them, from the bottom, whether or not scripts may read the
@@ -155,17 +182,35 @@ namespace HaptoFlow.Editor
             }
             return normals;
         }
+    }
 
-        private readonly struct Heights
+    /// <summary>What a relief gets from where it is taken from.</summary>
+    internal struct BakedHeights
+    {
+        public readonly int Columns;
+        public readonly int Rows;
+        public readonly float[] Shares;
+        public readonly float DepthMillimetres;
+        public readonly bool AreEven;
+        public Vector2 SizeMetres;
+        public Vector2 Tiling;
+        public Vector2 Offset;
+
+        /// <summary>Null to leave it as it is.</summary>
+        public bool? Repeats;
+
+        public BakedHeights(int columns, int rows, float[] shares, float depthMillimetres, bool areEven)
         {
-            public readonly int Columns;
-            public readonly int Rows;
-            public readonly float[] Shares;
-            public readonly float DepthMillimetres;
-            public readonly bool AreEven;
+            (Columns, Rows, Shares, DepthMillimetres, AreEven) = (columns, rows, shares, depthMillimetres, areEven);
+            (SizeMetres, Tiling, Offset, Repeats) = (default, new Vector2(1f, 1f), default, null);
+        }
 
-            public Heights(int columns, int rows, float[] shares, float depthMillimetres, bool areEven) =>
-                (Columns, Rows, Shares, DepthMillimetres, AreEven) = (columns, rows, shares, depthMillimetres, areEven);
+        /// <param name="metres">The lowest is 0.</param>
+        public static BakedHeights OfMetres(int columns, int rows, float[] metres)
+        {
+            float highest = metres.Max();
+            return new BakedHeights(columns, rows, Array.ConvertAll(metres, height => height / highest),
+                1000f * highest, 1000f * highest < HapticRelief.MinimumDepthMillimetres);
         }
     }
 
@@ -269,7 +314,7 @@ namespace HaptoFlow.Editor
         }
     }
 
-    /// <summary>The button that bakes a relief, and what the last press of it has to say.</summary>
+    /// <summary>The buttons that bake a surface's relief, and what the last press of one has to say.</summary>
     internal sealed class ReliefButton
     {
         public const string Caption = "Take from the Object's Material";
@@ -280,9 +325,14 @@ namespace HaptoFlow.Editor
         {
             // Read before the button is drawn, so that layout and drawing show the same controls.
             string? shown = remark;
-            if (GUILayout.Button(Caption))
+            TerrainCollider? terrain = TerrainRelief.TerrainOf(surface);
+            if (terrain == null && GUILayout.Button(Caption))
             {
                 remark = ReliefBake.Take(surface);
+            }
+            if (terrain != null && GUILayout.Button(TerrainRelief.Caption))
+            {
+                remark = TerrainRelief.Take(surface, terrain);
             }
             if (shown != null)
             {

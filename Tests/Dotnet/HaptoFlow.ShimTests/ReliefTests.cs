@@ -135,6 +135,50 @@ namespace HaptoFlow.ShimTests
             Expect(Touch(new Vector3(0.03f, 0.001f, -0.05f)), 5.3f, 2.25f);
         }
 
+        [Test]
+        public void OnATerrainTheOffsetShiftsTheMapInItsLengths()
+        {
+            HapticSurface ground = Tagged<TerrainCollider>("stone",
+                terrain => terrain.terrainData = new TerrainData { heightmapResolution = 5 });
+            ground.transform.position = new Vector3(-0.5f, 0f, -0.5f);
+            ground.Relief = Keep(Ribs());
+            ground.Relief.Offset = new Vector2(0.25f, -0.5f);
+            Expect(Touch(new Vector3(0.03f, 0.001f, -0.05f)), 5.55f, 1.75f);
+        }
+
+        [Test]
+        public void OnATerrainTheReliefIsThatOfTheLayerThatDominatesUnderTheTip()
+        {
+            TerrainLayer[] layers = { Keep(new TerrainLayer()), Keep(new TerrainLayer()), Keep(new TerrainLayer()) };
+            HapticMaterialMap map = Keep(ScriptableObject.CreateInstance<HapticMaterialMap>());
+            map.Add(HapticMaterialRule.ForTerrainLayer(layers[0], Feeling("wood")));
+            map.Add(HapticMaterialRule.ForTerrainLayer(layers[1], Feeling("stone")));
+            map.Add(HapticMaterialRule.ForTerrainLayer(layers[2], null));
+            map.Rules[0].Relief = Keep(Ribs());
+            map.Rules[1].Relief = Keep(Ribs());
+            map.Rules[2].Relief = Keep(Ribs());
+            HaptoFlowSettings.Active.MaterialMap = map;
+            TerrainData data = Keep(new TerrainData { heightmapResolution = 5, terrainLayers = layers });
+            var weights = new float[16, 16, 3];
+            for (int place = 0; place < 256; ++place)
+            {
+                // From the left: the first layer, more of the first, more of the second, nothing that is felt.
+                float first = new[] { 1f, 0.6f, 0.3f, 0f }[place % 16 / 4];
+                weights[place / 16, place % 16, 0] = first;
+                weights[place / 16, place % 16, 1] = first > 0f ? 1f - first : 0f;
+                weights[place / 16, place % 16, 2] = first > 0f ? 0f : 1f;
+            }
+            data.SetAlphamaps(0, 0, weights);
+            Make("Ground").AddComponent<TerrainCollider>().terrainData = data;
+            MaterialMaps.Poll();
+            uint[] found = new[] { 0.1f, 0.35f, 0.6f, 0.9f }
+                .Select(x => Touch(new Vector3(x, 0.001f, 0.5f)).Relief).ToArray();
+            (uint ofFirst, uint ofSecond) = (map.Rules[0].Relief!.Number, map.Rules[1].Relief!.Number);
+            Assert.That(found, Is.EqualTo(new[] { ofFirst, ofFirst, ofSecond, 0u }));
+            map.Rules[0].Relief = null;
+            Assert.That(Touch(new Vector3(0.1f, 0.001f, 0.5f)).Relief, Is.Zero, "a layer without one");
+        }
+
         [TestCase("sphere")]
         [TestCase("convex mesh")]
         [TestCase("unreadable mesh")]

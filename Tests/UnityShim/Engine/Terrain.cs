@@ -89,6 +89,10 @@ namespace UnityEngine
 
     public sealed class TerrainLayer : Object
     {
+        public Texture2D? normalMapTexture { get; set; }
+        public Vector2 tileSize { get; set; } = new Vector2(15f, 15f);
+        public Vector2 tileOffset { get; set; }
+        public float normalScale { get; set; } = 1f;
     }
 
     public sealed class TerrainData : Object

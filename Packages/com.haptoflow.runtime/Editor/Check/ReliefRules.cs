@@ -17,7 +17,9 @@ namespace HaptoFlow.Editor
         public static IEnumerable<(HapticRelief Relief, Collider Collider)> Uses(SceneContents scene) =>
             scene.Answers.SelectMany(answer => ReliefsOf(answer).Select(relief => (relief, answer.Collider)));
 
-        public static IEnumerable<Finding> Check(SceneContents scene)
+        public static IEnumerable<Finding> Check(SceneContents scene) => CheckUses(scene).Concat(CheckLayers(scene));
+
+        private static IEnumerable<Finding> CheckUses(SceneContents scene)
         {
             foreach (IGrouping<HapticRelief, Collider> uses in Uses(scene)
                 .GroupBy(use => use.Relief, use => use.Collider))
@@ -41,13 +43,23 @@ namespace HaptoFlow.Editor
             }
         }
 
+        /// <summary>Reliefs of terrain layers that do not lie where the layer's texture is seen.</summary>
+        private static IEnumerable<Finding> CheckLayers(SceneContents scene) => scene.Maps.All
+            .SelectMany(map => map.Rules)
+            .Where(rule => rule.Subject == MaterialRuleSubject.TerrainLayer && rule.TerrainLayer != null &&
+                rule.Relief != null && rule.Relief.IsBaked && !TerrainRelief.Fits(rule.Relief, rule.TerrainLayer))
+            .Select(rule => new Finding(MessageType.Info,
+                $"The relief {rule.Relief!.name} does not lie where the texture of the terrain layer " +
+                $"{rule.TerrainLayer!.name} is seen, because its size or offset differs. Take it from the layer again.",
+                new Object[] { rule.Relief, rule.TerrainLayer }));
+
         /// <summary>What is wrong with a relief itself, as a sentence; null when nothing is.</summary>
         public static string? ProblemOf(HapticRelief relief)
         {
             if (!relief.IsBaked)
             {
                 return $"{relief.name} has no heights: it is not felt. Press {ReliefButton.Caption} on a Haptic " +
-                    "Surface that uses it.";
+                    "Surface that uses it, or drop a mesh or a terrain layer in its Inspector.";
             }
             float texel = 1000f *
                 Mathf.Max(relief.SizeMetres.x / relief.Columns, relief.SizeMetres.y / relief.Rows);

@@ -5,7 +5,8 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>The Inspector of a relief: its fields, a profile of its heights, and a button to bake them.</summary>
+    /// <summary>The Inspector of a relief: its fields, a profile of its heights, and what they can be taken
+    /// from.</summary>
     [CustomEditor(typeof(HapticRelief))]
     internal sealed class HapticReliefEditor : UnityEditor.Editor
     {
@@ -17,8 +18,16 @@ namespace HaptoFlow.Editor
             "sizeMetres", "depthMillimetres", "tipRadiusMillimetres", "share", "repeats", "tiling", "offset",
         };
 
+        private static readonly GUIContent FromMesh = new GUIContent("Take from a Mesh",
+            "Drop a sculpted mesh here: its heights above the plane that its texture coordinates fit best. It suits " +
+            "flat pieces whose texture does not overlap, such as wall panels and floor tiles; curved ones are " +
+            "refused.");
+        private static readonly GUIContent FromLayer = new GUIContent("Take from a Layer",
+            "Drop a terrain layer here: the heights of its normal map, which lie on a terrain as its texture does.");
+
         private readonly ReliefButton bake = new ReliefButton();
         private HapticSurface? surface;
+        private string? remark;
 
         private void OnEnable() =>
             surface = SceneContents.All<HapticSurface>().FirstOrDefault(each => each.Relief == target);
@@ -45,6 +54,7 @@ namespace HaptoFlow.Editor
             {
                 EditorGUILayout.HelpBox(problem, MessageType.Warning);
             }
+            DrawSources(relief);
             if (surface != null)
             {
                 bake.Draw(surface);
@@ -53,6 +63,27 @@ namespace HaptoFlow.Editor
             {
                 EditorGUILayout.HelpBox("No Haptic Surface of the open scenes uses this relief. Assign it to one to " +
                     "bake it from that object's material.", MessageType.Info);
+            }
+        }
+
+        private void DrawSources(HapticRelief relief)
+        {
+            // Read before the fields are drawn, so that layout and drawing show the same controls.
+            string? shown = remark;
+            var mesh = (Mesh?)EditorGUILayout.ObjectField(FromMesh, null, typeof(Mesh), false);
+            if (mesh != null)
+            {
+                remark = MeshRelief.Take(
+                    relief, mesh, surface != null ? surface.transform.lossyScale : new Vector3(1f, 1f, 1f));
+            }
+            var layer = (TerrainLayer?)EditorGUILayout.ObjectField(FromLayer, null, typeof(TerrainLayer), false);
+            if (layer != null)
+            {
+                remark = TerrainRelief.Take(relief, layer);
+            }
+            if (shown != null)
+            {
+                EditorGUILayout.HelpBox(shown, MessageType.Warning);
             }
         }
 

@@ -5,8 +5,8 @@ using UnityEngine;
 namespace HaptoFlow
 {
     /// <summary>Heights of a surface that a tip follows, beside the texture of its material. Baked in the editor from
-    /// the height or normal map of a material, or set by a script. Felt on box colliders, terrains, and mesh colliders
-    /// that are not convex and whose mesh is readable.</summary>
+    /// the height or normal map of a material, a terrain's layer or a sculpted mesh, or set by a script. Felt on box
+    /// colliders, terrains, and mesh colliders that are not convex and whose mesh is readable.</summary>
     /// <remarks>On a mesh the heights lie over the texture coordinates; on a face of a box, and on a terrain, they are
     /// laid out in metres of the world. The native library has a copy from the first touch on, until the asset is
     /// disabled. Main thread.</remarks>
@@ -40,7 +40,8 @@ namespace HaptoFlow
         [SerializeField, Tooltip("The map repeats this often over the texture coordinates of a mesh.")]
         private Vector2 tiling = new Vector2(1f, 1f);
 
-        [SerializeField, Tooltip("The map is shifted by this much over the texture coordinates of a mesh.")]
+        [SerializeField, Tooltip("The map is shifted by this much over the texture coordinates of a mesh; over a " +
+            "terrain, by this share of its size.")]
         private Vector2 offset;
 
         [SerializeField, HideInInspector]
@@ -92,7 +93,8 @@ namespace HaptoFlow
         /// <summary>Number of repetitions of the map over the texture coordinates of a mesh.</summary>
         public Vector2 Tiling { get => tiling; set => tiling = value; }
 
-        /// <summary>Shift of the map over the texture coordinates of a mesh.</summary>
+        /// <summary>Shift of the map over the texture coordinates of a mesh, and over a terrain, in lengths of the
+        /// map.</summary>
         public Vector2 Offset { get => offset; set => offset = value; }
 
         /// <summary>True after heights were set.</summary>

@@ -13,7 +13,8 @@ using SurfacePhysics = UnityEngine.PhysicMaterial;
 
 namespace HaptoFlow
 {
-    /// <summary>The materials that the rules of maps assign to a collider: to the whole, or to each part. Main thread.
+    /// <summary>The materials that the rules of maps assign to a collider: to the whole, or to each part. Where a
+    /// terrain's layers blend, the relief is that of the layer whose material has the largest weight. Main thread.
     /// Matching the rules makes garbage; looking up a place makes none.</summary>
     internal sealed class MappedCollider
     {
@@ -117,7 +118,9 @@ namespace HaptoFlow
             {
                 mix.Add(parts[layer].Material, session, Collider, weights[layer], layer);
             }
-            return mix.Finish();
+            ResolvedMaterial mixed = mix.Finish();
+            mixed.Relief = mixed.Labels.Count > 0 ? parts[mixed.Part].Relief : null;
+            return mixed;
         }
 
         /// <summary>The first submesh where the triangle is unknown.</summary>

@@ -50,7 +50,7 @@ namespace HaptoFlow
                         0.5 + Double3.Dot(place - centre, rows) / size.y);
                     return true;
                 case TerrainCollider _:
-                    found = new MapPlace(place.X / size.x, place.Z / size.y);
+                    found = new MapPlace(place.X / size.x + relief.Offset.x, place.Z / size.y + relief.Offset.y);
                     return true;
                 default:
                     found = default;
