@@ -19,7 +19,7 @@ export async function decodeImage(file, { mostPixels = Infinity } = {}) {
   const name = /** @type {File} */ (file).name ?? 'image';
   const bytes = new Uint8Array(await file.arrayBuffer());
   const size = pngSize(bytes);
-  if (size && size.width * size.height <= mostPixels) return { ...await decodePng(bytes, name), fullWidth: size.width, fullHeight: size.height };
+  if (size && size.width * size.height <= mostPixels && globalThis.DecompressionStream) return { ...await decodePng(bytes, name), fullWidth: size.width, fullHeight: size.height };
   /** @type {ImageBitmap | undefined} */
   let bitmap;
   try {

@@ -133,6 +133,7 @@ async function decoded(/** @type {Uint8Array} */ bytes) {
  */
 export async function decodePng(bytes, name = 'image') {
   if (!isPng(bytes)) throw new HaptoFlowError('input', `${name}: not a PNG file`);
+  if (!globalThis.DecompressionStream) throw new HaptoFlowError('input', `${name}: this browser has no DecompressionStream, which PNG files need: use one of 2023 or later`);
   try {
     return await decoded(bytes);
   } catch (error) {

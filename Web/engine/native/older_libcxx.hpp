@@ -166,6 +166,22 @@ constexpr auto upper_bound(Range&& range, const Type& value, Compare compare = {
         return std::invoke(compare, one, std::invoke(projection, other));
     });
 }
+template <class Range, class Type, class Compare = std::less<>, class Projection = older::Same>
+constexpr auto lower_bound(Range&& range, const Type& value, Compare compare = {}, Projection projection = {}) {
+    return std::lower_bound(std::begin(range), std::end(range), value, [&](const auto& one, const auto& other) {
+        return std::invoke(compare, std::invoke(projection, one), other);
+    });
+}
+template <class Range>
+constexpr auto unique(Range&& range) {
+    struct Rest {
+        decltype(std::begin(range)) first;
+        decltype(std::end(range)) last;
+        [[nodiscard]] constexpr auto begin() const { return first; }
+        [[nodiscard]] constexpr auto end() const { return last; }
+    };
+    return Rest{std::unique(std::begin(range), std::end(range)), std::end(range)};
+}
 template <class Range, class Iterator>
 constexpr auto rotate(Range&& range, Iterator middle) {
     return std::rotate(std::begin(range), middle, std::end(range));

@@ -1,4 +1,5 @@
 import { download, find } from '../dom.mjs';
+import { sentenceOf } from '../messages.mjs';
 
 /** Record, stop, and the files: what is heard, the strokes, and the scene as it is painted, with its reliefs. */
 export class RecordPanel {
@@ -29,7 +30,11 @@ export class RecordPanel {
   }
 
   async #downloadReliefs() {
-    for (const [name, png] of this.last?.files ?? []) download(name, /** @type {any} */ (await png()), 'image/png');
+    try {
+      for (const [name, png] of this.last?.files ?? []) download(name, /** @type {any} */ (await png()), 'image/png');
+    } catch (error) {
+      find('#record-note').textContent = sentenceOf(error);
+    }
   }
 
   #start() {

@@ -44,7 +44,7 @@ export class ReliefPanel {
   #object = -1;
   /** Only the newest wish is fulfilled. */
   #wishes = 0;
-  /** @type {Promise<unknown>} */
+  /** @type {Promise<void>} */
   #working = Promise.resolve();
 
   /**
@@ -88,7 +88,7 @@ export class ReliefPanel {
     this.#wishes += 1;
     const wish = this.#wishes;
     // One after the other: each takes memory for a picture.
-    this.#working = this.#working.then(() => wish === this.#wishes && this.#lay(object));
+    this.#working = this.#working.then(() => (wish === this.#wishes ? this.#lay(object) : undefined));
     await this.#working;
     this.refresh();
   }
