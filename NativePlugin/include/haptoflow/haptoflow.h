@@ -593,7 +593,7 @@ typedef uint64_t haptoflow_voice;
 /* All channels, in place of a channel's number. */
 #define HAPTOFLOW_ALL_CHANNELS (-1)
 
-/* The effects of a voice, in the order of the signal except for the last four. An effect that is not requested costs
+/* The effects of a voice, in the order of the signal except for the last five. An effect that is not requested costs
  * nothing. */
 typedef int32_t haptoflow_effect;
 enum {
@@ -614,10 +614,12 @@ enum {
     /* Louder and brighter for ears: haptoflow_voice_set_listen. */
     HAPTOFLOW_EFFECT_LISTEN = 8,
     /* The heights of a map under the tip, where impact and edge are added: haptoflow_relief_create. */
-    HAPTOFLOW_EFFECT_RELIEF = 9
+    HAPTOFLOW_EFFECT_RELIEF = 9,
+    /* An author's clip, with or without contact, where impact and edge are added: haptoflow_voice_play_clip. */
+    HAPTOFLOW_EFFECT_CLIP = 10
 };
 
-#define HAPTOFLOW_EFFECT_COUNT 10
+#define HAPTOFLOW_EFFECT_COUNT 11
 /* The heights of a surface, which the tip follows: a number that is never 0 and never used again. */
 typedef uint32_t haptoflow_relief;
 
@@ -946,6 +948,93 @@ HAPTOFLOW_API haptoflow_status haptoflow_voice_exposure(haptoflow_voice voice, h
 /* Returns the voice's slot, 0 to HAPTOFLOW_MAXIMUM_VOICES - 1, to which the parameter "Voice" of Unity's mixer
  * effect refers. Slots are reused. [publisher] */
 HAPTOFLOW_API haptoflow_status haptoflow_voice_place(haptoflow_voice voice, uint32_t* place);
+
+/* -------------------------------------------------------------------------------------------------------- clips */
+
+/* A vibration as the tools of the field describe one: amplitude and frequency of a carrier over time, and transients.
+ * Its amplitude is a share of a device's range by the loudness law of devices with amplitude and frequency:
+ * haptoflow_device_share. Documentation~/effects-and-outputs.md says what each format loses. */
+typedef struct haptoflow_clip haptoflow_clip;
+
+typedef int32_t haptoflow_clip_format;
+enum {
+    /* .haptic 1.0.0 of Meta and Lofelt, .ahap of Apple, .hjif of MPEG-I haptics (ISO/IEC 23090-31); all are JSON. */
+    HAPTOFLOW_CLIP_HAPTIC = 0,
+    HAPTOFLOW_CLIP_AHAP = 1,
+    HAPTOFLOW_CLIP_HJIF = 2
+};
+
+typedef struct haptoflow_clip_options {
+    uint32_t struct_size;
+    /* Sample rate of the wave: a multiple of 2000 up to 192000; 0 for 2000. */
+    uint32_t sample_rate_hz;
+    /* In m/s^2; samples that are not finite count as 0. At most 600 s. */
+    const float* wave_mps2;
+    uint64_t sample_count;
+    /* 1 for a wave that goes on at its beginning. */
+    uint32_t is_loop;
+    /* What files say of the clip, in UTF-8; each may be null. */
+    const char* title;
+    const char* description;
+    const char* source;
+} haptoflow_clip_options;
+
+typedef struct haptoflow_clip_info {
+    uint32_t struct_size;
+    haptoflow_clip_format format;
+    double duration_seconds;
+    uint32_t amplitude_points;
+    uint32_t frequency_points;
+    uint32_t transients;
+    /* 0 to 1. */
+    float largest_amplitude;
+    /* Valid as long as the clip. `omitted` says in words what the file has and the clip has not; empty for nothing. */
+    const char* title;
+    const char* description;
+    const char* editor;
+    const char* omitted;
+} haptoflow_clip_info;
+
+/* Makes the clip of a wave. Close it with haptoflow_clip_close. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. [any-thread]
+ * Takes about 2 us per ms of wave. */
+HAPTOFLOW_API haptoflow_status haptoflow_clip_create(const haptoflow_clip_options* options, haptoflow_clip** clip);
+
+/* Reads a clip file's text of length bytes; the format is recognised by its keys. Close the clip with
+ * haptoflow_clip_close. Errors: INVALID_ARGUMENT (the message names the key), OUT_OF_MEMORY. [any-thread] */
+HAPTOFLOW_API haptoflow_status haptoflow_clip_read(const char* text, uint64_t length, haptoflow_clip** clip);
+
+/* Closes *clip and sets it to null; a null handle is allowed. A voice that plays it plays on. [any-thread] */
+HAPTOFLOW_API haptoflow_status haptoflow_clip_close(haptoflow_clip** clip);
+
+/* Fills the clip's figures; `format` is that of a read clip's file. [any-thread] */
+HAPTOFLOW_API haptoflow_status haptoflow_clip_describe(const haptoflow_clip* clip, haptoflow_clip_info* info);
+
+/* Writes the clip in a format to text of *length bytes, at most capacity, without a final zero; with a capacity of 0
+ * only *length is set. date: YYYY-MM-DD of the file's creation, which .hjif names. Points are left out while amplitudes
+ * stay within 0.5 dB and there are at most 100 a second. Errors: INVALID_ARGUMENT (also for too small a capacity),
+ * OUT_OF_MEMORY. [any-thread] */
+HAPTOFLOW_API haptoflow_status haptoflow_clip_write(const haptoflow_clip* clip, haptoflow_clip_format format,
+                                                    const char* date, char* text, uint64_t capacity,
+                                                    uint64_t* length);
+
+/* Reads amplitude (0 to 1) and frequency (Hz) at `count` times, evenly from the clip's start to its end; either array
+ * may be null. [any-thread] */
+HAPTOFLOW_API haptoflow_status haptoflow_clip_curves(const haptoflow_clip* clip, uint32_t count, float* amplitude,
+                                                     float* frequency_hz);
+
+/* The clip as a vibration in m/s^2 at sample_rate_hz, 2000 to 192000: *sample_count samples, at most capacity; with a
+ * capacity of 0 only *sample_count is set. Errors: INVALID_ARGUMENT (also for too small a capacity), OUT_OF_MEMORY.
+ * [any-thread] */
+HAPTOFLOW_API haptoflow_status haptoflow_clip_wave(const haptoflow_clip* clip, double sample_rate_hz, float* wave_mps2,
+                                                   uint64_t capacity, uint64_t* sample_count);
+
+/* Plays a clip on a voice beside its texture, with or without contact, from its next block on; null ends it. gain: 0 to
+ * 4. is_loop: 1 to play it until another one or null. A voice plays one clip at a time. Strength, delay, compensation,
+ * exposure guard and limiter act on it as on the other effects; mute, pause, panic, missing states and a change of the
+ * device's rate end it; while the voice is silent for one of these, or plays a signal, a clip is not played. Errors:
+ * INVALID_ARGUMENT, OUT_OF_MEMORY. [publisher] The first play of a clip takes about 1 us per ms of it. */
+HAPTOFLOW_API haptoflow_status haptoflow_voice_play_clip(haptoflow_voice voice, const haptoflow_clip* clip, float gain,
+                                                         uint32_t is_loop);
 
 /* ------------------------------------------------------------------------------------------------ wave features */
 

@@ -194,6 +194,8 @@ using WaveFeaturesTable = HandleTable<haptoflow_wave_features, OpenWaveFeatures>
 struct OpenDeviceWave;
 using DeviceWaveTable = HandleTable<haptoflow_device_wave, OpenDeviceWave>;
 struct OpenRecording;
+struct OpenClip;
+using ClipTable = HandleTable<haptoflow_clip, OpenClip>;
 using RecordingTable = HandleTable<haptoflow_recording, const OpenRecording>;
 struct OpenLearning;
 using LearningTable = HandleTable<haptoflow_learning, const OpenLearning>;
@@ -227,6 +229,9 @@ template <typename Table>
 }
 [[nodiscard]] inline DeviceWaveTable& deviceWaves() {
     return lastingTable<DeviceWaveTable>("device wave");
+}
+[[nodiscard]] inline ClipTable& openClips() {
+    return lastingTable<ClipTable>("clip");
 }
 [[nodiscard]] inline RecordingTable& openRecordings() {
     return lastingTable<RecordingTable>("recording");

@@ -87,6 +87,7 @@ constexpr auto structSizes = std::to_array<StructSize>({
     HAPTOFLOW_SIZE(haptoflow_contact_state),     HAPTOFLOW_SIZE(haptoflow_effect_statistics),
     HAPTOFLOW_SIZE(haptoflow_voice_statistics),  HAPTOFLOW_SIZE(haptoflow_signal_statistics),
     HAPTOFLOW_SIZE(haptoflow_exposure),          HAPTOFLOW_SIZE(haptoflow_wave_features_options),
+    HAPTOFLOW_SIZE(haptoflow_clip_options),      HAPTOFLOW_SIZE(haptoflow_clip_info),
     HAPTOFLOW_SIZE(haptoflow_wave_frame),        HAPTOFLOW_SIZE(haptoflow_recording_file),
     HAPTOFLOW_SIZE(haptoflow_recording_options), HAPTOFLOW_SIZE(haptoflow_track),
     HAPTOFLOW_SIZE(haptoflow_recording_info),    HAPTOFLOW_SIZE(haptoflow_learning_options),

@@ -22,20 +22,13 @@ static_assert(static_cast<int>(EffectKind::tone) == HAPTOFLOW_EFFECT_TONE);
 static_assert(static_cast<int>(EffectKind::signal) == HAPTOFLOW_EFFECT_SIGNAL);
 static_assert(static_cast<int>(EffectKind::listen) == HAPTOFLOW_EFFECT_LISTEN);
 static_assert(static_cast<int>(EffectKind::relief) == HAPTOFLOW_EFFECT_RELIEF);
+static_assert(static_cast<int>(EffectKind::clip) == HAPTOFLOW_EFFECT_CLIP);
 static_assert(effects::maskOf(EffectKind::relief) == HAPTOFLOW_ASKS_FOR_RELIEF);
 static_assert(effects::maskOf(EffectKind::texture) == HAPTOFLOW_ASKS_FOR_TEXTURE);
 static_assert(effects::maskOf(EffectKind::impact) == HAPTOFLOW_ASKS_FOR_IMPACT);
 static_assert(effects::maskOf(EffectKind::edge) == HAPTOFLOW_ASKS_FOR_EDGE);
 
 namespace {
-
-VoiceTable::Use requireVoice(haptoflow_voice voice) {
-    VoiceTable::Use use = voices().use(voice);
-    if (!use) {
-        throw std::invalid_argument("not an open voice");
-    }
-    return use;
-}
 
 /// engine::ContactState is the C struct after its size, so no field is copied by its name.
 engine::ContactState contactState(const haptoflow_contact_state& given) {

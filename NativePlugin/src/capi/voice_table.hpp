@@ -10,6 +10,7 @@
 #include <memory>
 #include <mutex>
 #include <span>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -102,6 +103,15 @@ private:
 };
 
 [[nodiscard]] VoiceTable& voices() noexcept;
+
+/// Throws std::invalid_argument for a voice that is not open.
+[[nodiscard]] inline VoiceTable::Use requireVoice(haptoflow_voice voice) {
+    VoiceTable::Use use = voices().use(voice);
+    if (!use) {
+        throw std::invalid_argument("not an open voice");
+    }
+    return use;
+}
 
 /// The destination of a voice's samples: one channel of interleaved frames, or all.
 struct ChannelTarget {

@@ -9,10 +9,10 @@ namespace haptoflow::effects {
 /// An amplitude of m/s^2 that counts as silence: a hundredth of a fingertip's lowest detection threshold.
 inline constexpr double imperceptibleMps2 = 1e-4;
 
-/// The effects of a voice in the order of processing, except for the last four. `texture` is the generated waveform,
+/// The effects of a voice in the order of processing, except for the last five. `texture` is the generated waveform,
 /// and `tone` filters it before any other effect; the engine implements both. `signal` is a sinusoid for studies, which
 /// replaces texture, impact, edge and relief. `listen` is for ears and acts after the compensation. `relief` is added
-/// where impact and edge are.
+/// where impact and edge are, and so is `clip`, which sounds with or without contact.
 enum class EffectKind : std::uint8_t {
     texture,
     impact,
@@ -23,9 +23,10 @@ enum class EffectKind : std::uint8_t {
     tone,
     signal,
     listen,
-    relief
+    relief,
+    clip
 };
-inline constexpr std::size_t effectKinds = 10;
+inline constexpr std::size_t effectKinds = 11;
 
 /// A set of effects, one bit per kind.
 using EffectMask = std::uint32_t;

@@ -85,6 +85,7 @@ EffectStage::EffectStage(double outputRateHz)
     : impact_(outputRateHz),
       edge_(outputRateHz, edgeDecayFactor),
       relief_(outputRateHz),
+      clip_(outputRateHz),
       signal_(outputRateHz),
       gate_(outputRateHz),
       fadeSamples_(std::max<std::size_t>(1, static_cast<std::size_t>(handOverSeconds * outputRateHz))) {}
@@ -185,6 +186,7 @@ void EffectStage::reset() noexcept {
     impact_.reset();
     edge_.reset();
     relief_.reset();
+    clip_.reset();
     signal_.reset();
     if (guard_ != nullptr) {
         guard_->reset();
@@ -216,7 +218,8 @@ void EffectStage::process(std::span<float> samplesMps2, dsp::LevelSmoother& stre
 }
 
 bool EffectStage::areSourcesIdle() const noexcept {
-    return impact_.isIdle() && edge_.isIdle() && relief_.isIdle() && signal_.isIdle();
+    return impact_.isIdle() && edge_.isIdle() && relief_.isIdle() && clip_.isIdle() &&
+           signal_.isIdle();
 }
 
 void EffectStage::runSources(std::span<float> samplesMps2, EffectFigures& figures) noexcept {
@@ -228,6 +231,9 @@ void EffectStage::runSources(std::span<float> samplesMps2, EffectFigures& figure
     }
     if (!relief_.isIdle()) {
         run(relief_, EffectKind::relief, samplesMps2, figures);
+    }
+    if (!clip_.isIdle()) {
+        run(clip_, EffectKind::clip, samplesMps2, figures);
     }
     if (!signal_.isIdle()) {
         run(signal_, EffectKind::signal, samplesMps2, figures);

@@ -3,6 +3,7 @@
 #include "dsp/gate.hpp"
 #include "dsp/waveform_resampler.hpp"
 #include "effects/actuator_profile.hpp"
+#include "effects/clip_sound.hpp"
 #include "effects/delay.hpp"
 #include "effects/effect.hpp"
 #include "effects/exposure_guard.hpp"
@@ -33,7 +34,7 @@ struct EffectCounters {
     std::atomic<std::uint64_t> runs{0};
     std::atomic<std::uint64_t> samples{0};
     std::atomic<std::uint64_t> nanoseconds{0};
-    /// For impact and edge, the number of contact events without rebounds; for a signal, the number of its starts.
+    /// For impact and edge, the number of contact events without rebounds; for a signal and clips, that of starts.
     std::atomic<std::uint64_t> events{0};
 
     /// Calls `process`, which processes a block of this many samples, and counts it.
@@ -83,6 +84,8 @@ public:
     /// See effects::Relief.
     void followRelief(const effects::ReliefContact& contact) noexcept { relief_.follow(contact); }
     void keepRelief(const effects::ReliefMap* map) noexcept { relief_.keep(map); }
+    /// See effects::ClipSound.
+    [[nodiscard]] effects::ClipSound& clip() noexcept { return clip_; }
     /// See effects::Signal. `close` also ends the signal.
     void setSignal(const effects::SignalSettings& settings) noexcept { signal_.set(settings); }
     void beginSignal() noexcept { signal_.begin(); }
@@ -114,7 +117,7 @@ public:
     void open() noexcept;
     void close() noexcept;
 
-    /// Adds sounding impacts, edges, relief and the signal to the next samples, at most 64, in m/s^2. Call `process`
+    /// Adds sounding impacts, edges, relief, clip and signal to the next samples, at most 64, in m/s^2. Call `process`
     /// with the same samples afterwards.
     void addSources(std::span<float> samplesMps2, EffectFigures& figures) noexcept;
     /// Processes the next samples in place, at most 64, in m/s^2. `strength` acts after delay and compensation and
@@ -141,6 +144,7 @@ private:
     effects::Impacts impact_;
     effects::Impacts edge_;
     effects::Relief relief_;
+    effects::ClipSound clip_;
     effects::Signal signal_;
     dsp::Gate gate_;
     std::unique_ptr<Processors> processors_;

@@ -64,6 +64,11 @@ void Voice::followRelief(const effects::ReliefContact& contact) noexcept {
     output_->effects.followRelief(contact);
 }
 
+void Voice::startClip(std::span<const float> waveMps2, float gain, bool isLoop) noexcept {
+    noteEvent(effects::EffectKind::clip);
+    output_->effects.clip().start(waveMps2, gain, isLoop);
+}
+
 void Voice::beginSignal() noexcept {
     noteEvent(effects::EffectKind::signal);
     output_->effects.beginSignal();

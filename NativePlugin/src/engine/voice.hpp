@@ -76,6 +76,8 @@ public:
     void start(effects::EffectKind kind, double speedMps, const effects::ImpactResponse& response) noexcept;
     /// Goes on with the relief of a contact; see effects::Relief.
     void followRelief(const effects::ReliefContact& contact) noexcept;
+    /// See effects::ClipSound. Call `allowEffects` before.
+    void startClip(std::span<const float> waveMps2, float gain, bool isLoop) noexcept;
     /// Starts the signal set by `effects().setSignal` with the next sample. Call `allowEffects` before.
     void beginSignal() noexcept;
     [[nodiscard]] EffectStage& effects() noexcept { return output_->effects; }

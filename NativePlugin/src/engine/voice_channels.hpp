@@ -15,6 +15,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <vector>
 
 namespace haptoflow::engine {
 
@@ -38,6 +39,17 @@ struct Playhead {
     double blockPosition = 0.0;
     double blockSeconds = 0.0;
     Waveform waveform;
+};
+
+/// A wave that the callback plays beside the texture. Its slot of the mailbox keeps the wave, and the publisher frees it.
+struct ClipMessage {
+    /// At effects::ClipSound::waveRateHz, in m/s^2; null to stop.
+    std::shared_ptr<const std::vector<float>> wave{};
+    float gain = 1.0F;
+    bool isLoop = false;
+    /// VoiceChannels::clock, and VoiceControls::panics, when it was published.
+    double publishedSeconds = 0.0;
+    std::uint32_t panics = 0;
 };
 
 /// Settings of the callback besides contacts and segments. Any thread may change them.
@@ -128,6 +140,7 @@ struct VoiceChannels {
     Mailbox<ContactMessage> toAudio;
     Mailbox<ContactMessage> toWorker;
     Mailbox<Playhead> playhead;
+    Mailbox<ClipMessage> clip;
     CorrectionQueue corrections;
     VoiceControls controls;
     VoiceCounters counters;

@@ -45,6 +45,7 @@ void VoiceRenderer::render(std::span<float> out, double rateHz, Limit limit) noe
         decide(rateHz);
         takeEvents(out.size());
         followRelief();
+        readClip();
         readSignal();
         sounded = isSounding();
         followContact();
@@ -353,6 +354,24 @@ void VoiceRenderer::followRelief() noexcept {
         relief.arrivalSeconds += longest - (blockSeconds_ - message.contact.publishedSeconds);
     }
     voice_.followRelief(relief);
+}
+
+void VoiceRenderer::readClip() noexcept {
+    const bool maySound = silence_ == Silence::none || silence_ == Silence::rest;
+    const bool waitsForRate = silence_ == Silence::rate && channels_.isRateSupported.load(std::memory_order_relaxed);
+    if (waitsForRate || !channels_.clip.fetch()) {
+        return;
+    }
+    // The message before, which kept the wave that sounds, is the publisher's again.
+    const ClipMessage& message = channels_.clip.current();
+    // A device that has stopped for a while does not play what was meant then.
+    constexpr double oldestSeconds = 0.5;
+    const bool isTooOld = channels_.isRealTime && channels_.clock() - message.publishedSeconds > oldestSeconds;
+    if (message.wave == nullptr || !maySound || isTooOld || message.panics != seenPanics_ || signal_.isSet()) {
+        voice_.effects().clip().leave();
+    } else {
+        voice_.startClip(*message.wave, message.gain, message.isLoop);
+    }
 }
 
 void VoiceRenderer::readSignal() noexcept {

@@ -64,6 +64,7 @@ private:
     void renderWithEvents(std::span<float> out) noexcept;
     void notePeriod(double sinceLastSeconds, std::uint64_t states) noexcept;
     void followRelief() noexcept;
+    void readClip() noexcept;
     void readSignal() noexcept;
     void noteSignalTransition(SignalTransitions& transitions) noexcept;
     void takeProcessors() noexcept;

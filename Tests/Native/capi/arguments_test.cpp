@@ -168,6 +168,15 @@ TEST(ArgumentTest, NullPointersAreRefusedByEveryFunction) {
     haptoflow_material* noMaterial = nullptr;
     haptoflow_voice noVoice = 0;
     haptoflow_relief noRelief = 0;
+    haptoflow_clip* noClip = nullptr;
+    auto clipInfo = sized<haptoflow_clip_info>();
+    auto clipOptions = sized<haptoflow_clip_options>();
+    clipOptions.wave_mps2 = data;
+    clipOptions.sample_count = numbers.size();
+    clipOptions.title = clipOptions.description = clipOptions.source = "";
+    const std::string clipText = R"({"Pattern":[]})";
+    haptoflow_clip* clip = nullptr;
+    ASSERT_EQ(haptoflow_clip_create(&clipOptions, &clip), HAPTOFLOW_OK) << message();
     auto reliefOptions = sized<haptoflow_relief_options>();
     reliefOptions.heights_metres = data;
     reliefOptions.columns = reliefOptions.rows = 1;
@@ -231,6 +240,14 @@ TEST(ArgumentTest, NullPointersAreRefusedByEveryFunction) {
     REFUSES_NULLS(haptoflow_relief_create, &reliefOptions, &noRelief);
     REFUSES_NULLS(haptoflow_relief_destroy, nullptr);
     REFUSES_NULLS(haptoflow_relief_heights_of_normals, data, 1, 1, data, 1, data);
+    REFUSES_NULLS(haptoflow_clip_create, &clipOptions, &noClip);
+    REFUSES_NULLS(haptoflow_clip_read, clipText.data(), clipText.size(), &noClip);
+    REFUSES_NULLS(haptoflow_clip_close, nullptr);
+    REFUSES_NULLS(haptoflow_clip_describe, clip, &clipInfo);
+    REFUSES_NULLS(haptoflow_clip_write, clip, HAPTOFLOW_CLIP_AHAP, "", failure.data(), failure.size(), &length);
+    REFUSES_NULLS(haptoflow_clip_curves, nullptr, 1, data, data);
+    REFUSES_NULLS(haptoflow_clip_wave, clip, 8000.0, data, 1, &length);
+    REFUSES_NULLS(haptoflow_voice_play_clip, 0, nullptr, 1.0F, 0);
     REFUSES_NULLS(haptoflow_device_share, HAPTOFLOW_DEVICE_MOTOR, 1.0F, nullptr);
     REFUSES_NULLS(haptoflow_device_wave_create, 8000.0, nullptr);
     REFUSES_NULLS(haptoflow_device_wave_close, nullptr);
@@ -259,7 +276,8 @@ TEST(ArgumentTest, NullPointersAreRefusedByEveryFunction) {
     EXPECT_EQ(called, declared) << "each pointer of each function of the header has a call";
     EXPECT_TRUE(noRuntime == nullptr && noModel == nullptr && noGenerator == nullptr && noEngine == nullptr &&
                 noFeatures == nullptr && noRecording == nullptr && noLearning == nullptr && noMaterial == nullptr &&
-                noVoice == 0 && noRelief == 0);
+                noVoice == 0 && noRelief == 0 && noClip == nullptr);
+    EXPECT_EQ(haptoflow_clip_close(&clip), HAPTOFLOW_OK);
     EXPECT_EQ(haptoflow_material_close(&material), HAPTOFLOW_OK);
     EXPECT_EQ(haptoflow_generator_close(&generator), HAPTOFLOW_OK);
     EXPECT_EQ(haptoflow_wave_features_close(&features), HAPTOFLOW_OK);

@@ -1,5 +1,6 @@
 // What every stage of a voice's chain promises, whichever it is.
 
+#include "effects/clip_sound.hpp"
 #include "effects/compensation.hpp"
 #include "effects/delay.hpp"
 #include "effects/device_loudness.hpp"
@@ -46,6 +47,24 @@ std::unique_ptr<Effect> soundingSignal(double outputRateHz) {
     return signal;
 }
 
+/// A loop of noise with a sample that is no number, begun in the middle of another wave.
+std::unique_ptr<Effect> soundingClip(double outputRateHz) {
+    static const std::vector<float> wave = [] {
+        std::vector<float> samples(977);
+        for (std::size_t i = 0; i < samples.size(); ++i) {
+            samples[i] = 5.0F * std::sin(0.37F * static_cast<float>(i * i % 1009));
+        }
+        samples[300] = std::nanf("");
+        return samples;
+    }();
+    auto clip = std::make_unique<ClipSound>(outputRateHz);
+    clip->start(wave, 1.0F, false);
+    std::vector<float> block(100);
+    clip->process(block);
+    clip->start(wave, 0.7F, true);
+    return clip;
+}
+
 std::unique_ptr<Effect> setDelay(double outputRateHz) {
     auto delay = std::make_unique<Delay>(outputRateHz);
     delay->setDelaySeconds(0.01);
@@ -85,11 +104,14 @@ std::vector<float> played(Effect& effect, std::vector<float> samples, std::size_
 class EffectContractTest : public ::testing::TestWithParam<Kind> {
 protected:
     /// True if the effect adds to what passes.
-    static bool isSource() { return GetParam().name == "Impacts" || GetParam().name == "Signal"; }
+    static bool isSource() {
+        return GetParam().name == "Impacts" || GetParam().name == "Signal" || GetParam().name == "ClipSound";
+    }
 };
 
 INSTANTIATE_TEST_SUITE_P(Of, EffectContractTest,
                          ::testing::Values(Kind{"Impacts", ringingImpacts}, Kind{"Signal", soundingSignal},
+                                           Kind{"ClipSound", soundingClip},
                                            Kind{"Delay", setDelay}, Kind{"Compensation", compensationOfVoiceCoil},
                                            Kind{"ExposureGuard", quickGuard}, Kind{"Listen", listen}),
                          [](const auto& kind) { return kind.param.name; });
