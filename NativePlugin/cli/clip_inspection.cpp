@@ -163,14 +163,12 @@ void inspectClip(const std::string& path, bool asJson, const std::string& pictur
                        " of frequency"},
         {"transients", std::to_string(clip.transients.size())},
         {"largest amplitude", fixedDecimals(100.0 * loudest, 0) + " % of the device's range"},
-        {"frequency", clip.frequencyHz.empty()
-                          ? "left to the device"
-                          : model::shortNumber(std::round(lowestHz)) + " to " +
-                                model::shortNumber(std::round(highestHz)) + " Hz"},
-        {"a motor of 160 Hz", motor.feltFrames == 0
-                                  ? "plays nothing that is felt"
-                                  : "plays it within " + fixedDecimals(motor.percentile95Db, 1) +
-                                        " dB of perceived intensity in 95 % of what is felt"},
+        {"frequency", clip.frequencyHz.empty() ? "left to the device"
+                                               : model::shortNumber(std::round(lowestHz)) + " to " +
+                                                     model::shortNumber(std::round(highestHz)) + " Hz"},
+        {"a motor of 160 Hz", motor.feltFrames == 0 ? "plays nothing that is felt"
+                                                    : "plays it within " + fixedDecimals(motor.percentile95Db, 1) +
+                                                          " dB of perceived intensity in 95 % of what is felt"},
         {"not read", orDash(omitted)}};
     for (const auto& [name, value] : rows) {
         std::cout << "  " << name << std::string(19 - name.size(), ' ') << value << '\n';

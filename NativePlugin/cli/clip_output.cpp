@@ -22,8 +22,7 @@ std::optional<clips::ClipFormat> clipFormatOf(std::string_view path) {
 }
 
 std::string today() {
-    const std::chrono::year_month_day date(
-        std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now()));
+    const std::chrono::year_month_day date(std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now()));
     std::array<char, 16> text{};
     (void)std::snprintf(text.data(), text.size(), "%04d-%02u-%02u", static_cast<int>(date.year()),
                         static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()));
@@ -35,18 +34,22 @@ ClipFigures writeClipFile(const OutputFile& file, const clips::HapticClip& clip)
     const clips::ClipWriting writing{.format = clipFormatOf(path).value(), .date = today()};
     const clips::WrittenClip written = clips::writeClip(clip, writing);
     writeText(file, written.text);
-    // A tenth above the tolerance: the error is measured as a ratio, the tolerance is one of both signs.
-    if (written.amplitudeErrorDb > 1.1 * writing.toleranceDb) {
-        note(path + ": " + model::shortNumber(writing.pointsPerSecond) +
-             " points a second follow this wave's amplitude within " + fixedDecimals(written.amplitudeErrorDb, 1) +
-             " dB");
-    }
     return {.file = file.path().filename().string(),
             .amplitudePoints = written.amplitudePoints,
             .frequencyPoints = written.frequencyPoints,
             .transients = clip.transients.size(),
             .amplitudeErrorDb = written.amplitudeErrorDb,
             .frequencyErrorPercent = written.frequencyErrorPercent};
+}
+
+void noteCoarseClip(const ClipFigures& figures) {
+    const clips::ClipWriting usual;
+    // The tolerance is a ratio upwards; downwards it is a little more in decibels.
+    if (figures.amplitudeErrorDb > 1.1 * usual.toleranceDb) {
+        note(figures.file + ": " + model::shortNumber(usual.pointsPerSecond) +
+             " points a second follow this wave's amplitude within " + fixedDecimals(figures.amplitudeErrorDb, 1) +
+             " dB");
+    }
 }
 
 }  // namespace haptoflow::cli

@@ -26,9 +26,11 @@ struct ClipFigures {
     double frequencyErrorPercent = 0.0;
 };
 
-/// Writes a clip to a file's partial, in the format of its name. Where the format's points do not suffice for half a
-/// decibel, a note says the error. Throws InputError that names the file.
+/// Writes a clip to a file's partial, in the format of its name. Throws InputError that names the file.
 [[nodiscard]] ClipFigures writeClipFile(const OutputFile& file, const clips::HapticClip& clip);
+
+/// Prints a note if a clip's points do not follow its amplitude within half a decibel.
+void noteCoarseClip(const ClipFigures& figures);
 
 /// Prints what a clip file has and what a motor plays of it; as JSON if `asJson`. Draws it to `picturePath`, an SVG,
 /// unless that is empty. Throws InputError that names the file.

@@ -73,14 +73,14 @@ std::vector<float> decimated(std::span<const float> loop) {
     effects::WaveDecimation decimation(samplesPerFeature);
     const std::size_t count = loop.size() / samplesPerFeature;
     std::vector<float> slow;
-    for (std::size_t i = 0; i < 2 * loop.size() + (effects::WaveDecimation::delaySamples + 1) * samplesPerFeature; ++i) {
+    for (std::size_t i = 0; i < 2 * loop.size() + (effects::WaveDecimation::delaySamples + 1) * samplesPerFeature;
+         ++i) {
         float sample = 0.0F;
         if (decimation.take(loop[i % loop.size()], sample)) {
             slow.push_back(sample);
         }
     }
-    const auto first =
-        slow.begin() + static_cast<std::ptrdiff_t>(count + effects::WaveDecimation::delaySamples);
+    const auto first = slow.begin() + static_cast<std::ptrdiff_t>(count + effects::WaveDecimation::delaySamples);
     return {first, first + static_cast<std::ptrdiff_t>(count)};
 }
 
@@ -191,10 +191,10 @@ public:
         }
     }
 
-    /// The files of one clip by format, with their names.
-    [[nodiscard]] nlohmann::ordered_json write(const std::string& name, const std::vector<std::string>& formats,
-                                               const Loop& loop, const clips::HapticClip& clip) {
-        nlohmann::ordered_json files;
+    /// Writes one clip in all formats and notes their names and the largest error of an amplitude in `entry`.
+    void write(const std::string& name, const std::vector<std::string>& formats, const Loop& loop,
+               const clips::HapticClip& clip, nlohmann::ordered_json& entry) {
+        double errorDb = 0.0;
         for (const std::string& format : formats) {
             const std::string fileName = name + '.' + format;
             OutputFile file("-o", folder_ / fileName);
@@ -203,12 +203,14 @@ public:
                 writer.write(onDevice(loop.wave));
                 writer.close();
             } else {
-                (void)writeClipFile(file, clip);
+                errorDb = std::max(errorDb, writeClipFile(file, clip).amplitudeErrorDb);
             }
             file.commit();
-            files[format] = fileName;
+            entry["files"][format] = fileName;
         }
-        return files;
+        if (errorDb > 0.0) {
+            entry["amplitude_error_db"] = errorDb;
+        }
     }
 
     void finish(const nlohmann::ordered_json& index) {
@@ -269,8 +271,8 @@ void runExportSet(const ExportOptions& options) {
             for (const double force : options.forcesNewtons) {
                 bar(static_cast<double>(done++) / static_cast<double>(count), label);
                 const Loop loop = renderer.render(materials.indexOf(label), speed, force);
-                const std::string what = label + " at " + model::shortNumber(speed) + " m/s and " +
-                                         model::shortNumber(force) + " N";
+                const std::string what =
+                    label + " at " + model::shortNumber(speed) + " m/s and " + model::shortNumber(force) + " N";
                 const clips::HapticClip clip = clips::clipOf(
                     loop.slowWave,
                     {.isLoop = true,
@@ -280,13 +282,13 @@ void runExportSet(const ExportOptions& options) {
                                                model.header().provenance.licence,
                                 .editor = "HaptoFlow " HAPTOFLOW_VERSION,
                                 .tags = {label, "texture", "loop"}}});
-                const std::string name = names[i] + '_' + model::shortNumber(1000.0 * speed) + "mmps_" +
-                                         model::shortNumber(force) + 'N';
+                const std::string name =
+                    names[i] + '_' + model::shortNumber(1000.0 * speed) + "mmps_" + model::shortNumber(force) + 'N';
                 clipsOfLabel.push_back({{"speed_mps", speed},
                                         {"force_newtons", force},
                                         {"seconds", static_cast<double>(loop.wave.size()) / rateHz},
-                                        {"rms_mps2", rmsOf(loop.wave)},
-                                        {"files", folder.write(name, options.formats, loop, clip)}});
+                                        {"rms_mps2", rmsOf(loop.wave)}});
+                folder.write(name, options.formats, loop, clip, clipsOfLabel.back());
             }
         }
         entries.push_back({{"label", label}, {"clips", std::move(clipsOfLabel)}});
@@ -309,13 +311,17 @@ void runExportSet(const ExportOptions& options) {
 }  // namespace
 
 void addExportSetCommand(CLI::App& app) {
-    CLI::App* command =
-        app.add_subcommand("export-set", "Render loops of labels over speed and force, for engines that cross-fade clips");
+    CLI::App* command = app.add_subcommand(
+        "export-set", "Render loops of labels over speed and force, for engines that cross-fade clips");
     const auto options = std::make_shared<ExportOptions>();
-    command->add_option("-o,--output", options->folder, "Folder for the clips and index.json, which says how to blend them")
+    command
+        ->add_option("-o,--output", options->folder,
+                     "Folder for the clips and index.json, which says how to blend them")
         ->required()
         ->type_name("FOLDER");
-    command->add_option("--labels", options->labels, "Labels of the model (default: all)")->delimiter(',')->type_name("LIST");
+    command->add_option("--labels", options->labels, "Labels of the model (default: all)")
+        ->delimiter(',')
+        ->type_name("LIST");
     command
         ->add_option("--material", options->materials,
                      "A .haptomaterial file whose name counts as a label; may be given several times")
@@ -331,7 +337,8 @@ void addExportSetCommand(CLI::App& app) {
         ->check(decimalBetween(0.05, 20.0, "N"))
         ->type_name("LIST")
         ->capture_default_str();
-    command->add_option("--seconds", options->seconds, "Longest loop; a quarter of a second less where it closes better")
+    command
+        ->add_option("--seconds", options->seconds, "Longest loop; a quarter of a second less where it closes better")
         ->check(decimalBetween(1.0, 30.0, "s"))
         ->capture_default_str();
     command->add_option("--formats", options->formats, "One or more of wav, haptic, ahap and hjif")
@@ -347,8 +354,8 @@ void addExportSetCommand(CLI::App& app) {
     command->add_flag("--quiet", options->quiet, "No progress bar");
     command->footer(
         "Examples:\n"
-        "  haptoflow export-set -o clips --labels wood,fabric\n"
-        "  haptoflow export-set -o phone --speeds 0.05,0.2 --forces 1 --seconds 2 --formats ahap,haptic");
+        "  haptoflow export-set -o clips --labels wood,sandpaper\n"
+        "  haptoflow export-set -o phone --labels wood --speeds 0.05,0.2 --forces 1 --seconds 2 --formats ahap,haptic");
     command->callback([options] { runExportSet(*options); });
 }
 

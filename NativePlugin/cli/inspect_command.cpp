@@ -247,7 +247,8 @@ void addInspectCommand(CLI::App& app) {
     command->add_option("model", options->modelPath, "The .haptoflow, .haptomaterial, .haptic, .ahap or .hjif file")
         ->required()
         ->type_name("FILE");
-    command->add_flag("--json", options->json, "Print the file's header, size and checksum, or a clip's figures, as JSON");
+    command->add_flag("--json", options->json,
+                      "Print the file's header, size and checksum, or a clip's figures, as JSON");
     command->add_option("--picture", options->picturePath, "Draw a clip's amplitude and frequency over time")
         ->type_name("OUT.svg");
     command->footer(

@@ -88,7 +88,7 @@ int run(int argc, char** argv) {
         "  haptoflow inspect default.haptoflow\n"
         "  haptoflow actuator show voice-coil\n"
         "  haptoflow learn denim.csv -o denim.haptomaterial\n"
-        "  haptoflow export-set -o clips --labels wood,fabric\n"
+        "  haptoflow export-set -o clips --labels wood,sandpaper\n"
         "  haptoflow bench --quick\n"
         "Exit codes: 0 done, 2 wrong usage, 3 bad input file, 4 internal error.");
 

@@ -194,6 +194,7 @@ public:
         }
         for (const auto& file : clips_) {
             figures.push_back(writeClipFile(*file, frames_->toClip(origin)));
+            noteCoarseClip(figures.back());
         }
         return figures;
     }
@@ -309,8 +310,7 @@ void explainSilence(const RenderOptions& options, const engine::OfflineFigures& 
 
 /// What a clip says of the render.
 clips::ClipOrigin originOf(const RenderOptions& options, const std::vector<std::string>& labels,
-                           const std::string& modelName, const std::string& quality,
-                           const model::ModelHeader& header) {
+                           const std::string& modelName, const std::string& quality, const model::ModelHeader& header) {
     std::string title;
     for (const std::string& label : labels) {
         title += (title.empty() ? "" : ", ") + label;
@@ -406,11 +406,12 @@ void addRenderCommand(CLI::App& app) {
         ->required()
         ->type_name("STROKE.csv");
     command
-        ->add_option("-o,--output", options->outputs,
-                     "OUT.wav: one channel of 32-bit float; - for standard output. OUT.haptic (Meta, Lofelt), OUT.ahap "
-                     "(Apple), OUT.hjif (MPEG-I): a clip for other tools, with amplitude, frequency and transients. "
-                     "OUT.json, OUT.csv: the same every 5 ms, at the perceived intensity of the wave. May be given once "
-                     "for each")
+        ->add_option(
+            "-o,--output", options->outputs,
+            "OUT.wav: one channel of 32-bit float; - for standard output. OUT.haptic (Meta, Lofelt), OUT.ahap "
+            "(Apple), OUT.hjif (MPEG-I): a clip for other tools, with amplitude, frequency and transients. "
+            "OUT.json, OUT.csv: the same every 5 ms, at the perceived intensity of the wave. May be given once "
+            "for each")
         ->required()
         ->allow_extra_args(false)
         ->type_name("FILE");

@@ -18,8 +18,9 @@ namespace {
 
 /// For each effect that ran: its impacts or edges, and the samples that it processed.
 nlohmann::ordered_json effectsOf(const engine::OfflineFigures& figures) {
-    constexpr std::array<const char*, effects::effectKinds> names{
-        "texture", "impact", "edge", "delay", "compensation", "exposure guard", "tone", "signal", "listen", "relief", "clip"};
+    constexpr std::array<const char*, effects::effectKinds> names{"texture",      "impact",         "edge", "delay",
+                                                                  "compensation", "exposure guard", "tone", "signal",
+                                                                  "listen",       "relief",         "clip"};
     nlohmann::ordered_json effects = nlohmann::ordered_json::object();
     for (std::size_t kind = 0; kind < names.size(); ++kind) {
         if (figures.effectSamples[kind] > 0 || figures.effectEvents[kind] > 0) {

@@ -28,8 +28,8 @@ struct RenderIdentity {
 };
 
 /// One render as JSON: `name`, `labels`, `wav`, `seconds`, `rms_mps2`, `peak`, `segments`, `inference_ms` {p50, p99},
-/// `nonfinite`, `underruns` and the engine's other counts. `solver` and `steps` are null for a tier without them; `clips`
-/// is there if clips were written.
+/// `nonfinite`, `underruns` and the engine's other counts. `solver` and `steps` are null for a tier without them;
+/// `clips` is there if clips were written.
 [[nodiscard]] std::string renderReport(const RenderIdentity& identity, const engine::OfflineFigures& figures);
 
 /// Collects what a device with one carrier gets for a render.

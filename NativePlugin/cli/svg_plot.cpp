@@ -68,8 +68,8 @@ public:
             if (value < lowest_ - 0.001 * std::abs(lowest_) || value > highest_ * 1.001) {
                 return;
             }
-            drawn += svgLine(at(value), top, at(value), top + height,
-                             isLabelled ? "stroke=\"#ccc\"" : "stroke=\"#eee\"");
+            drawn +=
+                svgLine(at(value), top, at(value), top + height, isLabelled ? "stroke=\"#ccc\"" : "stroke=\"#eee\"");
             if (isNamed && isLabelled) {
                 drawn += svgText(at(value), top + height + 17.0, "middle", model::shortNumber(value));
             }

@@ -41,9 +41,10 @@ struct PlotPanel {
     std::optional<PlotAxis> across{};
 };
 
-/// An SVG picture of values over the logarithm of frequency, over time or over another quantity, with the panels below each other.
-/// Each line has a value for each frequency; values that are not finite are skipped, values outside the axis are drawn
-/// at its edge. Home-made: the build has no plotting library for C++, and a few kinds of panel are all that is needed.
+/// An SVG picture of values over the logarithm of frequency, over time or over another quantity, with the panels below
+/// each other. Each line has a value for each frequency; values that are not finite are skipped, values outside the
+/// axis are drawn at its edge. Home-made: the build has no plotting library for C++, and a few kinds of panel are all
+/// that is needed.
 [[nodiscard]] std::string svgPlot(const std::string& title, const std::vector<double>& frequencyHz,
                                   const std::vector<PlotPanel>& panels);
 

@@ -1014,8 +1014,7 @@ HAPTOFLOW_API haptoflow_status haptoflow_clip_describe(const haptoflow_clip* cli
  * stay within 0.5 dB and there are at most 100 a second. Errors: INVALID_ARGUMENT (also for too small a capacity),
  * OUT_OF_MEMORY. [any-thread] */
 HAPTOFLOW_API haptoflow_status haptoflow_clip_write(const haptoflow_clip* clip, haptoflow_clip_format format,
-                                                    const char* date, char* text, uint64_t capacity,
-                                                    uint64_t* length);
+                                                    const char* date, char* text, uint64_t capacity, uint64_t* length);
 
 /* Reads amplitude (0 to 1) and frequency (Hz) at `count` times, evenly from the clip's start to its end; either array
  * may be null. [any-thread] */

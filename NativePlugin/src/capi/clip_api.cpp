@@ -38,8 +38,8 @@ struct OpenClip {
     [[nodiscard]] std::shared_ptr<const std::vector<float>> wave() {
         const std::lock_guard lock(mutex_);
         if (wave_ == nullptr) {
-            wave_ = std::make_shared<const std::vector<float>>(
-                clips::waveOf(read.clip, effects::ClipSound::waveRateHz));
+            wave_ =
+                std::make_shared<const std::vector<float>>(clips::waveOf(read.clip, effects::ClipSound::waveRateHz));
         }
         return wave_;
     }
@@ -118,12 +118,12 @@ haptoflow_status haptoflow_clip_create(const haptoflow_clip_options* options, ha
         const std::span wave(count > 0 ? require(given.wave_mps2, "wave_mps2") : given.wave_mps2, count);
         const std::vector<float> slow = decimated(wave, given.sample_rate_hz == 0 ? 2000U : given.sample_rate_hz);
         *clip = openClips().open(orRefused([&] {
-            return std::make_shared<OpenClip>(
-                clips::ReadClip{.clip = clips::clipOf(slow, {.isLoop = given.is_loop != 0,
-                                                             .origin = {.title = textOrEmpty(given.title),
-                                                                        .description = textOrEmpty(given.description),
-                                                                        .editor = std::string("HaptoFlow ") + haptoflow_version(),
-                                                                        .source = textOrEmpty(given.source)}})});
+            return std::make_shared<OpenClip>(clips::ReadClip{
+                .clip = clips::clipOf(slow, {.isLoop = given.is_loop != 0,
+                                             .origin = {.title = textOrEmpty(given.title),
+                                                        .description = textOrEmpty(given.description),
+                                                        .editor = std::string("HaptoFlow ") + haptoflow_version(),
+                                                        .source = textOrEmpty(given.source)}})});
         }));
     });
 }
@@ -133,8 +133,7 @@ haptoflow_status haptoflow_clip_read(const char* text, uint64_t length, haptoflo
         (void)require(text, "text");
         (void)require(clip, "clip");
         *clip = openClips().open(orRefused([&] {
-            return std::make_shared<OpenClip>(
-                clips::readClip(std::string_view(text, countOf(length, "length"))));
+            return std::make_shared<OpenClip>(clips::readClip(std::string_view(text, countOf(length, "length"))));
         }));
     });
 }

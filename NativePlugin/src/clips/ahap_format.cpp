@@ -41,18 +41,16 @@ void addCurves(ordered_json& pattern, const char* parameter, std::span<const Cli
         if (first > 0 && first + 1 == points.size()) {
             break;
         }
-        const std::span<const ClipPoint> part =
-            points.subspan(first, std::min(pointsOfCurve, points.size() - first));
+        const std::span<const ClipPoint> part = points.subspan(first, std::min(pointsOfCurve, points.size() - first));
         const double start = rounded(part.front().seconds, 6);
         ordered_json controls = ordered_json::array();
         for (const ClipPoint& point : part) {
             controls.push_back(
                 {{"Time", rounded(point.seconds - start, 6)}, {"ParameterValue", rounded(point.value, 4)}});
         }
-        pattern.push_back({{"ParameterCurve",
-                            {{"ParameterID", parameter},
-                             {"Time", start},
-                             {"ParameterCurveControlPoints", std::move(controls)}}}});
+        pattern.push_back(
+            {{"ParameterCurve",
+              {{"ParameterID", parameter}, {"Time", start}, {"ParameterCurveControlPoints", std::move(controls)}}}});
     }
 }
 
@@ -273,12 +271,11 @@ ordered_json ahapOf(const HapticClip& clip, const ThinnedCurves& curves) {
                              {"EventType", "HapticTransient"},
                              {"EventParameters", parameters(std::min(1.0, share), std::max(0.0, sharper))}}}});
     }
-    return {{"Version", 1.0},
-            {"Metadata",
-             {{"Project", clip.origin.title},
-              {"Created", clip.origin.editor},
-              {"Description", clip.origin.description}}},
-            {"Pattern", std::move(pattern)}};
+    return {
+        {"Version", 1.0},
+        {"Metadata",
+         {{"Project", clip.origin.title}, {"Created", clip.origin.editor}, {"Description", clip.origin.description}}},
+        {"Pattern", std::move(pattern)}};
 }
 
 void readAhap(const json& document, ReadClip& read) {
@@ -299,8 +296,7 @@ void readAhap(const json& document, ReadClip& read) {
     }
     join(std::move(pieces), read.clip);
     for (const Event& event : pattern.transients) {
-        read.clip.transients.push_back({event.start,
-                                        amplitudeOf(event.intensity, valueAt(intensity, event.start, 1.0)),
+        read.clip.transients.push_back({event.start, amplitudeOf(event.intensity, valueAt(intensity, event.start, 1.0)),
                                         inHz(event.sharpness + valueAt(sharpness, event.start, 0.0))});
     }
     if (const auto metadata = document.find("Metadata"); metadata != document.end()) {

@@ -195,8 +195,8 @@ ReadClip readClip(std::string_view text) {
         std::ranges::stable_sort(read.clip.transients, {}, &ClipTransient::seconds);
         read.clip.durationSeconds = endOf(read.clip);
         if (read.clip.durationSeconds > HapticClip::longestSeconds) {
-            throw ClipError("lasts " + std::to_string(std::llround(read.clip.durationSeconds)) +
-                            " s; the longest is " + std::to_string(std::llround(HapticClip::longestSeconds)) + " s");
+            throw ClipError("lasts " + std::to_string(std::llround(read.clip.durationSeconds)) + " s; the longest is " +
+                            std::to_string(std::llround(HapticClip::longestSeconds)) + " s");
         }
         return read;
     } catch (const model::ModelError& error) {

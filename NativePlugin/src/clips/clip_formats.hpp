@@ -12,7 +12,8 @@ namespace haptoflow::clips {
 
 /// Formats of clips, all of them JSON.
 enum class ClipFormat : std::uint8_t {
-    /// `.haptic` 1.0.0 of Lofelt and Meta: amplitude and frequency, both 0 to 1, and emphasis at points of the amplitude.
+    /// `.haptic` 1.0.0 of Lofelt and Meta: amplitude and frequency, both 0 to 1, and emphasis at points of the
+    /// amplitude.
     haptic,
     /// `.ahap` of Apple's Core Haptics: events and parameter curves, intensity and sharpness 0 to 1.
     ahap,
@@ -53,8 +54,8 @@ struct WrittenClip {
     double frequencyErrorPercent = 0.0;
 };
 
-/// Writes a clip. A format without Hz limits the frequencies to its range. Throws std::invalid_argument for settings out
-/// of range.
+/// Writes a clip. A format without Hz limits the frequencies to its range. Throws std::invalid_argument for settings
+/// out of range.
 [[nodiscard]] WrittenClip writeClip(const HapticClip& clip, const ClipWriting& writing);
 
 struct ReadClip {

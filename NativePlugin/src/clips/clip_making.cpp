@@ -161,8 +161,8 @@ HapticClip clipOf(std::span<const float> waveMps2, const ClipMaking& making) {
         if (frame.transient.amplitudeMps2 > 0.0F) {
             const double onset = start + static_cast<double>(frame.transient.offsetSeconds);
             if (onset >= 0.0 && onset < clip.durationSeconds) {
-                clip.transients.push_back({onset, shareOf(frame.transient.amplitudeMps2),
-                                           static_cast<double>(frame.transient.frequencyHz)});
+                clip.transients.push_back(
+                    {onset, shareOf(frame.transient.amplitudeMps2), static_cast<double>(frame.transient.frequencyHz)});
             }
         }
         if (middle >= 0.0 && middle <= clip.durationSeconds) {
@@ -179,9 +179,10 @@ HapticClip clipOf(std::span<const float> waveMps2, const ClipMaking& making) {
     return clip;
 }
 
-std::vector<float> loopOf(std::span<const float> wave, std::size_t shortest, std::size_t longest,
-                          std::size_t crossfade, std::size_t step) {
-    if (step == 0 || longest < step || crossfade == 0 || shortest < crossfade || longest < shortest || wave.size() < longest + crossfade) {
+std::vector<float> loopOf(std::span<const float> wave, std::size_t shortest, std::size_t longest, std::size_t crossfade,
+                          std::size_t step) {
+    if (step == 0 || longest < step || crossfade == 0 || shortest < crossfade || longest < shortest ||
+        wave.size() < longest + crossfade) {
         throw std::invalid_argument("a loop of " + std::to_string(shortest) + " to " + std::to_string(longest) +
                                     " samples with a crossfade of " + std::to_string(crossfade) + " out of " +
                                     std::to_string(wave.size()));
@@ -201,7 +202,7 @@ std::vector<float> loopOf(std::span<const float> wave, std::size_t shortest, std
     };
     std::size_t length = longest - longest % step;
     double correlation = correlationAt(length);
-    for (std::size_t candidate = length; candidate >= shortest + step; ) {
+    for (std::size_t candidate = length; candidate >= shortest + step;) {
         candidate -= step;
         if (const double found = correlationAt(candidate); found > correlation) {
             length = candidate;
@@ -210,15 +211,13 @@ std::vector<float> loopOf(std::span<const float> wave, std::size_t shortest, std
     }
     std::vector<float> loop(wave.begin(), wave.begin() + static_cast<std::ptrdiff_t>(length));
     for (std::size_t i = 0; i < crossfade; ++i) {
-        const double angle =
-            0.5 * std::numbers::pi * (static_cast<double>(i) + 0.5) / static_cast<double>(crossfade);
+        const double angle = 0.5 * std::numbers::pi * (static_cast<double>(i) + 0.5) / static_cast<double>(crossfade);
         const double rising = std::sin(angle);
         const double falling = std::cos(angle);
         // Energy of the sum of two waves with this correlation; never 0, since both gains are positive.
         const double sum = std::sqrt(std::max(0.05, 1.0 + 2.0 * rising * falling * correlation));
-        loop[i] = static_cast<float>((rising * static_cast<double>(wave[i]) +
-                                      falling * static_cast<double>(wave[length + i])) /
-                                     sum);
+        loop[i] = static_cast<float>(
+            (rising * static_cast<double>(wave[i]) + falling * static_cast<double>(wave[length + i])) / sum);
     }
     return loop;
 }

@@ -17,15 +17,16 @@ struct ClipMaking {
     ClipOrigin origin{};
 };
 
-/// The clip of a 2 kHz wave in m/s^2, for a device with amplitude and frequency: frames of 4 ms of effects::WaveFeatures
-/// (perceived intensity of the wave), their amplitude by the loudness law of such devices. What a transient plays is
-/// taken out of the amplitude for its 24 ms. Samples that are not finite count as 0. Throws ClipError for an empty wave
-/// or one that is longer than a clip may be, std::invalid_argument for a range out of bounds. Allocates.
+/// The clip of a 2 kHz wave in m/s^2, for a device with amplitude and frequency: frames of 4 ms of
+/// effects::WaveFeatures (perceived intensity of the wave), their amplitude by the loudness law of such devices. What a
+/// transient plays is taken out of the amplitude for its 24 ms. Samples that are not finite count as 0. Throws
+/// ClipError for an empty wave or one that is longer than a clip may be, std::invalid_argument for a range out of
+/// bounds. Allocates.
 [[nodiscard]] HapticClip clipOf(std::span<const float> waveMps2, const ClipMaking& making = {});
 
-/// A loop of `shortest` to `longest` samples out of a longer wave, which must hold `longest` + `crossfade`. It is as long
-/// as the wave's end resembles its beginning best, and its first `crossfade` samples lead from the one into the other
-/// with gains that keep the level of their sum whatever their correlation: neither click nor dip where it closes.
+/// A loop of `shortest` to `longest` samples out of a longer wave, which must hold `longest` + `crossfade`. It is as
+/// long as the wave's end resembles its beginning best, and its first `crossfade` samples lead from the one into the
+/// other with gains that keep the level of their sum whatever their correlation: neither click nor dip where it closes.
 /// Its length is a multiple of `step`. Throws std::invalid_argument. Allocates.
 [[nodiscard]] std::vector<float> loopOf(std::span<const float> wave, std::size_t shortest, std::size_t longest,
                                         std::size_t crossfade, std::size_t step = 1);
@@ -38,8 +39,8 @@ struct Thinned {
 };
 
 /// Leaves out points as long as the straight line between those that stay is within `toleranceDb` of each, values below
-/// `floor` counted as it; if more than `mostPoints` would stay, with the least tolerance at which they do not. First and
-/// last point stay. `floor` and `toleranceDb` are above 0, `mostPoints` is at least 2.
+/// `floor` counted as it; if more than `mostPoints` would stay, with the least tolerance at which they do not. First
+/// and last point stay. `floor` and `toleranceDb` are above 0, `mostPoints` is at least 2.
 [[nodiscard]] Thinned thin(std::span<const ClipPoint> points, double toleranceDb, double floor, std::size_t mostPoints);
 
 }  // namespace haptoflow::clips

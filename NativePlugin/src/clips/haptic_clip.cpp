@@ -21,8 +21,8 @@ double accelerationOfShare(double share) noexcept {
     constexpr int halvings = 40;
     for (int i = 0; i < halvings; ++i) {
         const double middle = 0.5 * (low + high);
-        const auto played = static_cast<double>(
-            effects::deviceShare(effects::DeviceKind::parametric, static_cast<float>(middle)));
+        const auto played =
+            static_cast<double>(effects::deviceShare(effects::DeviceKind::parametric, static_cast<float>(middle)));
         (played < share ? low : high) = middle;
     }
     return 0.5 * (low + high);
@@ -114,8 +114,7 @@ double valueAt(std::span<const ClipPoint> points, double seconds, double outside
 }
 
 std::vector<float> playedWave(const HapticClip& clip, double rateHz, double minFrequencyHz, double maxFrequencyHz) {
-    std::vector<float> wave =
-        render(clip, rateHz, minFrequencyHz, maxFrequencyHz, [](double share) { return share; });
+    std::vector<float> wave = render(clip, rateHz, minFrequencyHz, maxFrequencyHz, [](double share) { return share; });
     std::ranges::for_each(wave, [](float& sample) { sample = std::clamp(sample, -1.0F, 1.0F); });
     return wave;
 }

@@ -189,8 +189,8 @@ private:
             // The reference plays two cycles in 22 ms whatever the frequency.
             constexpr double referenceHz = 2.0 / 0.022;
             const double hertz = frequency ? frequency->number(0.0, highestHz) : 0.0;
-            read_.clip.transients.push_back({timeOf(keyframe, start), amplitude ? shareOf(*amplitude) : 1.0,
-                                             hertz > 0.0 ? hertz : referenceHz});
+            read_.clip.transients.push_back(
+                {timeOf(keyframe, start), amplitude ? shareOf(*amplitude) : 1.0, hertz > 0.0 ? hertz : referenceHz});
         }
     }
 
@@ -232,15 +232,16 @@ ordered_json hjifOf(const HapticClip& clip, const ThinnedCurves& curves, const s
     if (!clip.transients.empty()) {
         ordered_json effects = ordered_json::array();
         for (const ClipTransient& transient : clip.transients) {
-            effects.push_back(basisEffect(tickOf(transient.seconds),
-                                          ordered_json::array({{{"relative_position", 0},
-                                                                {"amplitude_modulation", rounded(transient.amplitude, 4)},
-                                                                {"frequency_modulation",
-                                                                 std::llround(transient.frequencyHz)}}})));
+            effects.push_back(
+                basisEffect(tickOf(transient.seconds),
+                            ordered_json::array({{{"relative_position", 0},
+                                                  {"amplitude_modulation", rounded(transient.amplitude, 4)},
+                                                  {"frequency_modulation", std::llround(transient.frequencyHz)}}})));
         }
         bands.push_back(band("Transient", std::move(effects)));
     }
-    const std::string about = clip.origin.title + (clip.origin.description.empty() ? "" : ": ") + clip.origin.description;
+    const std::string about =
+        clip.origin.title + (clip.origin.description.empty() ? "" : ": ") + clip.origin.description;
     const ordered_json channel{{"id", 0},
                                {"description", clip.origin.title},
                                {"gain", 1.0},

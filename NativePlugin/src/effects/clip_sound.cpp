@@ -13,8 +13,7 @@ constexpr double tailSeconds = 0.0005;
 }  // namespace
 
 ClipSound::ClipSound(double sampleRateHz)
-    : step_(waveRateHz / sampleRateHz),
-      decay_(static_cast<float>(std::exp(-1.0 / (tailSeconds * sampleRateHz)))) {
+    : step_(waveRateHz / sampleRateHz), decay_(static_cast<float>(std::exp(-1.0 / (tailSeconds * sampleRateHz)))) {
     if (!dsp::isOutputRate(sampleRateHz)) {
         throw std::invalid_argument("the output rate is outside 8-192 kHz");
     }
@@ -67,8 +66,8 @@ float ClipSound::next() noexcept {
     const float nextSlope = 0.5F * (after - from);
     const float rise = to - from;
     const float value =
-        from + share * (slope + share * (3.0F * rise - 2.0F * slope - nextSlope +
-                                         share * (slope + nextSlope - 2.0F * rise)));
+        from +
+        share * (slope + share * (3.0F * rise - 2.0F * slope - nextSlope + share * (slope + nextSlope - 2.0F * rise)));
     place_ += step_;
     const auto length = static_cast<double>(wave_.size());
     if (isLoop_ && place_ >= length) {

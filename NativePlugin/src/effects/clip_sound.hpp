@@ -8,8 +8,8 @@
 namespace haptoflow::effects {
 
 /// Adds a finished wave to a voice: an author's clip beside the texture. One at a time; a new one replaces the present
-/// one, whose last value decays within some milliseconds. Cubic interpolation to the output rate. Construction excepted, everything
-/// runs on the audio thread.
+/// one, whose last value decays within some milliseconds. Cubic interpolation to the output rate. Construction
+/// excepted, everything runs on the audio thread.
 class ClipSound final : public Effect {
 public:
     /// Of the waves.

@@ -218,8 +218,7 @@ void EffectStage::process(std::span<float> samplesMps2, dsp::LevelSmoother& stre
 }
 
 bool EffectStage::areSourcesIdle() const noexcept {
-    return impact_.isIdle() && edge_.isIdle() && relief_.isIdle() && clip_.isIdle() &&
-           signal_.isIdle();
+    return impact_.isIdle() && edge_.isIdle() && relief_.isIdle() && clip_.isIdle() && signal_.isIdle();
 }
 
 void EffectStage::runSources(std::span<float> samplesMps2, EffectFigures& figures) noexcept {

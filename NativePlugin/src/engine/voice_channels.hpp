@@ -41,7 +41,8 @@ struct Playhead {
     Waveform waveform;
 };
 
-/// A wave that the callback plays beside the texture. Its slot of the mailbox keeps the wave, and the publisher frees it.
+/// A wave that the callback plays beside the texture. Its slot of the mailbox keeps the wave, and the publisher frees
+/// it.
 struct ClipMessage {
     /// At effects::ClipSound::waveRateHz, in m/s^2; null to stop.
     std::shared_ptr<const std::vector<float>> wave{};

@@ -91,6 +91,8 @@ protected:
         ASSERT_EQ(run("actuator sweep -o sweep.wav").exitCode, 0);
         fs::copy_file(at("sweep.wav"), at("recording.wav"));
         fs::copy_file(repository / "NativePlugin/profiles/voice-coil.json", at("pen.json"));
+        write("click.haptic", R"({"version":{"major":1,"minor":0,"patch":0},"signals":{"continuous":{"envelopes":{
+            "amplitude":[{"time":0,"amplitude":0.5},{"time":0.02,"amplitude":0}]}}}})");
     }
 
     /// Creates the files that a page shows or describes, with the names that its examples use.

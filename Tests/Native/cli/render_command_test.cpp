@@ -204,8 +204,9 @@ TEST_F(RenderCommandTest, AMisspeltCommandOptionOrQualityIsRefusedWithASuggestio
     EXPECT_THAT(command.errors, HasSubstr("there is no command 'redner'; did you mean 'render'?"));
     const Finished unlike = run("xylophone");
     EXPECT_EQ(unlike.exitCode, 2);
-    EXPECT_THAT(unlike.errors, AllOf(HasSubstr("The commands are render, contact, inspect, actuator, learn, bench"),
-                                     Not(HasSubstr("did you mean"))));
+    EXPECT_THAT(unlike.errors,
+                AllOf(HasSubstr("The commands are render, contact, inspect, actuator, learn, export-set, bench"),
+                      Not(HasSubstr("did you mean"))));
     expectUsage("-o felt.wav --sede 4", "There is no option '--sede'; did you mean '--seed'?");
     expectUsage("-o felt.wav --qualty=fine", "did you mean '--quality'?");
     expectUsage("-o felt.wav --quality Standart", "did you mean 'standard'? This model has sketch, draft, standard");

@@ -134,7 +134,7 @@ TEST_F(RenderEffectsTest, WrongOptionsAreRefusedByNameAndLeaveNoFile) {
         EXPECT_THAT(rendered.errors, HasSubstr(message)) << words;
     };
     expectError(2, "-o a.wav --effects bump", "bump");
-    expectError(2, "-o a.wav -o b.wav", "one .wav and one .json at most");
+    expectError(2, "-o a.wav -o b.wav", "give one .wav, .haptic, .ahap, .hjif, .csv and .json at most");
     expectError(2, "-o a.json --rate 44100", "multiple of 2000 Hz");
     expectError(2, "-o a.wav --delay-ms 501", "501");
     expectError(3, "-o a.wav --actuator nowhere.json", "nowhere.json");

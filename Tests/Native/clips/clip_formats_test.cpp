@@ -37,8 +37,7 @@ ReadClip roundTrip(const HapticClip& clip, ClipFormat format) {
 
 class EveryFormat : public testing::TestWithParam<ClipFormat> {};
 
-INSTANTIATE_TEST_SUITE_P(Formats, EveryFormat,
-                         testing::Values(ClipFormat::haptic, ClipFormat::ahap, ClipFormat::hjif),
+INSTANTIATE_TEST_SUITE_P(Formats, EveryFormat, testing::Values(ClipFormat::haptic, ClipFormat::ahap, ClipFormat::hjif),
                          [](const auto& each) { return std::string(endingOf(each.param)); });
 
 TEST_P(EveryFormat, ReadsBackWhatItWrote) {
@@ -245,8 +244,7 @@ TEST(HjifFormatTest, KeyframesOfOneKindNeverShareATick) {
     clip.amplitude.push_back({1.0, 0.1});
     const auto document = nlohmann::json::parse(writeClip(clip, {.format = ClipFormat::hjif}).text);
     int previous = -1;
-    for (const auto& keyframe :
-         document["perceptions"][0]["channels"][0]["bands"][0]["effects"][0]["keyframes"]) {
+    for (const auto& keyframe : document["perceptions"][0]["channels"][0]["bands"][0]["effects"][0]["keyframes"]) {
         EXPECT_GT(keyframe["relative_position"].get<int>(), previous);
         previous = keyframe["relative_position"];
     }

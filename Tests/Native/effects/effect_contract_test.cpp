@@ -111,8 +111,8 @@ protected:
 
 INSTANTIATE_TEST_SUITE_P(Of, EffectContractTest,
                          ::testing::Values(Kind{"Impacts", ringingImpacts}, Kind{"Signal", soundingSignal},
-                                           Kind{"ClipSound", soundingClip},
-                                           Kind{"Delay", setDelay}, Kind{"Compensation", compensationOfVoiceCoil},
+                                           Kind{"ClipSound", soundingClip}, Kind{"Delay", setDelay},
+                                           Kind{"Compensation", compensationOfVoiceCoil},
                                            Kind{"ExposureGuard", quickGuard}, Kind{"Listen", listen}),
                          [](const auto& kind) { return kind.param.name; });
 
