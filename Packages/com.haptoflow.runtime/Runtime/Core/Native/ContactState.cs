@@ -216,7 +216,7 @@ namespace HaptoFlow
         Nothing = 0x80000000,
     }
 
-    /// <summary>The stages of a voice in the order of processing, except for the last four.</summary>
+    /// <summary>The stages of a voice in the order of processing, except for the last five.</summary>
     public enum HapticEffect
     {
         /// <summary>The vibration while the tip slides.</summary>
@@ -248,6 +248,10 @@ namespace HaptoFlow
 
         /// <summary>The heights of a map under the tip, added where impact and edge are.</summary>
         Relief = 9,
+
+        /// <summary>A clip of <see cref="HapticVoice.PlayClip"/>, with or without contact, added where impact and edge
+        /// are.</summary>
+        Clip = 10,
     }
 
     /// <summary>A place in a map, as <see cref="ContactState"/> passes it to the library.</summary>

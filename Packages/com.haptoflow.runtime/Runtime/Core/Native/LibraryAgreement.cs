@@ -34,6 +34,8 @@ namespace HaptoFlow.Native
             ["haptoflow_voice_statistics"] = sizeof(VoiceStatistics),
             ["haptoflow_signal_statistics"] = sizeof(SignalStatistics),
             ["haptoflow_exposure"] = sizeof(HapticExposure),
+            ["haptoflow_clip_options"] = sizeof(NativeClipOptions),
+            ["haptoflow_clip_info"] = sizeof(NativeClipInfo),
             ["haptoflow_wave_features_options"] = sizeof(WaveFeaturesOptions),
             ["haptoflow_wave_frame"] = sizeof(NativeWaveFrame),
             ["haptoflow_recording_file"] = sizeof(NativeRecordingFile),

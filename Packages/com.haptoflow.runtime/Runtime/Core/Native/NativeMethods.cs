@@ -155,6 +155,25 @@ namespace HaptoFlow.Native
         [DllImport(Library, EntryPoint = "haptoflow_voice_set_listen")]
         public static extern int VoiceSetListen(ulong voice, uint isOn);
 
+        [DllImport(Library, EntryPoint = "haptoflow_clip_create")]
+        public static extern int ClipCreate(NativeClipOptions* options, IntPtr* clip);
+        [DllImport(Library, EntryPoint = "haptoflow_clip_read")]
+        public static extern int ClipRead(byte* text, ulong length, IntPtr* clip);
+        [DllImport(Library, EntryPoint = "haptoflow_clip_close")]
+        public static extern int ClipClose(IntPtr* clip);
+        [DllImport(Library, EntryPoint = "haptoflow_clip_describe")]
+        public static extern int ClipDescribe(IntPtr clip, NativeClipInfo* info);
+        [DllImport(Library, EntryPoint = "haptoflow_clip_write")]
+        public static extern int ClipWrite(
+            IntPtr clip, int format, byte* date, byte* text, ulong capacity, ulong* length);
+        [DllImport(Library, EntryPoint = "haptoflow_clip_curves")]
+        public static extern int ClipCurves(IntPtr clip, uint count, float* amplitude, float* frequencyHz);
+        [DllImport(Library, EntryPoint = "haptoflow_clip_wave")]
+        public static extern int ClipWave(
+            IntPtr clip, double sampleRateHz, float* waveMps2, ulong capacity, ulong* sampleCount);
+        [DllImport(Library, EntryPoint = "haptoflow_voice_play_clip")]
+        public static extern int VoicePlayClip(ulong voice, IntPtr clip, float gain, uint isLoop);
+
         [DllImport(Library, EntryPoint = "haptoflow_wave_features_create")]
         public static extern int WaveFeaturesCreate(WaveFeaturesOptions* options, IntPtr* features);
         [DllImport(Library, EntryPoint = "haptoflow_wave_features_close")]

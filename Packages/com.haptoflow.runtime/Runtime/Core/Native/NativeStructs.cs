@@ -150,6 +150,35 @@ namespace HaptoFlow.Native
     }
 
     [Preserve, StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct NativeClipOptions
+    {
+        public uint StructSize;
+        public uint SampleRateHz;
+        public float* WaveMps2;
+        public ulong SampleCount;
+        public uint IsLoop;
+        public IntPtr Title;
+        public IntPtr Description;
+        public IntPtr Source;
+    }
+
+    [Preserve, StructLayout(LayoutKind.Sequential)]
+    internal struct NativeClipInfo
+    {
+        public uint StructSize;
+        public int Format;
+        public double DurationSeconds;
+        public uint AmplitudePoints;
+        public uint FrequencyPoints;
+        public uint Transients;
+        public float LargestAmplitude;
+        public IntPtr Title;
+        public IntPtr Description;
+        public IntPtr Editor;
+        public IntPtr Omitted;
+    }
+
+    [Preserve, StructLayout(LayoutKind.Sequential)]
     internal struct WaveFeaturesOptions
     {
         public uint StructSize;

@@ -147,7 +147,7 @@ namespace HaptoFlow
         /// <summary>Total processing time in microseconds.</summary>
         public double Microseconds;
 
-        /// <summary>Impacts and edges played; for the signal, its starts.</summary>
+        /// <summary>Impacts and edges played; for signal and clip, their starts.</summary>
         public ulong Events;
 
         /// <summary>True while the stage is in use; for impact and edge, while the newest contact state has the
