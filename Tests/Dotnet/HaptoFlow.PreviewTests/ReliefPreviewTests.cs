@@ -186,6 +186,19 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
+        public void AStrokeThatWrapsInThePictureIsFeltWhereItGoesOnInTheMap()
+        {
+            // Ribs begin where the stroke enters the patch again, after 1.1 s.
+            PreviewRelief far = ReliefPreviews.Of(
+                240, 1, (0.24f, 0.1f), 1f, false, (column, _) => column < 120 || column % 6 < 3 ? 0.0 : 1.0);
+            Stroke stroke = PresetStrokes.Make(StrokePreset.Slide, new StrokeSettings(0.1, 1.0, 0.0, 2.0));
+            PreviewRequest request = Request(far, HapticEffects.Nothing) with { Stroke = stroke };
+            float[] samples = Do(request).Sounds[0].Sound.Samples;
+            Assert.That(samples.Skip(48000 * 4 / 10).Take(38000).Max(Math.Abs), Is.LessThan(1e-3f));
+            Assert.That(samples.Skip(48000 * 14 / 10).Take(24000).Max(Math.Abs), Is.GreaterThan(0.02f));
+        }
+
+        [Test]
         public void BothMaterialsGoOverTheSameRelief()
         {
             var both = new PreviewRequest(

@@ -268,10 +268,33 @@ namespace HaptoFlow.PreviewTests
             Assert.That(State.Relief, Is.SameAs(wall.Relief));
             HapticMaterial asset = Keep(ScriptableObject.CreateInstance<HapticMaterial>());
             Enter("Take from", asset);
+            Selection.activeObject = asset;
+            Press("Take from Selection");
+            TexturePreviewWindow.Open(asset);
             Assert.That(State.Relief, Is.SameAs(wall.Relief), "a material has none, and takes none away");
+            Selection.activeObject = wall.gameObject;
             wall.Relief = null;
             Press("Take from Selection");
             Assert.That(State.Relief == null, Is.True, "the even wall is previewed");
+        }
+
+        [Test]
+        public void ThePositionOfPlaybackIsMarkedInTheHeightToo()
+        {
+            State.Change("Relief", state => state.Relief = Relief());
+            Window.Finish();
+            Press("Play");
+            Window.Step();
+            Screen();
+            Box charts = new PreviewLayout(Window.position.width, Window.position.height).Charts;
+            IEnumerable<Rect> expected = Window.Session!.Shown!.Panel.Plots(charts, 0)
+                .Select(plot => plot.Columns(0.0, 1.0).ToRect());
+            Assert.That(expected.Count(), Is.EqualTo(3));
+            foreach (Rect line in expected)
+            {
+                Assert.That(ScreenPaint.All.Count(each => each.Color.Equals(Palette.Dark.Ink.ToColor()) &&
+                    (each.Place.width, each.Place.y, each.Place.height) == (1f, line.y, line.height)), Is.EqualTo(1));
+            }
         }
 
         private HapticRelief Relief()

@@ -35,7 +35,7 @@ namespace HaptoFlow.Editor
                 surface.Relief.Heights is { } heights && ColliderOf(surface) is { } collider)
             {
                 ReliefSection.Read(surface, collider, Points);
-                Draw(surface.Relief, heights, Points, true);
+                Draw(surface.Relief, heights, Points);
             }
         }
 
@@ -52,7 +52,7 @@ namespace HaptoFlow.Editor
             ReliefTrail trail = Trails.GetOrCreateValue(stylus);
             trail.Add(stylus.Contact, relief, place);
             trail.Read(Points);
-            Draw(relief, heights, Points, isSelected);
+            Draw(relief, heights, Points);
         }
 
         /// <summary>How many times as high as it is a relief is drawn.</summary>
@@ -79,13 +79,12 @@ namespace HaptoFlow.Editor
             return found;
         }
 
-        private static void Draw(
-            HapticRelief relief, ReliefHeights heights, List<ReliefPoint> points, bool withCaption)
+        private static void Draw(HapticRelief relief, ReliefHeights heights, List<ReliefPoint> points)
         {
             double factor = FactorOf(heights.DepthMetres);
             Vector3? before = null;
             Vector3 ground = default;
-            bool lacksCaption = withCaption;
+            bool lacksCaption = true;
             foreach (ReliefPoint point in points)
             {
                 double metres = point.IsOnMap ? heights.MetresAt(point.Place) : double.NaN;
