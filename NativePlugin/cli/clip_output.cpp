@@ -1,5 +1,6 @@
 #include "clip_output.hpp"
 
+#include "effects/wave_features.hpp"
 #include "messages.hpp"
 #include "model/plain_text.hpp"
 
@@ -29,17 +30,20 @@ std::string today() {
     return text.data();
 }
 
-ClipFigures writeClipFile(const OutputFile& file, const clips::HapticClip& clip) {
-    const std::string path = file.path().string();
-    const clips::ClipWriting writing{.format = clipFormatOf(path).value(), .date = today()};
-    const clips::WrittenClip written = clips::writeClip(clip, writing);
+ClipFigures writeClipFile(const OutputFile& file, const clips::HapticClip& clip, std::span<const float> waveMps2) {
+    const clips::WrittenClip written =
+        clips::writeClip(clip, {.format = clipFormatOf(file.path().string()).value(), .date = today()});
     writeText(file, written.text);
+    const std::vector<float> played =
+        clips::waveOf(clips::readClip(written.text).clip, effects::WaveFeatures::sampleRateHz);
+    const std::size_t count = std::min(played.size(), waveMps2.size());
     return {.file = file.path().filename().string(),
             .amplitudePoints = written.amplitudePoints,
             .frequencyPoints = written.frequencyPoints,
             .transients = clip.transients.size(),
             .amplitudeErrorDb = written.amplitudeErrorDb,
-            .frequencyErrorPercent = written.frequencyErrorPercent};
+            .frequencyErrorPercent = written.frequencyErrorPercent,
+            .intensity = effects::intensityErrors(waveMps2.first(count), std::span(played).first(count))};
 }
 
 void noteCoarseClip(const ClipFigures& figures) {

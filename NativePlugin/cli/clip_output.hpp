@@ -1,9 +1,11 @@
 #pragma once
 
 #include "clips/clip_formats.hpp"
+#include "effects/carrier_rendering.hpp"
 #include "output_file.hpp"
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,10 +26,14 @@ struct ClipFigures {
     std::size_t transients = 0;
     double amplitudeErrorDb = 0.0;
     double frequencyErrorPercent = 0.0;
+    /// What a device with amplitude and frequency plays of the file, against the wave that it was made from.
+    effects::IntensityErrors intensity{};
 };
 
-/// Writes a clip to a file's partial, in the format of its name. Throws InputError that names the file.
-[[nodiscard]] ClipFigures writeClipFile(const OutputFile& file, const clips::HapticClip& clip);
+/// Writes a clip to a file's partial, in the format of its name. `waveMps2` is the 2 kHz wave of which it was made.
+/// Throws InputError that names the file.
+[[nodiscard]] ClipFigures writeClipFile(const OutputFile& file, const clips::HapticClip& clip,
+                                        std::span<const float> waveMps2);
 
 /// Prints a note if a clip's points do not follow its amplitude within half a decibel.
 void noteCoarseClip(const ClipFigures& figures);

@@ -203,7 +203,7 @@ public:
                 writer.write(onDevice(loop.wave));
                 writer.close();
             } else {
-                errorDb = std::max(errorDb, writeClipFile(file, clip).amplitudeErrorDb);
+                errorDb = std::max(errorDb, writeClipFile(file, clip, loop.slowWave).amplitudeErrorDb);
             }
             file.commit();
             entry["files"][format] = fileName;

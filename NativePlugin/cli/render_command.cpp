@@ -1,4 +1,5 @@
 #include "clip_output.hpp"
+#include "clips/clip_making.hpp"
 #include "commands.hpp"
 #include "effects/actuator_profile.hpp"
 #include "effects/effect.hpp"
@@ -192,9 +193,12 @@ public:
         if (frames_) {
             frames_->finish();
         }
-        for (const auto& file : clips_) {
-            figures.push_back(writeClipFile(*file, frames_->toClip(origin)));
-            noteCoarseClip(figures.back());
+        if (!clips_.empty()) {
+            const clips::HapticClip clip = clips::clipOf(frames_->wave(), {.origin = origin});
+            for (const auto& file : clips_) {
+                figures.push_back(writeClipFile(*file, clip, frames_->wave()));
+                noteCoarseClip(figures.back());
+            }
         }
         return figures;
     }

@@ -1,6 +1,5 @@
 #include "render_output.hpp"
 
-#include "clips/clip_making.hpp"
 #include "effects/carrier_rendering.hpp"
 #include "effects/device_loudness.hpp"
 
@@ -28,6 +27,13 @@ nlohmann::ordered_json effectsOf(const engine::OfflineFigures& figures) {
         }
     }
     return effects;
+}
+
+nlohmann::ordered_json summaryOf(const effects::IntensityErrors& errors) {
+    return {{"felt_frames", errors.feltFrames},
+            {"mean", errors.meanDb},
+            {"mean_magnitude", errors.meanMagnitudeDb},
+            {"p95", errors.percentile95Db}};
 }
 
 }  // namespace
@@ -70,7 +76,8 @@ std::string renderReport(const RenderIdentity& identity, const engine::OfflineFi
                                    {"frequency_points", clip.frequencyPoints},
                                    {"transients", clip.transients},
                                    {"amplitude_error_db", clip.amplitudeErrorDb},
-                                   {"frequency_error_percent", clip.frequencyErrorPercent}});
+                                   {"frequency_error_percent", clip.frequencyErrorPercent},
+                                   {"intensity_error_db", summaryOf(clip.intensity)}});
     }
     return report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
 }
@@ -101,11 +108,7 @@ float shareOf(float amplitudeMps2) {
 
 nlohmann::ordered_json errorOf(std::span<const float> wave, std::span<const effects::WaveFrame> frames,
                                const effects::WaveFeatureOptions& cut, effects::CarrierShape shape) {
-    const auto summary = effects::intensityErrors(wave, effects::renderCarrier(frames, shape), cut);
-    return {{"felt_frames", summary.feltFrames},
-            {"mean", summary.meanDb},
-            {"mean_magnitude", summary.meanMagnitudeDb},
-            {"p95", summary.percentile95Db}};
+    return summaryOf(effects::intensityErrors(wave, effects::renderCarrier(frames, shape), cut));
 }
 
 /// Errors of the played intensity.
@@ -147,10 +150,8 @@ void ParametricFrames::finish() {
     }
 }
 
-clips::HapticClip ParametricFrames::toClip(clips::ClipOrigin origin) const {
-    const auto wave = std::span(wave_).first(wave_.size() - WaveFeatures::lookaheadSamples);
-    return clips::clipOf(wave.subspan(std::min(wave.size(), WaveDecimation::delaySamples)),
-                         {.origin = std::move(origin)});
+std::span<const float> ParametricFrames::wave() const {
+    return std::span(wave_).subspan(WaveDecimation::delaySamples, wave_.size() - trailingSamples);
 }
 
 std::string ParametricFrames::toCsv() const {

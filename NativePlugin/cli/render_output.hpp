@@ -1,7 +1,6 @@
 #pragma once
 
 #include "clip_output.hpp"
-#include "clips/haptic_clip.hpp"
 #include "effects/wave_features.hpp"
 #include "engine/offline_renderer.hpp"
 
@@ -46,8 +45,8 @@ public:
     [[nodiscard]] std::string toJson() const;
     /// The frames as a table.
     [[nodiscard]] std::string toCsv() const;
-    /// Throws ClipError.
-    [[nodiscard]] clips::HapticClip toClip(clips::ClipOrigin origin) const;
+    /// The 2 kHz wave in m/s^2.
+    [[nodiscard]] std::span<const float> wave() const;
 
 private:
     void feed(float sampleMps2);

@@ -16,11 +16,13 @@ using effects::WaveFeatures;
 using effects::WaveFrame;
 
 constexpr double frameSeconds = 0.004;
-/// A transient is played in this time by every format's players; MPEG-I's reference takes 22 ms.
+/// A transient's share of the amplitude, and the time in which players play it; of MPEG-I's reference.
 constexpr double transientSeconds = 0.024;
+constexpr double pulseSeconds = 0.022;
 
-double shareOf(float amplitudeMps2) noexcept {
-    return static_cast<double>(effects::deviceShare(effects::DeviceKind::parametric, amplitudeMps2));
+double shareOf(double amplitudeMps2) noexcept {
+    return static_cast<double>(
+        effects::deviceShare(effects::DeviceKind::parametric, static_cast<float>(amplitudeMps2)));
 }
 
 /// Frames of a wave, of a loop those of its second of three runs: the first starts from silence.
@@ -42,17 +44,22 @@ std::vector<WaveFrame> framesOf(std::span<const float> waveMps2, const ClipMakin
     return frames;
 }
 
-/// Holds the amplitude down while a transient plays, to the line between the levels before and after it.
-void makeRoom(std::vector<ClipPoint>& amplitude, const ClipTransient& transient) {
-    const double start = transient.seconds - frameSeconds;
-    const double end = transient.seconds + transientSeconds;
-    const double before = valueAt(amplitude, start, 0.0);
-    const double after = valueAt(amplitude, end, 0.0);
-    const auto first = std::ranges::lower_bound(amplitude, start, {}, &ClipPoint::seconds);
-    for (auto point = first; point != amplitude.end() && point->seconds < end; ++point) {
+/// Takes a transient out of an amplitude in m/s^2, which keeps the line between the levels before and after it. Returns
+/// the amplitude with which a player's pulse has the energy that was taken.
+double takeOut(std::vector<ClipPoint>& amplitudeMps2, double onset) {
+    const double start = onset - frameSeconds;
+    const double end = onset + transientSeconds;
+    const double before = valueAt(amplitudeMps2, start, 0.0);
+    const double after = valueAt(amplitudeMps2, end, 0.0);
+    double energy = 0.0;
+    const auto first = std::ranges::lower_bound(amplitudeMps2, start, {}, &ClipPoint::seconds);
+    for (auto point = first; point != amplitudeMps2.end() && point->seconds < end; ++point) {
         const double line = std::lerp(before, after, (point->seconds - start) / (end - start));
-        point->value = std::min(point->value, line);
+        const double kept = std::min(point->value, line);
+        energy += frameSeconds * (point->value * point->value - kept * kept);
+        point->value = kept;
     }
+    return std::sqrt(energy / pulseSeconds);
 }
 
 /// A curve's value at both ends of a loop is the same: that between its last and its first point.
@@ -166,13 +173,14 @@ HapticClip clipOf(std::span<const float> waveMps2, const ClipMaking& making) {
             }
         }
         if (middle >= 0.0 && middle <= clip.durationSeconds) {
-            clip.amplitude.push_back({middle, shareOf(frame.amplitudeMps2)});
+            clip.amplitude.push_back({middle, static_cast<double>(frame.amplitudeMps2)});
             clip.frequencyHz.push_back({middle, static_cast<double>(frame.frequencyHz)});
         }
     }
-    for (const ClipTransient& transient : clip.transients) {
-        makeRoom(clip.amplitude, transient);
+    for (ClipTransient& transient : clip.transients) {
+        transient.amplitude = shareOf(takeOut(clip.amplitude, transient.seconds));
     }
+    std::ranges::for_each(clip.amplitude, [](ClipPoint& point) { point.value = shareOf(point.value); });
     for (std::vector<ClipPoint>* points : {&clip.amplitude, &clip.frequencyHz}) {
         making.isLoop ? close(*points, clip.durationSeconds) : extend(*points, clip.durationSeconds);
     }

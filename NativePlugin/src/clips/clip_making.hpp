@@ -18,10 +18,10 @@ struct ClipMaking {
 };
 
 /// The clip of a 2 kHz wave in m/s^2, for a device with amplitude and frequency: frames of 4 ms of
-/// effects::WaveFeatures (perceived intensity of the wave), their amplitude by the loudness law of such devices. What a
-/// transient plays is taken out of the amplitude for its 24 ms. Samples that are not finite count as 0. Throws
-/// ClipError for an empty wave or one that is longer than a clip may be, std::invalid_argument for a range out of
-/// bounds. Allocates.
+/// effects::WaveFeatures (perceived intensity of the wave), their amplitude by the loudness law of such devices. A
+/// transient takes its energy out of the amplitude around its onset and has it in a pulse of 22 ms. Samples that are
+/// not finite count as 0. Throws ClipError for an empty wave or one that is longer than a clip may be,
+/// std::invalid_argument for a range out of bounds. Allocates.
 [[nodiscard]] HapticClip clipOf(std::span<const float> waveMps2, const ClipMaking& making = {});
 
 /// A loop of `shortest` to `longest` samples out of a longer wave, which must hold `longest` + `crossfade`. It is as
