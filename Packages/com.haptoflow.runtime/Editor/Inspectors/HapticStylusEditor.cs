@@ -71,7 +71,7 @@ namespace HaptoFlow.Editor
         private static readonly string[] EffectNames =
         {
             "Texture", "Impact", "Edge", "Delay", "Compensation", "Exposure Guard", "Tone", "Signal",
-            "Listen", "Relief",
+            "Listen", "Relief", "Clip",
         };
 
         protected override void Read(HapticStylus stylus)
@@ -123,7 +123,7 @@ namespace HaptoFlow.Editor
         /// <summary>Adds the effects that run or have run.</summary>
         private void ReadEffects(HapticStylus stylus)
         {
-            for (HapticEffect effect = HapticEffect.Impact; effect <= HapticEffect.Relief; ++effect)
+            for (HapticEffect effect = HapticEffect.Impact; effect <= HapticEffect.Clip; ++effect)
             {
                 if (!stylus.TryGetEffectStatistics(effect, out EffectStatistics stage) ||
                     (stage.Prepared == 0 && !stage.IsAskedFor))
@@ -131,7 +131,7 @@ namespace HaptoFlow.Editor
                     continue;
                 }
                 double microseconds = stage.Runs > 0 ? stage.Microseconds / stage.Runs : 0.0;
-                string counted = effect == HapticEffect.Signal
+                string counted = effect == HapticEffect.Signal || effect == HapticEffect.Clip
                     ? "started {0} times, {1:0.0} us a block"
                     : "{0} impacts, {1:0.0} us a block";
                 Add(EffectNames[(int)effect],

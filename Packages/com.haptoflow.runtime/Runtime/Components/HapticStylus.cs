@@ -1,4 +1,5 @@
 #nullable enable
+using System.Collections.Generic;
 using HaptoFlow.Contact;
 using UnityEngine;
 using UnityEngine.Events;
@@ -21,6 +22,8 @@ namespace HaptoFlow
     [HelpPage(HelpPages.Components + "haptic-stylus")]
     public sealed class HapticStylus : MonoBehaviour
     {
+        private static readonly List<HapticStylus> EnabledStyluses = new List<HapticStylus>();
+
         [SerializeField, Tooltip("The tip is the centre of the sphere that touches. When it is empty, this object is " +
             "the tip.")]
         private Transform? tip;
@@ -79,6 +82,7 @@ namespace HaptoFlow
         private HapticContact contact;
         private HapticRelief? relief;
         private MapPlace reliefPlace;
+        private HapticClip? playedClip;
 
         /// <summary>The tip touched a surface. Main thread.</summary>
         public event HapticContactHandler? TouchBegan;
@@ -184,6 +188,34 @@ namespace HaptoFlow
         /// <summary>Silences the stylus at once; it sounds again with the next touch-down.</summary>
         public void Panic() => voices?.Panic();
 
+        /// <summary>Plays a clip on every output of the stylus, beside the texture, whether or not the tip touches, in
+        /// place of the clip that plays. Strengths and what acts on the voice act on it. It ends with mute, pause, panic,
+        /// <see cref="Haptics.Restart"/> and a change of the output, and is not played while one of these silences the
+        /// stylus. The first play of a clip takes about 1 ms for each second of it; later ones make no garbage. Main
+        /// thread.</summary>
+        /// <param name="clip">It may be destroyed while it plays.</param>
+        /// <param name="gain">Limited to 0 to <see cref="HapticClipFile.MaximumGain"/>; NaN counts as 0.</param>
+        /// <param name="loop">True to repeat it until another clip, or <see cref="StopClip()"/>.</param>
+        /// <returns>False where nothing was begun and what plays goes on: the stylus has no voice, as while the engine
+        /// loads; or the clip is null, destroyed or damaged, which the console says once.</returns>
+        public bool Play(HapticClip clip, float gain = 1f, bool loop = false)
+        {
+            HapticClipFile? content = clip != null ? clip.Content : null;
+            if (content == null || voices == null || !voices.PlayClip(content, ClipGain(gain), loop))
+            {
+                return false;
+            }
+            playedClip = clip;
+            return true;
+        }
+
+        /// <summary>Ends the clip that plays, within some milliseconds. Main thread.</summary>
+        public void StopClip()
+        {
+            playedClip = null;
+            voices?.PlayClip(null, 0f, false);
+        }
+
         /// <summary>Discards the touch and the speed of a tip that was teleported or handed over. Jumps faster than 20
         /// m/s are detected without this call.</summary>
         public void ForgetMotion()
@@ -200,6 +232,21 @@ namespace HaptoFlow
             return touching && relief is object && relief != null;
         }
 
+        /// <summary>The enabled styluses of all scenes.</summary>
+        internal static IReadOnlyList<HapticStylus> Enabled => EnabledStyluses;
+
+        /// <summary>Ends the clip if it is the newest.</summary>
+        internal void StopClip(HapticClip started)
+        {
+            if (ReferenceEquals(playedClip, started))
+            {
+                StopClip();
+            }
+        }
+
+        /// <summary>The nearest gain that the library takes.</summary>
+        internal static float ClipGain(float gain) => gain > 0f ? Mathf.Min(gain, HapticClipFile.MaximumGain) : 0f;
+
         internal Vector3 TipPosition => tip != null ? tip.position : transform.position;
 
         /// <summary>The name that people know: the pen's, for a stylus on the child Tip of a pen.</summary>
@@ -207,12 +254,17 @@ namespace HaptoFlow
 
         internal StylusVoices Voices => voices ??= new StylusVoices(this);
 
+        // Play mode without a domain reload keeps static fields, and objects may be gone without a message.
+        [RuntimeInitializeOnLoadMethod(RuntimeInitializeLoadType.SubsystemRegistration)]
+        private static void ForgetAll() => EnabledStyluses.Clear();
+
         private void OnEnable()
         {
             rigScale ??= new RigScale(this);
             contacts ??= new TipContacts(tipRadiusMetres, transform);
             contacts.Tracker.TipRadiusMetres = tipRadiusMetres;
             isActive = true;
+            EnabledStyluses.Add(this);
             HapticSession.Current.Poll();
             MaterialMaps.Poll();
         }
@@ -220,7 +272,9 @@ namespace HaptoFlow
         private void OnDisable()
         {
             isActive = false;
+            EnabledStyluses.Remove(this);
             ForgetMotion();
+            playedClip = null;
             voices?.Close();
         }
 

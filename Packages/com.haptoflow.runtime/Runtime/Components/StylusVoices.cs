@@ -84,6 +84,18 @@ namespace HaptoFlow
             }
         }
 
+        /// <summary>Plays a clip on every voice that is open; null ends it.</summary>
+        /// <returns>False without such a voice.</returns>
+        public bool PlayClip(HapticClipFile? clip, float gain, bool loop)
+        {
+            bool plays = audio.PlayClip(clip, gain, loop);
+            foreach (Device each in devices)
+            {
+                plays |= each.Voice.PlayClip(clip, gain, loop);
+            }
+            return plays;
+        }
+
         public void Publish(in ContactReading reading, in ResolvedMaterial felt, HapticSession session)
         {
             audio.Publish(reading, felt, session, WantedAudio());
@@ -131,6 +143,7 @@ namespace HaptoFlow
         private HapticEngine? engine;
         private IVoiceTarget? output;
         private float publishedStrength;
+        private bool isTouching;
 
         // Why the last attempt to open a voice failed, what was asked for, and when to ask for the same again.
         private string? refusal;
@@ -154,6 +167,23 @@ namespace HaptoFlow
 
         public void Panic() => OpenVoice?.Panic();
 
+        /// <summary>Plays a clip; null ends it. False without a voice.</summary>
+        public bool PlayClip(HapticClipFile? clip, float gain, bool loop)
+        {
+            HapticVoice? open = OpenVoice;
+            if (open == null)
+            {
+                return false;
+            }
+            if (clip != null && !isTouching)
+            {
+                // In the air the voice still has the strength of the surface that was touched last.
+                SetStrength(stylus.Strength * output!.Strength);
+            }
+            open.PlayClip(clip, gain, loop);
+            return true;
+        }
+
         /// <summary>Publishes a contact state; opens the voice first where possible.</summary>
         /// <param name="felt">The material at the contact; without labels where there is none.</param>
         /// <param name="wanted">The output that plays the voice; null for silence.</param>
@@ -171,6 +201,7 @@ namespace HaptoFlow
             state.ApproachSpeedMps = isMissed ? 0f : state.ApproachSpeedMps;
             // A material without a label that the model knows is silent, rather than played as another.
             state.Touching = felt.Labels.Count > 0;
+            isTouching = state.Touching;
             if (state.Touching)
             {
                 state.Material = felt.Labels;
@@ -203,6 +234,7 @@ namespace HaptoFlow
             voice = null;
             engine = null;
             output = null;
+            isTouching = false;
         }
 
         private bool Moves(in ContactReading reading)
