@@ -118,6 +118,24 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
+        public void AClipFileShowsItsPictureItsDurationAndWhatIsNotPlayedAndADamagedOneItsKey()
+        {
+            LogAssert.ignoreFailingMessages = true;
+            const string Tap = "{\"Version\":1.0,\"Pattern\":[{\"Event\":{\"EventType\":\"HapticTransient\",\"Time\":0.1," +
+                "\"EventParameters\":[]}},{\"Event\":{\"EventType\":\"AudioCustom\",\"Time\":0.0," +
+                "\"EventWaveformPath\":\"a.wav\",\"EventParameters\":[]}}]}";
+            string path = Import("tap.ahap", System.Text.Encoding.UTF8.GetBytes(Tap));
+            AssetDatabase.SetImporterOverride<HapticClipImporter>(path);
+            IReadOnlyList<Drawn> drawn = Draw(AssetImporter.GetAtPath(path)!);
+            Assert.That(Value(drawn, "Transients"), Is.EqualTo("1"));
+            Assert.That(drawn.Single(item => item.Kind == DrawnKind.Help).Label, Does.StartWith("Not played: "));
+            Assert.That(Value(Draw(AssetDatabase.LoadAssetAtPath<HapticClip>(path)), "Transients"), Is.EqualTo("1"));
+            path = Import("cut.hjif", System.Text.Encoding.UTF8.GetBytes("{\"MPEG_haptics\":{"));
+            drawn = Draw(AssetImporter.GetAtPath(path)!);
+            Assert.That(drawn.Single().Label, Does.StartWith("This clip cannot be used: "));
+        }
+
+        [Test]
         public void ALearntMaterialShowsItsOriginAndItsReplacementLabel()
         {
             var material = HapticMaterial.Create(HaptoFlow.Model.MaterialText.OfLabel(Model().File, "glass"), "fur");

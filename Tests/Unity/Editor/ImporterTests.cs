@@ -110,6 +110,77 @@ namespace HaptoFlow.EditorTests
         }
     }
 
+    public sealed class ClipImporterTests : EditorTest
+    {
+        private const string Knock = "{\"version\":{\"major\":1,\"minor\":0,\"patch\":0}," +
+            "\"metadata\":{\"project\":\"Knock\",\"editor\":\"a test\"},\"signals\":{\"continuous\":{\"envelopes\":{" +
+            "\"amplitude\":[{\"time\":0,\"amplitude\":0.5,\"emphasis\":{\"amplitude\":0.7,\"frequency\":0.5}}," +
+            "{\"time\":0.25,\"amplitude\":0}]}}}}";
+
+        private static string[] Errors(string path) => AssetImporter.GetImportLog(path)?.logEntries
+            .Where(entry => (entry.flags & ImportLogFlags.Error) != 0).Select(entry => entry.message).ToArray() ??
+            new string[0];
+
+        private static string AsHjif()
+        {
+            using HapticClipFile knock = HapticClipFile.Read(Encoding.UTF8.GetBytes(Knock));
+            return knock.Write(HapticClipFormat.Hjif, new DateTime(2026, 1, 2));
+        }
+
+        [Test]
+        public void AnHjifFileIsImportedAsAClip()
+        {
+            byte[] file = Encoding.UTF8.GetBytes(AsHjif());
+            string path = Import("knock.hjif", file);
+            var clip = AssetDatabase.LoadAssetAtPath<HapticClip>(path);
+            Assert.That(clip.File, Is.EqualTo(file));
+            Assert.That(clip.Problem, Is.Null);
+            Assert.That(clip.Info.DurationSeconds, Is.EqualTo(0.25).Within(0.001));
+            Assert.That(Errors(path), Is.Empty);
+        }
+
+        [Test]
+        public void AHapticFileIsImportedAsAClipOnlyWhereThatWasChosen()
+        {
+            string path = Import("knock.haptic", Encoding.UTF8.GetBytes(Knock));
+            Assert.That(AssetDatabase.LoadAssetAtPath<HapticClip>(path), Is.Null);
+            AssetDatabase.SetImporterOverride<HapticClipImporter>(path);
+            var clip = AssetDatabase.LoadAssetAtPath<HapticClip>(path);
+            Assert.That(clip.Info.Format, Is.EqualTo(HapticClipFormat.Haptic));
+            Selection.activeObject = clip;
+            Assert.That(ClipImportMenu.CanImport(), Is.True);
+            ClipImportMenu.ImportSelected();
+            Assert.That(AssetDatabase.LoadAssetAtPath<HapticClip>(path).Problem, Is.Null);
+            Selection.activeObject = AssetDatabase.LoadAssetAtPath<HapticClip>(
+                Import("knock.hjif", Encoding.UTF8.GetBytes(AsHjif())));
+            Assert.That(ClipImportMenu.CanImport(), Is.False, "it needs no choice");
+        }
+
+        [TestCase("", "JSON")]
+        [TestCase("{\"perceptions\":3}", "perceptions")]
+        public void ADamagedFileBecomesAClipAndLogsItsProblem(string text, string message)
+        {
+            LogAssert.ignoreFailingMessages = true;
+            string path = Import("knock.hjif", Encoding.UTF8.GetBytes(text));
+            Assert.That(AssetDatabase.LoadAssetAtPath<HapticClip>(path).Problem, Does.Contain(message));
+            Assert.That(Errors(path).Single(), Does.Contain(path).And.Contain(message));
+        }
+
+        [Test]
+        public void TheSummaryShowsDurationPointsTransientsAndWhatIsNotPlayed()
+        {
+            ClipSummary summary = ClipSummary.Of(Encoding.UTF8.GetBytes(Knock));
+            Dictionary<string, string> rows = summary.Rows.ToDictionary(row => row.Name, row => row.Value);
+            Assert.That(summary.Problem, Is.Null);
+            Assert.That(rows["Format"], Does.Contain(".haptic"));
+            Assert.That(rows["Duration"], Is.EqualTo("0.25 s"));
+            Assert.That(rows["Points"], Does.StartWith("2 of amplitude"));
+            Assert.That(rows["Transients"], Is.EqualTo("1"));
+            Assert.That(rows["Made With"], Is.EqualTo("a test"));
+            Assert.That(ClipSummary.Of(new byte[] { (byte)'{' }).Problem, Is.Not.Null);
+        }
+    }
+
     public sealed class ModelSummaryTests : EditorTest
     {
         [Test]

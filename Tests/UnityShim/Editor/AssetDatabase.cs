@@ -77,6 +77,19 @@ namespace UnityEditor
             EditorApplication.AnnounceProjectChange();
         }
 
+        public static void SetImporterOverride<T>(string path)
+            where T : AssetImporter
+        {
+            if (!ScriptedImporters.Takes(typeof(T), path, true))
+            {
+                Debug.LogError(
+                    $"Cannot set Importer override at {path} because {typeof(T).Name} is not a valid Importer for this asset.");
+                return;
+            }
+            ScriptedImporters.Overrides[path] = typeof(T);
+            ImportAsset(path);
+        }
+
         private static bool IsText(string path) =>
             Array.IndexOf(new[] { ".bytes", ".csv", ".json", ".txt" }, Path.GetExtension(path)) >= 0;
 
@@ -157,6 +170,7 @@ namespace UnityEditor
         internal static void Reset()
         {
             Dependencies.Clear();
+            ScriptedImporters.Overrides.Clear();
             // Imported once for all projects: packages do not change, and importing a model takes long.
             foreach (string path in Assets.Keys.Where(each => !each.StartsWith("Packages/")).ToList())
             {
@@ -237,10 +251,19 @@ namespace UnityEditor.AssetImporters
         {
             this.version = version;
             fileExtensions = new[] { ext };
+            overrideFileExtensions = Array.Empty<string>();
+        }
+
+        public ScriptedImporterAttribute(int version, string[] exts, string[] overrideExts)
+        {
+            this.version = version;
+            fileExtensions = exts;
+            overrideFileExtensions = overrideExts;
         }
 
         public int version { get; private set; }
         public string[] fileExtensions { get; private set; }
+        public string[] overrideFileExtensions { get; private set; }
     }
 
     public partial class AssetImportContext
@@ -314,12 +337,22 @@ namespace UnityEditor.AssetImporters
 
     internal static class ScriptedImporters
     {
+        /// <summary>The importers that were chosen for files.</summary>
+        public static readonly Dictionary<string, Type> Overrides = new Dictionary<string, Type>();
+
         public static ScriptedImporter? For(string path)
         {
-            string extension = Path.GetExtension(path).TrimStart('.');
-            Type? type = EditorTypes.All.FirstOrDefault(candidate =>
-                candidate.GetCustomAttribute<ScriptedImporterAttribute>()?.fileExtensions.Contains(extension) == true);
+            Type? type = Overrides.TryGetValue(path, out Type? chosen)
+                ? chosen
+                : EditorTypes.All.FirstOrDefault(candidate => Takes(candidate, path, false));
             return type == null ? null : (ScriptedImporter)Activator.CreateInstance(type, true);
+        }
+
+        public static bool Takes(Type importer, string path, bool asOverride)
+        {
+            var attribute = importer.GetCustomAttribute<ScriptedImporterAttribute>();
+            string[]? endings = asOverride ? attribute?.overrideFileExtensions : attribute?.fileExtensions;
+            return endings?.Contains(Path.GetExtension(path).TrimStart('.'), StringComparer.OrdinalIgnoreCase) == true;
         }
     }
 }

@@ -1,0 +1,172 @@
+#nullable enable
+using System.Collections.Generic;
+using System.Linq;
+using HaptoFlow.Preview;
+using UnityEditor;
+using UnityEditor.AssetImporters;
+using UnityEngine;
+
+namespace HaptoFlow.Editor
+{
+    /// <summary>The text and the picture of a clip's Inspector.</summary>
+    internal sealed class ClipSummary
+    {
+        private static readonly string[] Formats = { ".haptic (Meta, Lofelt)", ".ahap (Apple)", ".hjif (MPEG-I haptics)" };
+
+        private ClipSummary(string problem) => Problem = problem;
+
+        private ClipSummary(HapticClipFile clip)
+        {
+            Title = clip.Info.Title;
+            Description = clip.Info.Description;
+            Omitted = clip.Info.Omitted;
+            Rows = RowsOf(clip.Info).Where(row => row.Value.Length > 0).ToArray();
+            Curves = new ClipCurves(clip);
+        }
+
+        /// <summary>The problem of a file that cannot be used, with all other properties empty; else null.</summary>
+        public string? Problem { get; }
+
+        public string Title { get; } = "";
+        public string Description { get; } = "";
+
+        /// <summary>What the file has and is not played; empty for nothing.</summary>
+        public string Omitted { get; } = "";
+
+        public IReadOnlyList<SummaryRow> Rows { get; } = new SummaryRow[0];
+
+        /// <summary>Null where there is a problem.</summary>
+        public ClipCurves? Curves { get; }
+
+        /// <param name="file">The bytes of a clip file.</param>
+        public static ClipSummary Of(byte[] file)
+        {
+            try
+            {
+                using HapticClipFile clip = HapticClipFile.Read(file);
+                return new ClipSummary(clip);
+            }
+            catch (HaptoFlowException refusal)
+            {
+                return new ClipSummary(FileProblem.Of(refusal, file).Text);
+            }
+        }
+
+        private static IEnumerable<SummaryRow> RowsOf(HapticClipInfo info)
+        {
+            yield return new SummaryRow("Format", Formats[(int)info.Format]);
+            yield return new SummaryRow("Duration", SummaryRow.Format("{0:0.###} s", info.DurationSeconds));
+            yield return new SummaryRow("Points", SummaryRow.Format(
+                "{0} of amplitude, {1} of frequency", info.AmplitudePoints, info.FrequencyPoints));
+            yield return new SummaryRow("Transients", SummaryRow.Format("{0}", info.Transients));
+            yield return new SummaryRow("Largest Amplitude",
+                SummaryRow.Format("{0:0} % of a device's range", 100f * info.LargestAmplitude));
+            yield return new SummaryRow("Made With", info.Editor);
+        }
+    }
+
+    /// <summary>Draws the summary of a clip. Main thread, within OnInspectorGUI.</summary>
+    internal sealed class ClipSummaryView
+    {
+        private readonly ClipSummary summary;
+        private readonly EditorPicture picture;
+        private PreviewView? view;
+        private Box box;
+
+        public ClipSummaryView(ClipSummary summary)
+        {
+            this.summary = summary;
+            picture = new EditorPicture(canvas => ClipChart.Draw(canvas, view!.Palette, box, summary.Curves!));
+        }
+
+        public void Draw()
+        {
+            if (summary.Problem != null)
+            {
+                EditorGUILayout.HelpBox("This clip cannot be used: " + summary.Problem, MessageType.Error);
+                return;
+            }
+            if (summary.Title.Length > 0)
+            {
+                EditorGUILayout.LabelField(summary.Title, EditorStyles.boldLabel);
+            }
+            if (summary.Description.Length > 0)
+            {
+                EditorGUILayout.LabelField(summary.Description, EditorStyles.wordWrappedLabel);
+            }
+            DrawPicture(EditorGUILayout.GetControlRect(false, (float)ClipChart.Height));
+            foreach (SummaryRow row in summary.Rows)
+            {
+                EditorGUILayout.LabelField(row.Name, row.Value, EditorStyles.wordWrappedLabel);
+            }
+            if (summary.Omitted.Length > 0)
+            {
+                EditorGUILayout.HelpBox("Not played: " + summary.Omitted + ".", MessageType.Info);
+            }
+        }
+
+        public void Release() => picture.Release();
+
+        private void DrawPicture(Rect area)
+        {
+            if (Event.current.type != EventType.Repaint)
+            {
+                return;
+            }
+            view = PreviewView.Of(area, PreviewRoom.Default, view);
+            box = new Box(0.0, 0.0, area.width, area.height);
+            // The picture stays where it is in its own coordinates while the Inspector scrolls.
+            GUI.BeginClip(area, Vector2.zero, Vector2.zero, false);
+            picture.OnGUI(summary, view);
+            GUI.EndClip();
+        }
+    }
+
+    /// <summary>The Inspector of a clip file. It shows what the file says; there is nothing to set.</summary>
+    [CustomEditor(typeof(HapticClipImporter))]
+    internal sealed class HapticClipImporterEditor : ScriptedImporterEditor
+    {
+        private ClipSummaryView? view;
+
+        public override bool showImportedObject => false;
+
+        protected override bool needsApplyRevert => false;
+
+        public override void OnEnable()
+        {
+            base.OnEnable();
+            view = assetTarget is HapticClip clip ? new ClipSummaryView(ClipSummary.Of(clip.File)) : null;
+        }
+
+        public override void OnDisable()
+        {
+            view?.Release();
+            base.OnDisable();
+        }
+
+        public override void OnInspectorGUI()
+        {
+            if (view == null)
+            {
+                EditorGUILayout.HelpBox("This file was not imported; the console says why.", MessageType.Error);
+                return;
+            }
+            view.Draw();
+        }
+    }
+
+    /// <summary>The Inspector of a clip that has no file of its own.</summary>
+    [CustomEditor(typeof(HapticClip))]
+    internal sealed class HapticClipEditor : UnityEditor.Editor
+    {
+        private ClipSummaryView? view;
+
+        private void OnDisable() => view?.Release();
+
+        public override void OnInspectorGUI()
+        {
+            view ??= new ClipSummaryView(ClipSummary.Of(((HapticClip)target).File));
+            view.Draw();
+        }
+    }
+}
