@@ -63,7 +63,6 @@ Relief::Relief(double sampleRateHz)
       steps_(static_cast<std::size_t>(std::max(1.0, std::ceil(leastStepsPerSecond / sampleRateHz)))),
       stepsPerSecond_(sampleRateHz * static_cast<double>(steps_)),
       stepSeconds_(1.0 / stepsPerSecond_),
-      damping_(2.0 * dampingRatio * std::sqrt(stiffnessNewtonsPerMetre * tipKilograms)),
       gate_(sampleRateHz),
       highPass_(Section::Kind::highPass, lowestHz, secondOrder, sampleRateHz),
       lowPass_{Section(Section::Kind::lowPass, highestHz, fourthOrder[0], sampleRateHz),
@@ -76,7 +75,11 @@ void Relief::follow(const ReliefContact& contact) noexcept {
         return;
     }
     const double speedBefore = contact_.speedMps;
+    const double stiffnessBefore = contact_.stiffnessNewtonsPerMetre;
     contact_ = contact;
+    contact_.stiffnessNewtonsPerMetre = finite(contact.stiffnessNewtonsPerMetre, leastStiffness, mostStiffness);
+    damping_ = 2.0 * dampingRatio * std::sqrt(contact_.stiffnessNewtonsPerMetre * tipKilograms);
+    tipMetres_ = surfaceMetres_ - (surfaceMetres_ - tipMetres_) * stiffnessBefore / contact_.stiffnessNewtonsPerMetre;
     contact_.speedMps = finite(contact.speedMps, 0.0, 20.0);
     contact_.forceNewtons = std::max(leastNewtons, finite(contact.forceNewtons, 0.0, 1000.0));
     contact_.largestMps2 = finite(contact.largestMps2, 0.0, 1e5);
@@ -132,7 +135,7 @@ void Relief::settle() noexcept {
     jump_ = isIdle_ ? 0.0 : newest_;
     forceNewtons_ = contact_.forceNewtons;
     surfaceMetres_ = contact_.map->heightMetres(place_, resolution_);
-    tipMetres_ = surfaceMetres_ - forceNewtons_ / stiffnessNewtonsPerMetre;
+    tipMetres_ = surfaceMetres_ - forceNewtons_ / contact_.stiffnessNewtonsPerMetre;
     tipMps_ = 0.0;
 }
 
@@ -152,7 +155,7 @@ double Relief::nextAcceleration() noexcept {
     forceNewtons_ += (contact_.forceNewtons - forceNewtons_) * stepSeconds_ * forcesPerSecond;
     const double depth = surfaceMetres_ - tipMetres_;
     const double contactNewtons =
-        depth > 0.0 ? std::max(0.0, stiffnessNewtonsPerMetre * depth + damping_ * (riseMps - tipMps_)) : 0.0;
+        depth > 0.0 ? std::max(0.0, contact_.stiffnessNewtonsPerMetre * depth + damping_ * (riseMps - tipMps_)) : 0.0;
     const double acceleration = (contactNewtons - forceNewtons_) * perKilogram;
     tipMps_ += acceleration * stepSeconds_;
     tipMetres_ = std::min(tipMetres_ + tipMps_ * stepSeconds_, surfaceMetres_ + farthestMetres);

@@ -129,6 +129,7 @@ struct ContactMessage {
     /// The relief under the tip, for the callback alone: its slot of the mailbox keeps the map, and the publisher frees
     /// one that nobody else keeps.
     std::shared_ptr<const effects::ReliefMap> relief;
+    double reliefStiffness = 0.0;
     /// Time of the last change of ContactState::isMoving (VoiceChannels::clock).
     double movingSinceSeconds = 0.0;
 };

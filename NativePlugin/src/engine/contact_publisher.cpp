@@ -2,6 +2,7 @@
 
 #include "engine/material.hpp"
 #include "engine/range_law.hpp"
+#include "engine/tap_pieces.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -132,15 +133,18 @@ ContactAction ContactPublisher::publish(ContactState state) noexcept {
         tone = resolveTone(ingredients, std::hypot(motion[0], motion[1]), static_cast<double>(motion[2]),
                            static_cast<double>(state.toneDbPerOctave), tiltPerDecibel_);
     }
-    followRelief();
+    followRelief(ingredients);
     post(tone);
     return action;
 }
 
-void ContactPublisher::followRelief() noexcept {
+void ContactPublisher::followRelief(const Ingredients& ingredients) noexcept {
     const ContactState& state = contact_.state;
     const bool isFelt = state.touching != 0 && state.hasEffect(EffectKind::relief);
     reliefs().follow(isFelt ? state.relief : 0, reliefNumber_, reliefEdition_, relief_);
+    if (relief_ != nullptr) {
+        reliefStiffness_ = stiffnessOf(ingredients);
+    }
 }
 
 void ContactPublisher::prepareStream(const Ingredients& ingredients, const Material& material) noexcept {
@@ -178,6 +182,7 @@ void ContactPublisher::post(const std::optional<dsp::ToneCepstrum>& tone) noexce
         message.tone = kernel;
         if (mailbox == &channels_.toAudio) {
             message.relief = relief_;
+            message.reliefStiffness = reliefStiffness_;
         }
         message.movingSinceSeconds = movingSinceSeconds_;
         mailbox->post();

@@ -83,7 +83,7 @@ public:
     ContactAction publish(ContactState state) noexcept;
 
 private:
-    void followRelief() noexcept;
+    void followRelief(const Ingredients& ingredients) noexcept;
     void prepareStream(const Ingredients& ingredients, const Material& material) noexcept;
     void post(const std::optional<dsp::ToneCepstrum>& tone) noexcept;
 
@@ -102,6 +102,7 @@ private:
     std::shared_ptr<const effects::ReliefMap> relief_;
     std::uint32_t reliefNumber_ = 0;
     std::uint64_t reliefEdition_ = 0;
+    double reliefStiffness_ = 0.0;
     // Wave vectors of the newest touching state.
     WaveVectors ribs_{};
 };

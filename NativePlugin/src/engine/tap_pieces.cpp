@@ -228,4 +228,12 @@ ImpactResponse impactResponse(const Ingredients& ingredients) noexcept {
     return response;
 }
 
+double stiffnessOf(const Ingredients& ingredients) noexcept {
+    double logarithm = 0.0;
+    for (const Ingredient& each : ingredients.all()) {
+        logarithm += each.weight * std::log(each.material->label->stiffnessNewtonsPerMetre);
+    }
+    return std::exp(logarithm / ingredients.totalWeight());
+}
+
 }  // namespace haptoflow::engine

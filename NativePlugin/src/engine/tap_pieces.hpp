@@ -62,4 +62,7 @@ struct TapPiece {
 /// Impact response of a blend: the weighted mean of its materials; frequencies and decays are averaged as logarithms.
 [[nodiscard]] effects::ImpactResponse impactResponse(const Ingredients& ingredients) noexcept;
 
+/// The stiffness of a blend in N/m: the geometric mean by weight.
+[[nodiscard]] double stiffnessOf(const Ingredients& ingredients) noexcept;
+
 }  // namespace haptoflow::engine

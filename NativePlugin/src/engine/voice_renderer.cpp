@@ -345,7 +345,8 @@ void VoiceRenderer::followRelief() noexcept {
     effects::ReliefContact relief{.map = message.relief.get(),
                                   .speedMps = static_cast<double>(state.speedMps()),
                                   .forceNewtons = static_cast<double>(state.forceNewtons),
-                                  .largestMps2 = static_cast<double>(state.reliefShare) * fullScaleMps2_};
+                                  .largestMps2 = static_cast<double>(state.reliefShare) * fullScaleMps2_,
+                                  .stiffnessNewtonsPerMetre = message.reliefStiffness};
     relief.place = {static_cast<double>(state.reliefPlace[0]), static_cast<double>(state.reliefPlace[1])};
     relief.arrivalSeconds = statePeriodSeconds_;
     if (channels_.isRealTime) {

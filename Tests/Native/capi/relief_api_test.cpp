@@ -77,7 +77,7 @@ protected:
 
 TEST_F(ReliefApiTest, RibsAreHeardAtTheRateAtWhichTheTipCrossesThemInMetresPerSecondSquared) {
     const std::vector<float> output = slide(72);
-    // 100 mm/s over 2 mm: 50 Hz, the contact's resonance.
+    // 100 mm/s over 2 mm: 50 Hz, above the resonance on the label's 600 N/m.
     double cosine = 0.0;
     double sine = 0.0;
     const std::size_t count = 24000;
@@ -89,8 +89,8 @@ TEST_F(ReliefApiTest, RibsAreHeardAtTheRateAtWhichTheTipCrossesThemInMetresPerSe
     }
     const double amplitude =
         HAPTOFLOW_DEFAULT_FULL_SCALE_MPS2 * 2.0 * std::hypot(cosine, sine) / static_cast<double>(count);
-    EXPECT_GT(amplitude, 9.9) << "the formula of an ideal tip, A (2 pi v / L)^2";
-    EXPECT_LT(amplitude, 3.0 * 9.9);
+    // An ideal tip's A (2 pi v / L)^2 is 9.9.
+    EXPECT_NEAR(amplitude, 8.2, 1.0);
     EXPECT_GT(statistics().samples, 24000U);
     EXPECT_EQ(statistics().is_asked_for, 1U);
 }
@@ -118,29 +118,29 @@ TEST_F(ReliefApiTest, ItKeepsToItsShareOfTheFullScale) {
 }
 
 TEST_F(ReliefApiTest, LiftOffMuteAndPanicSilenceItAndTheNextTouchSounds) {
-    EXPECT_GT(peak(slide(10)), 0.05F);
+    EXPECT_GT(peak(slide(10)), 0.04F);
     (void)open_.update(liftedState());
     EXPECT_EQ(peak(open_.update(liftedState())), 0.0F);
     const auto touched = [](uint32_t touch) {
         return [touch](haptoflow_contact_state& state) { state.touch_counter = touch; };
     };
-    EXPECT_GT(peak(slide(10, touched(2))), 0.05F);
+    EXPECT_GT(peak(slide(10, touched(2))), 0.04F);
     EXPECT_EQ(haptoflow_voice_set_muted(open_.voice, 1), HAPTOFLOW_OK);
     (void)slide(2, touched(2));
     EXPECT_EQ(peak(slide(5, touched(2))), 0.0F);
     EXPECT_EQ(haptoflow_voice_set_muted(open_.voice, 0), HAPTOFLOW_OK);
-    EXPECT_GT(peak(slide(10, touched(2))), 0.05F);
+    EXPECT_GT(peak(slide(10, touched(2))), 0.04F);
     EXPECT_EQ(haptoflow_voice_panic(open_.voice), HAPTOFLOW_OK);
     (void)slide(2, touched(2));
     EXPECT_EQ(peak(slide(5, touched(2))), 0.0F);
-    EXPECT_GT(peak(slide(10, touched(3))), 0.05F);
+    EXPECT_GT(peak(slide(10, touched(3))), 0.04F);
     // Without states it falls silent as all does.
     (void)open_.render(9600);
     EXPECT_EQ(peak(open_.render(960)), 0.0F);
 }
 
 TEST_F(ReliefApiTest, OneThatIsDestroyedUnderTheTipFadesWithTheNextStateAndItsNumberIsRefused) {
-    EXPECT_GT(peak(slide(10)), 0.05F);
+    EXPECT_GT(peak(slide(10)), 0.04F);
     haptoflow_relief copy = relief_;
     EXPECT_EQ(haptoflow_relief_destroy(&relief_), HAPTOFLOW_OK);
     EXPECT_EQ(relief_, 0U);
@@ -151,7 +151,7 @@ TEST_F(ReliefApiTest, OneThatIsDestroyedUnderTheTipFadesWithTheNextStateAndItsNu
     EXPECT_EQ(haptoflow_relief_destroy(&copy), HAPTOFLOW_INVALID_ARGUMENT);
     EXPECT_EQ(haptoflow_relief_create(&ribs_.options, &relief_), HAPTOFLOW_OK) << message();
     EXPECT_NE(relief_, copy);
-    EXPECT_GT(peak(slide(10)), 0.05F);
+    EXPECT_GT(peak(slide(10)), 0.04F);
 }
 
 TEST_F(ReliefApiTest, StatesWithNumbersThatAreNotFiniteAreCountedAndStayBounded) {

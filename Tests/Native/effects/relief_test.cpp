@@ -58,6 +58,7 @@ struct Stroke {
     double outputHz = rateHz;
     double scale = 1.0;
     double turnRadians = 0.0;
+    double stiffness = ReliefContact{}.stiffnessNewtonsPerMetre;
 };
 
 /// What a straight stroke adds, told by states of exact places.
@@ -68,7 +69,10 @@ std::vector<float> played(const Stroke& stroke, double seconds, Relief* relief =
     const auto samples = static_cast<std::size_t>(stroke.outputHz / stroke.stateHz);
     for (std::size_t first = 0; first < wave.size(); first += samples) {
         const double now = static_cast<double>(first) / stroke.outputHz;
-        ReliefContact contact{.map = stroke.map, .forceNewtons = stroke.newtons, .largestMps2 = stroke.largestMps2};
+        ReliefContact contact{.map = stroke.map,
+                              .forceNewtons = stroke.newtons,
+                              .largestMps2 = stroke.largestMps2,
+                              .stiffnessNewtonsPerMetre = stroke.stiffness};
         contact.arrivalSeconds = static_cast<double>(samples) / stroke.outputHz;
         for (std::size_t side = 0; side < 2; ++side) {
             const double sizeMetres = stroke.map->description().sizeMetres[side];
@@ -104,9 +108,8 @@ double amplitudeAt(std::span<const float> wave, double hz) {
 }
 
 /// What the contact makes of a sine's acceleration, with the band's lower limit.
-double transfer(double hz) {
+double transfer(double hz, double k = ReliefContact{}.stiffnessNewtonsPerMetre) {
     const double w = wholeTurn * hz;
-    const double k = Relief::stiffnessNewtonsPerMetre;
     const double m = Relief::tipKilograms;
     const double c = 2.0 * Relief::dampingRatio * std::sqrt(k * m);
     const double ratio = hz / 10.0;
@@ -131,6 +134,47 @@ TEST(ReliefTest, ASineGivesTheAccelerationOfItsFormulaAtEveryAngleAndSpeed) {
             }
         }
     }
+}
+
+TEST(ReliefTest, TheMaterialsStiffnessSetsTheResonance) {
+    const ReliefMap map = sineMap(32.0, 0.0);
+    const double hz = 40.0;
+    for (const double stiffness : {400.0, 1200.0, 5000.0}) {
+        const std::vector<float> wave =
+            played({.map = &map, .velocityMps = {0.002 * hz, 0.0}, .newtons = 12.0, .stiffness = stiffness}, 2.0);
+        const double found = amplitudeAt(std::span(wave).last(48000), hz);
+        const double expected = 1e-4 * std::pow(wholeTurn * hz, 2.0) * transfer(hz, stiffness);
+        EXPECT_NEAR(decibels(found / expected), 0.0, 0.5) << stiffness;
+    }
+}
+
+TEST(ReliefTest, AnotherMaterialUnderTheTipMakesNoStep) {
+    const ReliefMap map = sineMap(32.0, 0.0);
+    const auto playedWith = [&](auto&& stiffnessAt) {
+        Relief relief(rateHz);
+        std::vector<float> wave;
+        for (int state = 0; state < 200; ++state) {
+            ReliefContact contact{.map = &map, .speedMps = 0.05, .forceNewtons = 2.0, .largestMps2 = 200.0};
+            contact.place = {0.05 * 0.01 * state / 0.064, 0.5};
+            contact.arrivalSeconds = 0.01;
+            contact.stiffnessNewtonsPerMetre = stiffnessAt(state);
+            relief.follow(contact);
+            std::vector<float> piece(480);
+            relief.process(piece);
+            wave.insert(wave.end(), piece.begin(), piece.end());
+        }
+        double step = 0.0;
+        for (std::size_t i = 24001; i < wave.size(); ++i) {
+            step = std::max(step, static_cast<double>(std::abs(wave[i] - wave[i - 1])));
+        }
+        return step;
+    };
+    const double hard = playedWith([](int) { return 5000.0; });
+    // Wood and glass in turn; without care the spring's 2 N would become 8 N, 400 m/s^2 on 15 g.
+    const double inTurn = playedWith([](int state) { return state % 10 < 5 ? 1200.0 : 5000.0; });
+    EXPECT_LT(inTurn, 4.0 * hard);
+    // Numbers of no use count as the softest.
+    EXPECT_LT(playedWith([](int state) { return state % 2 == 0 ? std::nan("") : -1.0; }), 2.0 * hard);
 }
 
 TEST(ReliefTest, AtEveryOutputRateTheLevelIsTheSame) {
