@@ -1,6 +1,7 @@
 #include "bench/measurements.hpp"
 #include "bench/real_time_device.hpp"
 #include "effects/actuator_profile.hpp"
+#include "effects/clip_sound.hpp"
 #include "effects/effect.hpp"
 #include "effects/relief_map.hpp"
 #include "engine/relief_table.hpp"
@@ -185,20 +186,24 @@ std::shared_ptr<const effects::ReliefMap> roughMap() {
                                                   .isTiled = true});
 }
 
+/// A second.
+constexpr auto clipSamples = static_cast<std::size_t>(effects::ClipSound::waveRateHz);
+
 struct NamedEffect {
     const char* name;
     EffectKind kind;
 };
 
-constexpr std::array<NamedEffect, 9> measuredEffects{{{"texture", EffectKind::texture},
-                                                      {"tone", EffectKind::tone},
-                                                      {"impact", EffectKind::impact},
-                                                      {"edge", EffectKind::edge},
-                                                      {"relief", EffectKind::relief},
-                                                      {"delay", EffectKind::delay},
-                                                      {"compensation", EffectKind::compensation},
-                                                      {"exposure guard", EffectKind::exposureGuard},
-                                                      {"signal", EffectKind::signal}}};
+constexpr std::array<NamedEffect, 10> measuredEffects{{{"texture", EffectKind::texture},
+                                                       {"tone", EffectKind::tone},
+                                                       {"impact", EffectKind::impact},
+                                                       {"edge", EffectKind::edge},
+                                                       {"relief", EffectKind::relief},
+                                                       {"clip", EffectKind::clip},
+                                                       {"delay", EffectKind::delay},
+                                                       {"compensation", EffectKind::compensation},
+                                                       {"exposure guard", EffectKind::exposureGuard},
+                                                       {"signal", EffectKind::signal}}};
 
 /// Two voices in the same state, with and without the effect, rendered and timed separately.
 class WithAndWithout {
@@ -213,6 +218,12 @@ public:
         with_->channels.controls.delaySeconds = delaySeconds;
         if (kind == EffectKind::signal) {
             with_->channels.controls.signal = studySignal;
+        }
+        if (kind == EffectKind::clip) {
+            with_->channels.clip.draft() = {.wave = std::make_shared<const std::vector<float>>(clipSamples, 1.0F),
+                                            .isLoop = true,
+                                            .publishedSeconds = with_->channels.clock()};
+            with_->channels.clip.post();
         }
         engine_->changeProcessors(*with_, [kind](engine::ProcessorSettings& settings) {
             settings.hasDelay = kind == EffectKind::delay;
