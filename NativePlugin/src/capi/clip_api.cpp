@@ -205,7 +205,8 @@ haptoflow_status haptoflow_clip_wave(const haptoflow_clip* clip, double sample_r
 
 haptoflow_status haptoflow_voice_play_clip(haptoflow_voice voice, const haptoflow_clip* clip, float gain,
                                            uint32_t is_loop) {
-    return guarded([&] {
+    bool isBusy = false;
+    const haptoflow_status status = guarded([&] {
         constexpr float largestGain = 4.0F;
         if (!(gain >= 0.0F && gain <= largestGain)) {
             throw std::invalid_argument("gain is " + std::to_string(gain) + "; expected 0 to 4");
@@ -213,11 +214,18 @@ haptoflow_status haptoflow_voice_play_clip(haptoflow_voice voice, const haptoflo
         const VoiceTable::Use use = requireVoice(voice);
         engine::VoiceChannels& channels = use->voice->channels;
         std::shared_ptr<const std::vector<float>> wave = clip == nullptr ? nullptr : openClips().get(clip)->wave();
+        if (use->publishing.test_and_set(std::memory_order_acquire)) {
+            use->refusedCalls.fetch_add(1, std::memory_order_relaxed);
+            isBusy = true;
+            return;
+        }
         channels.clip.draft() = {.wave = std::move(wave),
                                  .gain = gain,
                                  .isLoop = is_loop != 0,
                                  .publishedSeconds = channels.clock(),
                                  .panics = channels.controls.panics.load(std::memory_order_acquire)};
         channels.clip.post();
+        use->publishing.clear(std::memory_order_release);
     });
+    return isBusy ? HAPTOFLOW_BUSY : status;
 }

@@ -64,6 +64,7 @@ struct StormHandles {
     SharedHandles<haptoflow_engine*> engines;
     SharedHandles<haptoflow_voice> voices;
     SharedHandles<haptoflow_relief> reliefs;
+    SharedHandles<haptoflow_clip*> clips;
 };
 
 class Storm {
@@ -89,25 +90,15 @@ private:
     };
 
     haptoflow_status once() {
-        static constexpr std::array<Kind, 19> kinds{{{450, &Storm::render},
-                                                     {320, &Storm::publish},
-                                                     {30, &Storm::createVoice},
-                                                     {15, &Storm::destroyVoice},
-                                                     {8, &Storm::createEngine},
-                                                     {2, &Storm::closeEngine},
-                                                     {6, &Storm::openModel},
-                                                     {2, &Storm::closeModel},
-                                                     {4, &Storm::openRuntime},
-                                                     {1, &Storm::closeRuntime},
-                                                     {8, &Storm::createGenerator},
-                                                     {2, &Storm::closeGenerator},
-                                                     {17, &Storm::useGenerator},
-                                                     {20, &Storm::askModel},
-                                                     {73, &Storm::command},
-                                                     {12, &Storm::useMaterials},
-                                                     {10, &Storm::cancel},
-                                                     {12, &Storm::createRelief},
-                                                     {8, &Storm::destroyRelief}}};
+        static constexpr std::array<Kind, 22> kinds{
+            {{430, &Storm::render},      {304, &Storm::publish},       {30, &Storm::createVoice},
+             {15, &Storm::destroyVoice}, {8, &Storm::createEngine},    {2, &Storm::closeEngine},
+             {6, &Storm::openModel},     {2, &Storm::closeModel},      {4, &Storm::openRuntime},
+             {1, &Storm::closeRuntime},  {8, &Storm::createGenerator}, {2, &Storm::closeGenerator},
+             {17, &Storm::useGenerator}, {20, &Storm::askModel},       {73, &Storm::command},
+             {12, &Storm::useMaterials}, {10, &Storm::cancel},         {12, &Storm::createRelief},
+             {8, &Storm::destroyRelief}, {12, &Storm::createClip},     {8, &Storm::closeClip},
+             {16, &Storm::playClip}}};
         std::uint32_t choice = next() % 1000;
         for (const Kind& kind : kinds) {
             if (choice < kind.share) {
@@ -249,6 +240,33 @@ private:
     }
 
     haptoflow_status destroyRelief() { return closed(handles_.reliefs, haptoflow_relief_destroy); }
+
+    /// Makes a clip of a wave, or reads one that may be cut.
+    haptoflow_status createClip() {
+        haptoflow_clip* clip = nullptr;
+        if (oneIn(2)) {
+            static const std::string text =
+                R"({"version":{"major":1,"minor":0,"patch":0},"signals":{"continuous":{"envelopes":{"amplitude":[)"
+                R"({"time":0,"amplitude":0.5,"emphasis":{"amplitude":1,"frequency":0.5}},{"time":0.3,"amplitude":0.5}]}}}})";
+            return kept(haptoflow_clip_read(text.data(), oneIn(8) ? next() % text.size() : text.size(), &clip), clip,
+                        handles_.clips);
+        }
+        const std::vector<float> wave = wildFloats(500);
+        haptoflow_clip_options options{};
+        options.struct_size = sizeOf(sizeof(options));
+        options.wave_mps2 = oneIn(16) ? nullptr : wave.data();
+        options.sample_count = next() % wave.size();
+        options.is_loop = next() % 2;
+        const haptoflow_status status = haptoflow_clip_create(&options, oneIn(16) ? nullptr : &clip);
+        return kept(status, clip, handles_.clips);
+    }
+
+    haptoflow_status closeClip() { return closed(handles_.clips, haptoflow_clip_close); }
+
+    haptoflow_status playClip() {
+        haptoflow_clip* clip = oneIn(4) ? nullptr : handles_.clips.any(next());
+        return haptoflow_voice_play_clip(handles_.voices.any(next()), clip, wildFloat(), next() % 2);
+    }
 
     haptoflow_status destroyVoice() { return closed(handles_.voices, haptoflow_voice_destroy); }
 
