@@ -177,21 +177,20 @@ describe('on the live page', { skip: !hasBrowser }, () => {
     const { scene, stroke, level } = await inPage(async () => {
       const { record, haptics } = globalThis.haptoflowPage;
       const { scene: recorded, strokes, reliefs } = record.last;
-      const { samples } = await haptics.render({ scene: recorded, stroke: strokes[0], reliefs, quality: 'sketch', effects: { texture: false, impact: true, edge: true } });
+      const { samples } = await haptics.render({ scene: recorded, stroke: strokes[0], reliefs, quality: 'sketch', effects: { texture: true, impact: true, edge: true } });
       return { scene: recorded, stroke: strokes[0], level: Math.max(...samples.map(Math.abs)) };
     });
     const relief = scene.surfaces.find(({ name }) => name === 'glass plate').relief;
     assert.deepEqual(relief, { image: 'relief-glass-plate.png', size: [0.06, 0.03], depth: 0.0004, share: 0.1 });
     const images = {};
     for (const [name, file] of Object.entries(files)) if (name.endsWith('.png')) images[name] = await decodePng(readFileSync(file));
-    // Without the texture, in which single impulses may differ.
-    const web = render(await coreWithModel(), { scene, stroke, quality: 'sketch', images, effects: { texture: false, impact: true, edge: true } });
+    const web = render(await coreWithModel(), { scene, stroke, quality: 'sketch', images, effects: { texture: true, impact: true, edge: true } });
     const peak = web.samples.reduce((most, each) => Math.max(most, Math.abs(each)), 0);
     assert.ok(Math.abs(peak - level) < 1e-3 * peak && peak > 0.01, `${peak} and ${level}`);
     if (!hasCommandLine) return;
     const expected = native((folder) => {
       for (const [name, file] of Object.entries(files)) writeFileSync(path.join(folder, name), readFileSync(file));
-      return ['render', path.join(folder, 'scene.json'), '--stroke', path.join(folder, 'stroke.csv'), '-o', path.join(folder, 'out.wav'), '--quiet', '--quality', 'sketch', '--effects', 'impact,edge'];
+      return ['render', path.join(folder, 'scene.json'), '--stroke', path.join(folder, 'stroke.csv'), '-o', path.join(folder, 'out.wav'), '--quiet', '--quality', 'sketch', '--effects', 'texture,impact,edge'];
     }, (folder) => wavSamples(path.join(folder, 'out.wav')));
     const largest = expected.reduce((most, each, index) => Math.max(most, Math.abs(each - web.samples[index])), 0);
     assert.ok(largest < 1e-5 * peak, `${largest} of ${peak}`);
