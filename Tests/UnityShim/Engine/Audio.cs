@@ -80,6 +80,9 @@ namespace UnityEngine
         internal readonly int Generation = AudioDevice.Generation;
         internal bool Playing;
 
+        public AudioClip? clip { get; set; }
+        public int timeSamples { get; set; }
+        public float panStereo { get; set; }
         public float volume { get; set; } = 1f;
         public float pitch { get; set; } = 1f;
         public float spatialBlend { get; set; }
