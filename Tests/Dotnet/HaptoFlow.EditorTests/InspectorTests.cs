@@ -129,7 +129,13 @@ namespace HaptoFlow.EditorTests
             IReadOnlyList<Drawn> drawn = Draw(AssetImporter.GetAtPath(path)!);
             Assert.That(Value(drawn, "Transients"), Is.EqualTo("1"));
             Assert.That(drawn.Single(item => item.Kind == DrawnKind.Help).Label, Does.StartWith("Not played: "));
-            Assert.That(Value(Draw(AssetDatabase.LoadAssetAtPath<HapticClip>(path)), "Transients"), Is.EqualTo("1"));
+            HapticClip clip = AssetDatabase.LoadAssetAtPath<HapticClip>(path);
+            Assert.That(Value(Draw(clip), "Transients"), Is.EqualTo("1"));
+            EditorScreen.Press("Play");
+            Draw(clip);
+            var played = new float[ClipPreview.Playing!.samples];
+            ClipPreview.Playing.GetData(played, 0);
+            Assert.That(played.Max(sample => Math.Abs(sample)), Is.EqualTo(0.9f).Within(1e-4f));
             path = Import("cut.hjif", System.Text.Encoding.UTF8.GetBytes("{\"MPEG_haptics\":{"));
             drawn = Draw(AssetImporter.GetAtPath(path)!);
             Assert.That(drawn.Single().Label, Does.StartWith("This clip cannot be used: "));

@@ -526,6 +526,52 @@ namespace HaptoFlow.PreviewTests
             Assert.That(new WaveReader(File.ReadAllBytes(path)).Samples(), Is.EqualTo(Samples));
             Assert.That(WindowHost.Notification, Is.EqualTo("Exported"));
         }
+
+        [TestCase(SoundFormat.Haptic)]
+        [TestCase(SoundFormat.Ahap)]
+        [TestCase(SoundFormat.Hjif)]
+        public void AClipIsExportedWithItsMaterialAndHowItWasMade(object chosen)
+        {
+            var format = (SoundFormat)chosen;
+            string ending = SoundExport.Endings[(int)format];
+            string path = TemporaryFile() + ending;
+            string proposed = "";
+            WindowHost.AnswerToSave = name =>
+            {
+                proposed = name;
+                return path;
+            };
+            State.Change("Format", state => state.ExportAs = format);
+            Press("Export\u2026");
+            WindowHost.Update();
+            Assert.That(WindowHost.Notification, Is.EqualTo("Exported"));
+            Assert.That(proposed, Is.EqualTo("wood 0.12 mps 1.5 N" + ending));
+            using HapticClipFile clip = HapticClipFile.Read(File.ReadAllBytes(path));
+            Assert.That(clip.Info.Format, Is.EqualTo((HapticClipFormat)((int)format - 1)));
+            Assert.That(clip.Info.DurationSeconds, Is.EqualTo(Samples.Length / 48000.0).Within(0.02));
+            Assert.That(clip.Info.LargestAmplitude, Is.GreaterThan(0.05f));
+            Assert.That(clip.Info.Title + clip.Info.Description, Does.Contain("wood")
+                .And.Contain("slide, 0.12 m/s, 1.5 N; model default, draft, seed 1"));
+        }
+
+        [Test]
+        public void AClipIsOfTheMaterialAlsoWhereADeviceIsShown()
+        {
+            string direct = TemporaryFile() + ".haptic";
+            Assert.That(Window.ExportTo(direct), Is.Null);
+            State.Change("Device", state => (state.Device, state.Active) = (PreviewDevice.Motor, 1));
+            string shown = TemporaryFile() + ".haptic";
+            Assert.That(Window.ExportTo(shown), Is.Null);
+            Assert.That(File.ReadAllText(shown), Is.EqualTo(File.ReadAllText(direct)));
+        }
+
+        [Test]
+        public void AnEndingThatNamesNoFormatIsRefused()
+        {
+            string path = TemporaryFile() + ".mp3";
+            Assert.That(Window.ExportTo(path), Does.Contain(".mp3").And.Contain(".wav, .haptic, .ahap, .hjif"));
+            Assert.That(File.Exists(path), Is.False);
+        }
     }
 
     /// <summary>The Texture Preview with a model file of published weights.</summary>

@@ -24,6 +24,15 @@ namespace HaptoFlow.Editor
             Curves = new ClipCurves(clip);
         }
 
+        /// <summary>The vibration at <see cref="PreviewSound.RateHz"/>, in m/s^2.</summary>
+        /// <param name="file">The bytes of a clip file.</param>
+        /// <exception cref="HaptoFlowException">The library is missing, or the file is damaged.</exception>
+        public static float[] Wave(byte[] file)
+        {
+            using HapticClipFile clip = HapticClipFile.Read(file);
+            return clip.Wave(PreviewSound.RateHz);
+        }
+
         /// <summary>The problem of a file that cannot be used, with all other properties empty; else null.</summary>
         public string? Problem { get; }
 
@@ -68,14 +77,22 @@ namespace HaptoFlow.Editor
     /// <summary>Draws the summary of a clip. Main thread, within OnInspectorGUI.</summary>
     internal sealed class ClipSummaryView
     {
+        private static readonly GUIContent Play =
+            new GUIContent("Play", "Plays the vibration on the speakers, as loudly as they go without distortion.");
+        private static readonly GUIContent Stop = new GUIContent("Stop", "Ends the playback.");
+
+        private readonly byte[] file;
         private readonly ClipSummary summary;
         private readonly EditorPicture picture;
+        private readonly PreviewSpeaker speaker = new PreviewSpeaker();
         private PreviewView? view;
         private Box box;
 
-        public ClipSummaryView(ClipSummary summary)
+        /// <param name="file">The bytes of a clip file.</param>
+        public ClipSummaryView(byte[] file)
         {
-            this.summary = summary;
+            this.file = file;
+            summary = ClipSummary.Of(file);
             picture = new EditorPicture(canvas => ClipChart.Draw(canvas, view!.Palette, box, summary.Curves!));
         }
 
@@ -99,13 +116,39 @@ namespace HaptoFlow.Editor
             {
                 EditorGUILayout.LabelField(row.Name, row.Value, EditorStyles.wordWrappedLabel);
             }
+            using (new EditorGUI.DisabledScope(!speaker.IsAvailable))
+            {
+                if (GUILayout.Button(speaker.IsAvailable && speaker.IsPlaying ? Stop : Play))
+                {
+                    Toggle();
+                }
+            }
             if (summary.Omitted.Length > 0)
             {
                 EditorGUILayout.HelpBox("Not played: " + summary.Omitted + ".", MessageType.Info);
             }
         }
 
-        public void Release() => picture.Release();
+        public void Release()
+        {
+            speaker.Stop();
+            picture.Release();
+        }
+
+        private void Toggle()
+        {
+            if (speaker.IsPlaying)
+            {
+                speaker.Stop();
+                return;
+            }
+            float[] wave = ClipSummary.Wave(file);
+            float peak = wave.Select(sample => Mathf.Abs(sample)).DefaultIfEmpty().Max();
+            if (peak > 0f)
+            {
+                speaker.Play(wave, SoundPlayer.RaisedPeak / peak, 0, false);
+            }
+        }
 
         private void DrawPicture(Rect area)
         {
@@ -135,7 +178,7 @@ namespace HaptoFlow.Editor
         public override void OnEnable()
         {
             base.OnEnable();
-            view = assetTarget is HapticClip clip ? new ClipSummaryView(ClipSummary.Of(clip.File)) : null;
+            view = assetTarget is HapticClip clip ? new ClipSummaryView(clip.File) : null;
         }
 
         public override void OnDisable()
@@ -165,7 +208,7 @@ namespace HaptoFlow.Editor
 
         public override void OnInspectorGUI()
         {
-            view ??= new ClipSummaryView(ClipSummary.Of(((HapticClip)target).File));
+            view ??= new ClipSummaryView(((HapticClip)target).File);
             view.Draw();
         }
     }

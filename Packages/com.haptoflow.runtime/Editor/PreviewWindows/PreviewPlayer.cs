@@ -1,10 +1,7 @@
 #nullable enable
 using System;
 using System.Collections.Generic;
-using System.Globalization;
-using System.IO;
 using System.Linq;
-using System.Text;
 using HaptoFlow.Preview;
 using UnityEditor;
 using UnityEngine;
@@ -30,8 +27,9 @@ namespace HaptoFlow.Editor
             new GUIContent("A", "Plays material A. Key A."), new GUIContent("B", "Plays material B. Key B."),
         };
         private static readonly GUIContent ExportButton =
-            new GUIContent("Export WAV\u2026",
-                $"48 kHz, 32-bit float; a sample of 1 is {PreviewSound.FullScaleMps2:0} m/s^2. Ctrl or Cmd + E.");
+            new GUIContent("Export\u2026",
+                $"Writes a WAV file (48 kHz, 32-bit float; a sample of 1 is {PreviewSound.FullScaleMps2:0} m/s^2), or a clip " +
+                "for the tools of Meta, Apple and MPEG-I. Ctrl or Cmd + E.");
         private static readonly GUIContent Measure =
             new GUIContent("Measure", "Times the tiers again on this machine.");
 
@@ -98,6 +96,10 @@ namespace HaptoFlow.Editor
                 {
                     export();
                 }
+                state.Enter("Format", (int)state.ExportAs,
+                    EditorGUILayout.Popup(
+                        GUIContent.none, (int)state.ExportAs, SoundExport.Endings, GUILayout.Width(64f)),
+                    (changed, format) => changed.ExportAs = (SoundFormat)format);
                 if (GUILayout.Button(Measure))
                 {
                     session.MeasureAgain();
@@ -141,73 +143,6 @@ namespace HaptoFlow.Editor
             base.Start(sound, sample);
             // A simulated device's sound on a real device would be that of two devices.
             felt.Play(state.ShowsDevice ? Sounds[0].Sound : sound.Sound, sample, state.Loops);
-        }
-    }
-
-    /// <summary>Writes sounds to WAV files.</summary>
-    internal static class WaveExport
-    {
-        /// <summary>A proposed file name, for example "wood 0.12 mps 1.5 N".</summary>
-        public static string FileName(LabelMix material, StrokeSettings settings)
-        {
-            string name = string.Format(CultureInfo.InvariantCulture, "{0} {1:0.###} mps {2:0.##} N", material.Title,
-                settings.SpeedMps, settings.ForceNewtons);
-            return string.Concat(name.Select(letter => Path.GetInvalidFileNameChars().Contains(letter) ? '-' : letter));
-        }
-
-        /// <summary>Writes the samples as rendered, without the gain of playback: 48 kHz, 32-bit float, one channel, in
-        /// units of <see cref="PreviewSound.FullScaleMps2"/>.</summary>
-        /// <returns>An error message; null on success.</returns>
-        public static string? Write(string path, PreviewSound sound)
-        {
-            try
-            {
-                File.WriteAllBytes(path, WaveFile.Bytes(sound.Samples, PreviewSound.RateHz));
-                return null;
-            }
-            catch (Exception error) when (error is IOException || error is UnauthorizedAccessException)
-            {
-                return error.Message;
-            }
-        }
-    }
-
-    /// <summary>Writes RIFF WAVE files with one channel of 32-bit floats, as the command line does: format tag 3, with
-    /// the fact chunk that formats other than PCM need.</summary>
-    /// <remarks>Unity reads WAV files and does not write them.</remarks>
-    internal static class WaveFile
-    {
-        private const int HeaderBytes = 12 + 8 + 18 + 8 + 4 + 8;
-        private const short FloatFormat = 3;
-
-        /// <summary>The bytes of a file.</summary>
-        /// <param name="samples">-1 to 1.</param>
-        public static byte[] Bytes(ReadOnlySpan<float> samples, int rateHz)
-        {
-            int dataBytes = checked(samples.Length * sizeof(float));
-            var file = new MemoryStream(checked(HeaderBytes + dataBytes));
-            using var writer = new BinaryWriter(file, Encoding.ASCII);
-            writer.Write("RIFF".ToCharArray());
-            writer.Write(HeaderBytes + dataBytes - 8);
-            writer.Write("WAVEfmt ".ToCharArray());
-            writer.Write(18);
-            writer.Write(FloatFormat);
-            writer.Write((short)1);
-            writer.Write(rateHz);
-            writer.Write(rateHz * sizeof(float));
-            writer.Write((short)sizeof(float));
-            writer.Write((short)(8 * sizeof(float)));
-            writer.Write((short)0);
-            writer.Write("fact".ToCharArray());
-            writer.Write(4);
-            writer.Write(samples.Length);
-            writer.Write("data".ToCharArray());
-            writer.Write(dataBytes);
-            foreach (float sample in samples)
-            {
-                writer.Write(sample);
-            }
-            return file.ToArray();
         }
     }
 }

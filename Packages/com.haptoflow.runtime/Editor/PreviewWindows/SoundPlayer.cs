@@ -97,7 +97,7 @@ namespace HaptoFlow.Editor
         {
             playing = sound;
             mode = Mode;
-            Speaker.Play(sound.Sound, Gain, sample, mode.Loops);
+            Speaker.Play(sound.Sound.Samples, Gain, sample, mode.Loops);
         }
     }
 
@@ -131,18 +131,19 @@ namespace HaptoFlow.Editor
         /// <summary>Position of playback; 0 while nothing plays.</summary>
         public int PositionSamples => IsPlaying ? (int)position!.Invoke(null, null) : 0;
 
-        /// <summary>Plays a sound in place of the present one.</summary>
+        /// <summary>Plays samples in place of the present ones.</summary>
+        /// <param name="sound">At <see cref="PreviewSound.RateHz"/>, one channel.</param>
         /// <param name="gain">The products are limited to -1 to 1.</param>
         /// <param name="startSample">Start position; a position past the end counts as 0.</param>
-        public void Play(PreviewSound sound, float gain, int startSample, bool loops)
+        public void Play(float[] sound, float gain, int startSample, bool loops)
         {
             Stop();
             if (!IsAvailable)
             {
                 return;
             }
-            float[] samples = Array.ConvertAll(sound.Samples, sample => Mathf.Clamp(gain * sample, -1f, 1f));
-            clip = AudioClip.Create("HaptoFlow Texture Preview", samples.Length, 1, PreviewSound.RateHz, false);
+            float[] samples = Array.ConvertAll(sound, sample => Mathf.Clamp(gain * sample, -1f, 1f));
+            clip = AudioClip.Create("HaptoFlow Preview", samples.Length, 1, PreviewSound.RateHz, false);
             clip.hideFlags = HideFlags.HideAndDontSave;
             clip.SetData(samples, 0);
             play!.Invoke(null, new object[] { clip, startSample < samples.Length ? startSample : 0, loops });

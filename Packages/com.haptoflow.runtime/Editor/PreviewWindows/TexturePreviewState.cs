@@ -40,6 +40,9 @@ namespace HaptoFlow.Editor
         /// <summary>The connected device that plays along with the speakers.</summary>
         public FeltDevice FeltOn;
 
+        /// <summary>The kind of file that the button Export writes.</summary>
+        public SoundFormat ExportAs;
+
         /// <summary>Points of the drawn stroke. Set a new array instead of changing elements.</summary>
         public DrawnPoint[] Drawn = Array.Empty<DrawnPoint>();
 

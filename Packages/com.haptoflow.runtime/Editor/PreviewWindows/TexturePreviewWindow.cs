@@ -119,12 +119,31 @@ namespace HaptoFlow.Editor
             Repaint();
         }
 
-        /// <summary>Writes the active sound to a WAV file.</summary>
+        /// <summary>Writes the active sound to a WAV file or, by the name's ending, to a clip.</summary>
         /// <returns>An error message; null on success.</returns>
         internal string? ExportTo(string path)
         {
             Finish();
-            return Session!.Problem ?? WaveExport.Write(path, Player!.PlayedSound!.Sound);
+            if (Session!.Problem != null)
+            {
+                return Session.Problem;
+            }
+            bool isClip = !path.EndsWith(SoundExport.Endings[(int)SoundFormat.Wav], StringComparison.OrdinalIgnoreCase);
+            // A clip of what a simulated device plays would be played by a device once more.
+            AnalysedSound sound = isClip && State.ShowsDevice ? Session.Shown!.Sounds[0] : Player!.PlayedSound!;
+            return SoundExport.Write(path, sound.Sound, Description());
+        }
+
+        /// <summary>How the shown sounds were made, for other tools.</summary>
+        private string Description()
+        {
+            string stroke = State.Preset == StrokePreset.Drawn
+                ? "a drawn stroke"
+                : SummaryRow.Format("{0}, {1:0.###} m/s, {2:0.##} N",
+                    ObjectNames.NicifyVariableName(State.Preset.ToString()).ToLowerInvariant(), State.SpeedMps,
+                    State.ForceNewtons);
+            return SummaryRow.Format("{0}; model {1}, {2}, seed {3}", stroke, ModelInUse()!.name,
+                Session!.Shown!.Request.Tier, State.Seed);
         }
 
         private void Export()
@@ -138,8 +157,9 @@ namespace HaptoFlow.Editor
             {
                 return;
             }
-            string name = WaveExport.FileName(Player.PlayedSound.Sound.Material, State.Settings);
-            string path = EditorUtility.SaveFilePanel("Export WAV", "", name, "wav");
+            string name = SoundExport.FileName(Player.PlayedSound.Sound.Material, State.Settings);
+            string ending = SoundExport.Endings[(int)State.ExportAs];
+            string path = EditorUtility.SaveFilePanel("Export " + ending, "", name, ending.Substring(1));
             if (path.Length > 0)
             {
                 ShowNotification(new GUIContent(ExportTo(path) ?? "Exported"));

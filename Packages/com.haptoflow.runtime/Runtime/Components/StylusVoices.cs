@@ -180,8 +180,7 @@ namespace HaptoFlow
                 // In the air the voice still has the strength of the surface that was touched last.
                 SetStrength(stylus.Strength * output!.Strength);
             }
-            open.PlayClip(clip, gain, loop);
-            return true;
+            return open.PlayClip(clip, gain, loop);
         }
 
         /// <summary>Publishes a contact state; opens the voice first where possible.</summary>

@@ -137,23 +137,26 @@ namespace HaptoFlow
 
         /// <summary>Plays a clip beside the texture, with or without contact, from the next block on, in place of the
         /// one that plays. Mute, pause, panic, missing contact states and a change of the device's rate end it; while
-        /// one of these silences the voice, or a signal plays, a clip is not played, nor later. The thread that
-        /// publishes; no garbage. The first play of a clip takes about 1 ms for each second of it.</summary>
+        /// one of these silences the voice, or a signal plays, a clip is not played, nor later. Any thread except the
+        /// audio callback; no garbage. The first play of a clip takes about 1 ms for each second of it.</summary>
         /// <param name="clip">May be disposed at once; null to end the present clip.</param>
         /// <param name="gain">0 to <see cref="HapticClipFile.MaximumGain"/>.</param>
         /// <param name="loop">True to repeat it until another clip, or null.</param>
+        /// <returns>False where another thread is publishing at the same time: this clip is discarded.</returns>
         /// <exception cref="HaptoFlowException">The voice or the clip is closed, or the gain is out of
         /// range.</exception>
-        public void PlayClip(HapticClipFile? clip, float gain = 1f, bool loop = false)
+        public bool PlayClip(HapticClipFile? clip, float gain = 1f, bool loop = false)
         {
-            if (clip == null)
+            int status = clip == null
+                ? NativeMethods.VoicePlayClip(Id, IntPtr.Zero, 0f, 0u)
+                : NativeMethods.VoicePlayClip(Id, clip.OpenValue, gain, loop ? 1u : 0u);
+            GC.KeepAlive(clip);
+            if (status == (int)HaptoFlowStatus.Busy)
             {
-                NativeCall.Check(NativeMethods.VoicePlayClip(Id, IntPtr.Zero, 0f, 0u));
+                return false;
             }
-            else
-            {
-                clip.Handle.Check(NativeMethods.VoicePlayClip(Id, clip.OpenValue, gain, loop ? 1u : 0u));
-            }
+            NativeCall.Check(status);
+            return true;
         }
 
         /// <summary>Number and delays of the signal's starts and stops caused by contact states.</summary>
