@@ -50,6 +50,20 @@ namespace HaptoFlow.MissingLibraryTests
             Assert.That(UnityShim.Log.Lines.Single().Text, Does.Match("Waves is not felt: .*native library.*install"));
         }
 
+        [Test]
+        public void AClipIsKeptForPlayersThatHaveTheLibraryAndIsNotFeltHere()
+        {
+            byte[] file = Encoding.UTF8.GetBytes("{\"perceptions\":[]}");
+            string path = Import("unchecked.hjif", file);
+            var clip = AssetDatabase.LoadAssetAtPath<HapticClip>(path);
+            Assert.That(clip.File, Is.EqualTo(file));
+            AssertIdentified(OnlyWarning(path), file);
+            Assert.That(clip.Problem, Does.Contain("native library"));
+            UnityShim.Log.Clear();
+            Assert.That((clip.Content, clip.Content), Is.EqualTo(((HapticClipFile?)null, (HapticClipFile?)null)));
+            Assert.That(UnityShim.Log.Lines.Single().Text, Does.Match("unchecked is not felt: .*native library.*install"));
+        }
+
         private static string OnlyWarning(string path)
         {
             ImportLog.ImportLogEntry entry = AssetImporter.GetImportLog(path)!.logEntries.Single();

@@ -198,7 +198,7 @@ namespace HaptoFlow
         /// <param name="loop">True to repeat it until another clip, or <see cref="StopClip()"/>.</param>
         /// <returns>False where nothing was begun and what plays goes on: the stylus has no voice, as while the engine
         /// loads; or the clip is null, destroyed or damaged, which the console says once.</returns>
-        public bool Play(HapticClip clip, float gain = 1f, bool loop = false)
+        public bool Play(HapticClip? clip, float gain = 1f, bool loop = false)
         {
             HapticClipFile? content = clip != null ? clip.Content : null;
             if (content == null || voices == null || !voices.PlayClip(content, ClipGain(gain), loop))
