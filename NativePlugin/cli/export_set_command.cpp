@@ -196,7 +196,7 @@ public:
                const clips::HapticClip& clip, nlohmann::ordered_json& entry) {
         double errorDb = 0.0;
         for (const std::string& format : formats) {
-            const std::string fileName = name + '.' + format;
+            const std::string fileName = std::string(name).append(".").append(format);
             OutputFile file("-o", folder_ / fileName);
             if (format == "wav") {
                 WavWriter writer(file.partial(), static_cast<int>(rateHz), fileName, clip.origin.description);

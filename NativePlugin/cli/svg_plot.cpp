@@ -79,8 +79,8 @@ public:
             const double decade = std::pow(10.0, std::floor(std::log10(0.2 * (highest_ - lowest_))));
             const double steps = 0.2 * (highest_ - lowest_) / decade;
             const double step = decade * (steps < 2.0 ? 1.0 : steps < 5.0 ? 2.0 : 5.0);
-            for (double value = std::ceil(lowest_ / step) * step; value <= highest_ * 1.001; value += step) {
-                mark(value, true);
+            for (auto tick = std::llround(std::ceil(lowest_ / step)); tick <= std::llround(highest_ / step); ++tick) {
+                mark(static_cast<double>(tick) * step, true);
             }
         } else {
             for (int decade = 0; decade < 6; ++decade) {

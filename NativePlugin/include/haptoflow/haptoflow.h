@@ -1031,7 +1031,8 @@ HAPTOFLOW_API haptoflow_status haptoflow_clip_wave(const haptoflow_clip* clip, d
  * 4. is_loop: 1 to play it until another one or null. A voice plays one clip at a time. Strength, delay, compensation,
  * exposure guard and limiter act on it as on the other effects; mute, pause, panic, missing states and a change of the
  * device's rate end it; while the voice is silent for one of these, or plays a signal, a clip is not played. Errors:
- * INVALID_ARGUMENT, OUT_OF_MEMORY, BUSY (another thread publishes on this voice now). [publisher] The first play of a clip takes about 1 us per ms of it. */
+ * INVALID_ARGUMENT, OUT_OF_MEMORY, BUSY (another thread publishes on this voice now). [publisher] The first play of a
+ * clip takes about 1 us per ms of it. */
 HAPTOFLOW_API haptoflow_status haptoflow_voice_play_clip(haptoflow_voice voice, const haptoflow_clip* clip, float gain,
                                                          uint32_t is_loop);
 

@@ -82,8 +82,7 @@ void writeDescriptor(Descriptor* target, Descriptor content, const char* name) {
 
 /// A caller's path, which is UTF-8 on every platform.
 [[nodiscard]] inline std::filesystem::path utf8Path(const char* text) {
-    const std::u8string utf8(text, text + std::strlen(text));
-    return std::filesystem::path(utf8);
+    return {std::u8string(text, text + std::strlen(text))};
 }
 
 /// Opaque handles to shared objects. A handle is a number that is never reused, not an address, so that a closed or
@@ -98,6 +97,7 @@ public:
         const std::uintptr_t number = nextNumber_;
         objects_.emplace(number, std::move(object));
         nextNumber_ += numberStep;
+        // NOLINTNEXTLINE(performance-no-int-to-ptr): the number is never dereferenced.
         return reinterpret_cast<Handle*>(number);
     }
 

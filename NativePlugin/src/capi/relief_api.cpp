@@ -15,7 +15,7 @@ using namespace haptoflow::capi;
 
 namespace {
 
-std::array<double, 2> sizeOf(const float (&metres)[2]) {
+std::array<double, 2> sizeOf(const float* metres) {
     return {static_cast<double>(metres[0]), static_cast<double>(metres[1])};
 }
 
@@ -56,9 +56,8 @@ haptoflow_status haptoflow_relief_heights_of_normals(const float* normals, uint3
         (void)require(size_metres, "size_metres");
         (void)require(heights_metres, "heights_metres");
         effects::ReliefMap::requireTexels(columns, rows);
-        const auto heights = effects::heightsOfNormals(
-            std::span(normals, std::size_t{3} * columns * rows), columns, rows,
-            {static_cast<double>(size_metres[0]), static_cast<double>(size_metres[1])}, is_tiled != 0);
+        const auto heights = effects::heightsOfNormals(std::span(normals, std::size_t{3} * columns * rows), columns,
+                                                       rows, sizeOf(size_metres), is_tiled != 0);
         std::ranges::copy(heights, heights_metres);
     });
 }

@@ -241,7 +241,8 @@ ClipPiece pieceOf(const Event& event, std::span<const ClipPoint> intensity, std:
 
 ordered_json ahapOf(const HapticClip& clip, const ThinnedCurves& curves) {
     ordered_json pattern = ordered_json::array();
-    for (double start = 0.0; start < clip.durationSeconds; start += longestEventSeconds) {
+    for (int event = 0; longestEventSeconds * event < clip.durationSeconds; ++event) {
+        const double start = longestEventSeconds * event;
         const double seconds = std::min(longestEventSeconds, clip.durationSeconds - start);
         pattern.push_back({{"Event",
                             {{"Time", rounded(start, 6)},

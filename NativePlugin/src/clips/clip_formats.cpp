@@ -190,7 +190,7 @@ ReadClip readClip(std::string_view text) {
             readHjif(document, read);
         } else {
             throw ClipError(
-                "has none of the keys \"signals\" (.haptic 1.0), \"Pattern\" (.ahap) and \"perceptions\" (.hjif)");
+                R"(has none of the keys "signals" (.haptic 1.0), "Pattern" (.ahap) and "perceptions" (.hjif))");
         }
         std::ranges::stable_sort(read.clip.transients, {}, &ClipTransient::seconds);
         read.clip.durationSeconds = endOf(read.clip);

@@ -37,6 +37,7 @@ public:
             // Odd, unlike every handle of a table.
             const std::uint32_t invented = choice | 1U;
             if constexpr (std::is_pointer_v<Handle>) {
+                // NOLINTNEXTLINE(performance-no-int-to-ptr): refused, never dereferenced.
                 return reinterpret_cast<Handle>(std::uintptr_t{invented});
             } else {
                 return invented;
@@ -514,6 +515,7 @@ class ApiStormTest : public ::testing::Test {
 protected:
     /// Number of calls of each thread, from HAPTOFLOW_TEST_STORM_CALLS; the soak test sets a large one.
     static int callsOfAThread(int usual) {
+        // NOLINTNEXTLINE(concurrency-mt-unsafe): before the threads begin.
         const char* given = std::getenv("HAPTOFLOW_TEST_STORM_CALLS");
         return given != nullptr ? std::atoi(given) : usual;
     }
@@ -524,10 +526,12 @@ protected:
         handles.runtimes.put(openRuntime());
         handles.models.put(openTinyModel());
         std::vector<Storm> storms;
+        storms.reserve(static_cast<std::size_t>(threadCount));
         for (int i = 0; i < threadCount; ++i) {
             storms.emplace_back(handles, modelBytes, static_cast<std::uint32_t>(i + 1));
         }
         std::vector<std::thread> threads;
+        threads.reserve(storms.size());
         for (Storm& each : storms) {
             threads.emplace_back([&each, calls] { each.run(calls); });
         }

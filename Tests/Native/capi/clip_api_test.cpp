@@ -25,10 +25,8 @@ std::vector<float> hum(double seconds, double rateHz = 2000.0) {
 
 class ClipApiTest : public ::testing::Test {
 protected:
-    ClipApiTest() { clip_ = create(hum(0.5)); }
-    ~ClipApiTest() override { EXPECT_EQ(haptoflow_clip_close(&clip_), HAPTOFLOW_OK) << message(); }
-    ClipApiTest(const ClipApiTest&) = delete;
-    ClipApiTest& operator=(const ClipApiTest&) = delete;
+    void SetUp() override { humming = create(hum(0.5)); }
+    void TearDown() override { EXPECT_EQ(haptoflow_clip_close(&humming), HAPTOFLOW_OK) << message(); }
 
     static haptoflow_clip* create(const std::vector<float>& wave, uint32_t rateHz = 0) {
         haptoflow_clip_options options{};
@@ -56,25 +54,25 @@ protected:
         return text;
     }
     void play(const haptoflow_clip* clip, float gain = 1.0F, uint32_t isLoop = 0) {
-        EXPECT_EQ(haptoflow_voice_play_clip(open_.voice, clip, gain, isLoop), HAPTOFLOW_OK) << message();
+        EXPECT_EQ(haptoflow_voice_play_clip(opened.voice, clip, gain, isLoop), HAPTOFLOW_OK) << message();
     }
     /// Seconds of a stylus in the air.
     std::vector<float> hover(double seconds) {
         std::vector<float> output;
         for (int update = 0; update < static_cast<int>(seconds * 72.0); ++update) {
-            const std::vector<float> next = open_.update(liftedState());
+            const std::vector<float> next = opened.update(liftedState());
             output.insert(output.end(), next.begin(), next.end());
         }
         return output;
     }
 
-    OpenEngine open_{tinyModelPath};
-    haptoflow_clip* clip_ = nullptr;
+    OpenEngine opened{tinyModelPath};
+    haptoflow_clip* humming = nullptr;
 };
 
 TEST_F(ClipApiTest, AWaveIsWrittenAndReadInEveryFormat) {
     for (const haptoflow_clip_format format : {HAPTOFLOW_CLIP_HAPTIC, HAPTOFLOW_CLIP_AHAP, HAPTOFLOW_CLIP_HJIF}) {
-        const std::string text = write(clip_, format);
+        const std::string text = write(humming, format);
         haptoflow_clip* read = nullptr;
         ASSERT_EQ(haptoflow_clip_read(text.data(), text.size(), &read), HAPTOFLOW_OK) << message();
         const haptoflow_clip_info info = describe(read);
@@ -85,7 +83,7 @@ TEST_F(ClipApiTest, AWaveIsWrittenAndReadInEveryFormat) {
         std::array<float, 11> frequency{};
         ASSERT_EQ(haptoflow_clip_curves(read, 11, amplitude.data(), frequency.data()), HAPTOFLOW_OK) << message();
         EXPECT_NEAR(frequency[5], 150.0F, 6.0F);
-        EXPECT_NEAR(amplitude[5], describe(clip_).largest_amplitude, 0.05F);
+        EXPECT_NEAR(amplitude[5], describe(humming).largest_amplitude, 0.05F);
         EXPECT_EQ(haptoflow_clip_close(&read), HAPTOFLOW_OK);
     }
 }
@@ -93,10 +91,10 @@ TEST_F(ClipApiTest, AWaveIsWrittenAndReadInEveryFormat) {
 TEST_F(ClipApiTest, TheWaveComesBackInMetresPerSecondSquaredAtAnyRate) {
     for (const double rateHz : {2000.0, 8000.0, 44100.0}) {
         uint64_t count = 0;
-        ASSERT_EQ(haptoflow_clip_wave(clip_, rateHz, nullptr, 0, &count), HAPTOFLOW_OK) << message();
+        ASSERT_EQ(haptoflow_clip_wave(humming, rateHz, nullptr, 0, &count), HAPTOFLOW_OK) << message();
         EXPECT_NEAR(static_cast<double>(count), 0.5 * rateHz, 1.0);
         std::vector<float> wave(count);
-        ASSERT_EQ(haptoflow_clip_wave(clip_, rateHz, wave.data(), count, &count), HAPTOFLOW_OK) << message();
+        ASSERT_EQ(haptoflow_clip_wave(humming, rateHz, wave.data(), count, &count), HAPTOFLOW_OK) << message();
         EXPECT_NEAR(*std::ranges::max_element(wave.begin() + static_cast<std::ptrdiff_t>(count / 2), wave.end()), 20.0F,
                     2.0F);
     }
@@ -106,7 +104,7 @@ TEST_F(ClipApiTest, AFasterWaveGivesTheSameClip) {
     haptoflow_clip* fast = create(hum(0.5, 48000.0), 48000);
     std::array<float, 9> slowCurve{};
     std::array<float, 9> fastCurve{};
-    EXPECT_EQ(haptoflow_clip_curves(clip_, 9, slowCurve.data(), nullptr), HAPTOFLOW_OK);
+    EXPECT_EQ(haptoflow_clip_curves(humming, 9, slowCurve.data(), nullptr), HAPTOFLOW_OK);
     EXPECT_EQ(haptoflow_clip_curves(fast, 9, fastCurve.data(), nullptr), HAPTOFLOW_OK);
     for (std::size_t i = 1; i < 8; ++i) {
         EXPECT_NEAR(fastCurve[i], slowCurve[i], 0.02F) << i;
@@ -122,10 +120,10 @@ TEST_F(ClipApiTest, WhatIsNoClipIsRefusedWithTheKey) {
     EXPECT_EQ(read, nullptr);
     std::array<char, 4> few{};
     uint64_t length = 0;
-    EXPECT_EQ(haptoflow_clip_write(clip_, 7, "", few.data(), few.size(), &length), HAPTOFLOW_INVALID_ARGUMENT);
-    EXPECT_EQ(haptoflow_clip_write(clip_, 0, "", few.data(), few.size(), &length), HAPTOFLOW_INVALID_ARGUMENT);
+    EXPECT_EQ(haptoflow_clip_write(humming, 7, "", few.data(), few.size(), &length), HAPTOFLOW_INVALID_ARGUMENT);
+    EXPECT_EQ(haptoflow_clip_write(humming, 0, "", few.data(), few.size(), &length), HAPTOFLOW_INVALID_ARGUMENT);
     EXPECT_THAT(message(), HasSubstr("capacity is 4"));
-    EXPECT_EQ(haptoflow_voice_play_clip(open_.voice, clip_, std::nanf(""), 0), HAPTOFLOW_INVALID_ARGUMENT);
+    EXPECT_EQ(haptoflow_voice_play_clip(opened.voice, humming, std::nanf(""), 0), HAPTOFLOW_INVALID_ARGUMENT);
     haptoflow_clip_options options{};
     options.struct_size = sizeof(options);
     options.sample_rate_hz = 3000;
@@ -137,28 +135,28 @@ TEST_F(ClipApiTest, WhatIsNoClipIsRefusedWithTheKey) {
 }
 
 TEST_F(ClipApiTest, AClipSoundsWithoutContactAtItsLevelAndEnds) {
-    play(clip_);
+    play(humming);
     const std::vector<float> output = hover(1.0);
     const auto middle = output.begin() + 12000;
     EXPECT_NEAR(*std::max_element(middle, middle + 4800), 20.0F / HAPTOFLOW_DEFAULT_FULL_SCALE_MPS2, 0.01F);
     EXPECT_EQ(peak(std::vector<float>(output.begin() + 26000, output.end())), 0.0F);
     haptoflow_effect_statistics statistics{};
     statistics.struct_size = sizeof(statistics);
-    EXPECT_EQ(haptoflow_voice_effect_statistics(open_.voice, HAPTOFLOW_EFFECT_CLIP, &statistics), HAPTOFLOW_OK);
+    EXPECT_EQ(haptoflow_voice_effect_statistics(opened.voice, HAPTOFLOW_EFFECT_CLIP, &statistics), HAPTOFLOW_OK);
     EXPECT_EQ(statistics.events, 1U);
     EXPECT_GT(statistics.samples, 23000U);
 }
 
 TEST_F(ClipApiTest, AVoiceThatWasNeverToldOfAContactPlaysOneToo) {
-    play(clip_);
-    EXPECT_GT(peak(open_.render(4800)), 0.05F);
+    play(humming);
+    EXPECT_GT(peak(opened.render(4800)), 0.05F);
 }
 
 TEST_F(ClipApiTest, WithoutAClipNothingOfItRuns) {
     (void)hover(0.2);
     haptoflow_effect_statistics statistics{};
     statistics.struct_size = sizeof(statistics);
-    EXPECT_EQ(haptoflow_voice_effect_statistics(open_.voice, HAPTOFLOW_EFFECT_CLIP, &statistics), HAPTOFLOW_OK);
+    EXPECT_EQ(haptoflow_voice_effect_statistics(opened.voice, HAPTOFLOW_EFFECT_CLIP, &statistics), HAPTOFLOW_OK);
     EXPECT_EQ(statistics.runs + statistics.prepared + statistics.events, 0U);
 }
 
@@ -166,9 +164,9 @@ TEST_F(ClipApiTest, TheTextureSoundsOnBesideIt) {
     OpenEngine alone(tinyModelPath);
     for (int update = 0; update < 40; ++update) {
         if (update == 20) {
-            play(clip_);
+            play(humming);
         }
-        const std::vector<float> both = open_.update(slidingState());
+        const std::vector<float> both = opened.update(slidingState());
         const std::vector<float> texture = alone.update(slidingState());
         std::vector<float> clip(both.size());
         std::ranges::transform(both, texture, clip.begin(), std::minus<>());
@@ -181,7 +179,7 @@ TEST_F(ClipApiTest, TheTextureSoundsOnBesideIt) {
 }
 
 TEST_F(ClipApiTest, ALoopGoesOnUntilItIsEnded) {
-    play(clip_, 0.5F, 1);
+    play(humming, 0.5F, 1);
     (void)hover(2.0);
     // Each round begins with the onset of the wave, a transient.
     EXPECT_NEAR(peak(hover(0.6)), 0.08F, 0.04F);
@@ -191,7 +189,7 @@ TEST_F(ClipApiTest, ALoopGoesOnUntilItIsEnded) {
 }
 
 TEST_F(ClipApiTest, ReplacedOrEndedInTheMiddleItMakesNoStep) {
-    play(clip_, 1.0F, 1);
+    play(humming, 1.0F, 1);
     std::vector<float> output = hover(0.3);
     haptoflow_clip* other = create(hum(0.2));
     for (int round = 0; round < 20; ++round) {
@@ -220,44 +218,44 @@ TEST_F(ClipApiTest, AClosedClipPlaysToItsEndAndManyInOneBlockLeaveTheLast) {
 
 TEST_F(ClipApiTest, MutePauseAndPanicEndItAndItDoesNotComeBack) {
     const auto endsBy = [this](const char* name, auto&& silence, auto&& release) {
-        play(clip_, 1.0F, 1);
+        play(humming, 1.0F, 1);
         EXPECT_GT(peak(hover(0.1)), 0.05F) << name;
         silence();
         (void)hover(0.05);
         EXPECT_EQ(peak(hover(0.1)), 0.0F) << name;
         // Played while silent, it is not played later.
-        play(clip_);
+        play(humming);
         (void)hover(0.05);
         release();
         EXPECT_EQ(peak(hover(0.2)), 0.0F) << name;
     };
     endsBy(
-        "mute", [this] { EXPECT_EQ(haptoflow_voice_set_muted(open_.voice, 1), HAPTOFLOW_OK); },
-        [this] { EXPECT_EQ(haptoflow_voice_set_muted(open_.voice, 0), HAPTOFLOW_OK); });
+        "mute", [this] { EXPECT_EQ(haptoflow_voice_set_muted(opened.voice, 1), HAPTOFLOW_OK); },
+        [this] { EXPECT_EQ(haptoflow_voice_set_muted(opened.voice, 0), HAPTOFLOW_OK); });
     endsBy(
-        "pause", [this] { EXPECT_EQ(haptoflow_voice_set_paused(open_.voice, 1), HAPTOFLOW_OK); },
-        [this] { EXPECT_EQ(haptoflow_voice_set_paused(open_.voice, 0), HAPTOFLOW_OK); });
-    play(clip_, 1.0F, 1);
+        "pause", [this] { EXPECT_EQ(haptoflow_voice_set_paused(opened.voice, 1), HAPTOFLOW_OK); },
+        [this] { EXPECT_EQ(haptoflow_voice_set_paused(opened.voice, 0), HAPTOFLOW_OK); });
+    play(humming, 1.0F, 1);
     EXPECT_GT(peak(hover(0.1)), 0.05F);
     // Also one that was played before the panic and had not begun.
-    play(clip_);
-    EXPECT_EQ(haptoflow_voice_panic(open_.voice), HAPTOFLOW_OK);
+    play(humming);
+    EXPECT_EQ(haptoflow_voice_panic(opened.voice), HAPTOFLOW_OK);
     (void)hover(0.05);
     EXPECT_EQ(peak(hover(0.6)), 0.0F);
-    play(clip_);
+    play(humming);
     EXPECT_GT(peak(hover(0.1)), 0.05F) << "after the panic";
 }
 
 TEST_F(ClipApiTest, AnotherDeviceRateEndsItAndTheNextSounds) {
-    play(clip_, 1.0F, 1);
+    play(humming, 1.0F, 1);
     EXPECT_GT(peak(hover(0.1)), 0.05F);
     for (int block = 0; block < 20; ++block) {
-        open_.publish(liftedState());
-        (void)open_.render(480, 44100.0);
-        EXPECT_EQ(haptoflow_engine_step(open_.engine), HAPTOFLOW_OK);
+        opened.publish(liftedState());
+        (void)opened.render(480, 44100.0);
+        EXPECT_EQ(haptoflow_engine_step(opened.engine), HAPTOFLOW_OK);
     }
-    play(clip_);
-    EXPECT_GT(peak(open_.render(4410, 44100.0)), 0.05F);
+    play(humming);
+    EXPECT_GT(peak(opened.render(4410, 44100.0)), 0.05F);
 }
 
 }  // namespace

@@ -36,16 +36,14 @@ struct Ribs {
 
 class ReliefApiTest : public ::testing::Test {
 protected:
-    ReliefApiTest() { EXPECT_EQ(haptoflow_relief_create(&ribs_.options, &relief_), HAPTOFLOW_OK) << message(); }
-    ~ReliefApiTest() override { EXPECT_EQ(haptoflow_relief_destroy(&relief_), HAPTOFLOW_OK) << message(); }
-    ReliefApiTest(const ReliefApiTest&) = delete;
-    ReliefApiTest& operator=(const ReliefApiTest&) = delete;
+    void SetUp() override { EXPECT_EQ(haptoflow_relief_create(&rough.options, &felt), HAPTOFLOW_OK) << message(); }
+    void TearDown() override { EXPECT_EQ(haptoflow_relief_destroy(&felt), HAPTOFLOW_OK) << message(); }
 
     /// A tip that slides along the first axis, over a relief without texture.
     [[nodiscard]] haptoflow_contact_state over(double seconds, float alongMps = 0.1F) const {
         haptoflow_contact_state state = slidingState(alongMps);
         state.effects = HAPTOFLOW_ASKS_FOR_RELIEF;
-        state.relief = relief_;
+        state.relief = felt;
         state.relief_place[0] = alongMps * static_cast<float>(seconds) / 0.032F;
         state.relief_share = 1.0F;
         return state;
@@ -55,7 +53,7 @@ protected:
         for (int update = 0; update < updates; ++update) {
             haptoflow_contact_state state = over(667.0 * update / 48000.0);
             change(state);
-            const std::vector<float> next = open_.update(state);
+            const std::vector<float> next = opened.update(state);
             output.insert(output.end(), next.begin(), next.end());
         }
         return output;
@@ -66,13 +64,13 @@ protected:
     haptoflow_effect_statistics statistics() {
         haptoflow_effect_statistics statistics{};
         statistics.struct_size = sizeof(statistics);
-        EXPECT_EQ(haptoflow_voice_effect_statistics(open_.voice, HAPTOFLOW_EFFECT_RELIEF, &statistics), HAPTOFLOW_OK);
+        EXPECT_EQ(haptoflow_voice_effect_statistics(opened.voice, HAPTOFLOW_EFFECT_RELIEF, &statistics), HAPTOFLOW_OK);
         return statistics;
     }
 
-    Ribs ribs_;
-    haptoflow_relief relief_ = 0;
-    OpenEngine open_{tinyModelPath};
+    Ribs rough;
+    haptoflow_relief felt = 0;
+    OpenEngine opened{tinyModelPath};
 };
 
 TEST_F(ReliefApiTest, RibsAreHeardAtTheRateAtWhichTheTipCrossesThemInMetresPerSecondSquared) {
@@ -119,56 +117,56 @@ TEST_F(ReliefApiTest, ItKeepsToItsShareOfTheFullScale) {
 
 TEST_F(ReliefApiTest, LiftOffMuteAndPanicSilenceItAndTheNextTouchSounds) {
     EXPECT_GT(peak(slide(10)), 0.04F);
-    (void)open_.update(liftedState());
-    EXPECT_EQ(peak(open_.update(liftedState())), 0.0F);
+    (void)opened.update(liftedState());
+    EXPECT_EQ(peak(opened.update(liftedState())), 0.0F);
     const auto touched = [](uint32_t touch) {
         return [touch](haptoflow_contact_state& state) { state.touch_counter = touch; };
     };
     EXPECT_GT(peak(slide(10, touched(2))), 0.04F);
-    EXPECT_EQ(haptoflow_voice_set_muted(open_.voice, 1), HAPTOFLOW_OK);
+    EXPECT_EQ(haptoflow_voice_set_muted(opened.voice, 1), HAPTOFLOW_OK);
     (void)slide(2, touched(2));
     EXPECT_EQ(peak(slide(5, touched(2))), 0.0F);
-    EXPECT_EQ(haptoflow_voice_set_muted(open_.voice, 0), HAPTOFLOW_OK);
+    EXPECT_EQ(haptoflow_voice_set_muted(opened.voice, 0), HAPTOFLOW_OK);
     EXPECT_GT(peak(slide(10, touched(2))), 0.04F);
-    EXPECT_EQ(haptoflow_voice_panic(open_.voice), HAPTOFLOW_OK);
+    EXPECT_EQ(haptoflow_voice_panic(opened.voice), HAPTOFLOW_OK);
     (void)slide(2, touched(2));
     EXPECT_EQ(peak(slide(5, touched(2))), 0.0F);
     EXPECT_GT(peak(slide(10, touched(3))), 0.04F);
     // Without states it falls silent as all does.
-    (void)open_.render(9600);
-    EXPECT_EQ(peak(open_.render(960)), 0.0F);
+    (void)opened.render(9600);
+    EXPECT_EQ(peak(opened.render(960)), 0.0F);
 }
 
 TEST_F(ReliefApiTest, OneThatIsDestroyedUnderTheTipFadesWithTheNextStateAndItsNumberIsRefused) {
     EXPECT_GT(peak(slide(10)), 0.04F);
-    haptoflow_relief copy = relief_;
-    EXPECT_EQ(haptoflow_relief_destroy(&relief_), HAPTOFLOW_OK);
-    EXPECT_EQ(relief_, 0U);
-    EXPECT_GT(peak(open_.render(64)), 0.0F) << "the newest state still plays";
+    haptoflow_relief copy = felt;
+    EXPECT_EQ(haptoflow_relief_destroy(&felt), HAPTOFLOW_OK);
+    EXPECT_EQ(felt, 0U);
+    EXPECT_GT(peak(opened.render(64)), 0.0F) << "the newest state still plays";
     const auto gone = [copy](haptoflow_contact_state& state) { state.relief = copy; };
     (void)slide(1, gone);
     EXPECT_EQ(peak(slide(5, gone)), 0.0F);
     EXPECT_EQ(haptoflow_relief_destroy(&copy), HAPTOFLOW_INVALID_ARGUMENT);
-    EXPECT_EQ(haptoflow_relief_create(&ribs_.options, &relief_), HAPTOFLOW_OK) << message();
-    EXPECT_NE(relief_, copy);
+    EXPECT_EQ(haptoflow_relief_create(&rough.options, &felt), HAPTOFLOW_OK) << message();
+    EXPECT_NE(felt, copy);
     EXPECT_GT(peak(slide(10)), 0.04F);
 }
 
 TEST_F(ReliefApiTest, StatesWithNumbersThatAreNotFiniteAreCountedAndStayBounded) {
     for (const float wild : {std::nanf(""), INFINITY, -INFINITY, 1e30F}) {
         const std::vector<float> output = slide(20, [wild, n = 0](haptoflow_contact_state& state) mutable {
-            float* const fields[] = {&state.relief_place[0], &state.relief_place[1], &state.relief_share};
-            *fields[n++ % 3] = wild;
+            const std::array fields{&state.relief_place[0], &state.relief_place[1], &state.relief_share};
+            *fields.at(static_cast<std::size_t>(n++ % 3)) = wild;
         });
         EXPECT_TRUE(allFinite(output));
         EXPECT_LE(peak(output), 1.0F);
     }
-    EXPECT_GE(open_.statistics().sanitised, 80U);
+    EXPECT_GE(opened.statistics().sanitised, 80U);
 }
 
 TEST_F(ReliefApiTest, OptionsOutOfRangeAreRefusedByName) {
     const auto refusal = [this](auto change) {
-        haptoflow_relief_options options = ribs_.options;
+        haptoflow_relief_options options = rough.options;
         change(options);
         haptoflow_relief relief = 7;
         EXPECT_EQ(haptoflow_relief_create(&options, &relief), HAPTOFLOW_INVALID_ARGUMENT);
@@ -182,26 +180,27 @@ TEST_F(ReliefApiTest, OptionsOutOfRangeAreRefusedByName) {
     EXPECT_NE(refusal([](auto& o) { o.size_metres[0] = std::nanf(""); }).find("size"), std::string::npos);
     EXPECT_NE(refusal([](auto& o) { o.tip_radius_metres = 1.0F; }).find("radius"), std::string::npos);
     EXPECT_NE(refusal([](auto& o) { o.struct_size = 3; }).find("struct_size"), std::string::npos);
-    EXPECT_EQ(haptoflow_relief_create(&ribs_.options, nullptr), HAPTOFLOW_INVALID_ARGUMENT);
+    EXPECT_EQ(haptoflow_relief_create(&rough.options, nullptr), HAPTOFLOW_INVALID_ARGUMENT);
     haptoflow_relief none = 0;
     EXPECT_EQ(haptoflow_relief_destroy(&none), HAPTOFLOW_OK);
 }
 
 TEST_F(ReliefApiTest, NormalsBecomeHeightsAndWrongSizesAreRefused) {
-    std::array<float, 3 * 64> normals{};
+    std::array<float, std::size_t{3} * 64> normals{};
     for (std::size_t texel = 0; texel < 64; ++texel) {
         normals[3 * texel] =
             static_cast<float>(std::sin(2.0 * std::numbers::pi * (static_cast<double>(texel % 8) + 0.5) / 8.0));
         normals[3 * texel + 2] = 1.0F;
     }
     std::array<float, 64> heights{};
-    const float sizeMetres[2] = {0.008F, 0.008F};
-    ASSERT_EQ(haptoflow_relief_heights_of_normals(normals.data(), 8, 8, sizeMetres, 1, heights.data()), HAPTOFLOW_OK);
+    const std::array sizeMetres{0.008F, 0.008F};
+    ASSERT_EQ(haptoflow_relief_heights_of_normals(normals.data(), 8, 8, sizeMetres.data(), 1, heights.data()),
+              HAPTOFLOW_OK);
     // The integral of a sine, whose amplitude is the wavelength over 2 pi, at the middles of texels.
     EXPECT_NEAR(peak(heights), 2.0 * 0.008 / (2.0 * std::numbers::pi) * std::cos(std::numbers::pi / 8.0), 1e-5);
-    EXPECT_EQ(haptoflow_relief_heights_of_normals(normals.data(), 0, 8, sizeMetres, 1, heights.data()),
+    EXPECT_EQ(haptoflow_relief_heights_of_normals(normals.data(), 0, 8, sizeMetres.data(), 1, heights.data()),
               HAPTOFLOW_INVALID_ARGUMENT);
-    EXPECT_EQ(haptoflow_relief_heights_of_normals(nullptr, 8, 8, sizeMetres, 1, heights.data()),
+    EXPECT_EQ(haptoflow_relief_heights_of_normals(nullptr, 8, 8, sizeMetres.data(), 1, heights.data()),
               HAPTOFLOW_INVALID_ARGUMENT);
 }
 

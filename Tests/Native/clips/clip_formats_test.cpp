@@ -79,7 +79,8 @@ TEST_P(EveryFormat, TransientsKeepTimeAndAmplitude) {
 TEST_P(EveryFormat, WhatIsWrittenAgainFromWhatWasReadPlaysTheSame) {
     const ReadClip once = roundTrip(strokeClip(), GetParam());
     const ReadClip twice = roundTrip(once.clip, GetParam());
-    for (double seconds = 0.05; seconds < 3.0; seconds += 0.0131) {
+    for (int step = 4; step < 225; ++step) {
+        const double seconds = 0.0131 * step;
         EXPECT_NEAR(valueAt(twice.clip.amplitude, seconds, 0.0), valueAt(once.clip.amplitude, seconds, 0.0), 0.05);
     }
 }
