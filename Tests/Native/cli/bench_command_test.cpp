@@ -100,7 +100,7 @@ TEST(BenchCommandTest, TheReportHoldsEveryFigureOfTheContractWithTheRatioToItsRe
     }
 
     EXPECT_EQ(valuesOf(report["effects"], "name"),
-              R"(["texture","tone","impact","edge","relief","delay","compensation","exposure guard","signal"])");
+              R"(["texture","tone","impact","edge","relief","clip","delay","compensation","exposure guard","signal"])");
     for (const Json& row : report["effects"]) {
         EXPECT_EQ(row["off"]["runs"], 0) << row["name"];
         EXPECT_GT(row["on"]["runs"], 0) << row["name"];
