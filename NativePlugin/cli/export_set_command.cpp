@@ -68,29 +68,26 @@ public:
     std::vector<float> wave;
 };
 
-std::vector<float> decimated(std::span<const float> loop) {
-    // Twice round, so that the filter's beginning is the loop's end.
-    effects::WaveDecimation decimation(samplesPerFeature);
-    const std::size_t count = loop.size() / samplesPerFeature;
-    std::vector<float> slow;
-    for (std::size_t i = 0; i < 2 * loop.size() + (effects::WaveDecimation::delaySamples + 1) * samplesPerFeature;
-         ++i) {
-        float sample = 0.0F;
-        if (decimation.take(loop[i % loop.size()], sample)) {
-            slow.push_back(sample);
-        }
+/// So many rounds of a loop.
+std::vector<float> repeated(std::span<const float> loop, int rounds) {
+    std::vector<float> wave;
+    for (int round = 0; round < rounds; ++round) {
+        wave.insert(wave.end(), loop.begin(), loop.end());
     }
-    const auto first = slow.begin() + static_cast<std::ptrdiff_t>(count + effects::WaveDecimation::delaySamples);
-    return {first, first + static_cast<std::ptrdiff_t>(count)};
+    return wave;
+}
+
+/// A loop at the features' rate: the second of three rounds, so that the filter knows what is before and after.
+std::vector<float> slowLoop(std::span<const float> loop) {
+    const std::vector<float> slow = effects::decimated(repeated(loop, 3), samplesPerFeature);
+    const auto count = static_cast<std::ptrdiff_t>(loop.size() / samplesPerFeature);
+    return {slow.begin() + count, slow.begin() + 2 * count};
 }
 
 /// What a voice coil plays of a loop: by the loudness law, +-1.
 std::vector<float> onDevice(std::span<const float> loop) {
     effects::DeviceWave device(rateHz);
-    std::vector<float> rounds;
-    for (int round = 0; round < 3; ++round) {
-        rounds.insert(rounds.end(), loop.begin(), loop.end());
-    }
+    std::vector<float> rounds = repeated(loop, 3);
     device.process(rounds);
     const auto delay = static_cast<std::ptrdiff_t>(effects::DeviceWave::latencySeconds * rateHz);
     const auto first = rounds.begin() + static_cast<std::ptrdiff_t>(loop.size()) + delay;
@@ -142,7 +139,7 @@ public:
             std::span(sink.wave).subspan(samples(leadInSeconds), samples(options_.seconds + crossfadeSeconds)),
             samples(options_.seconds - searchSeconds), samples(options_.seconds), samples(crossfadeSeconds),
             samplesPerFeature);
-        std::vector<float> slow = decimated(loop);
+        std::vector<float> slow = slowLoop(loop);
         return {.wave = std::move(loop), .slowWave = std::move(slow)};
     }
 

@@ -70,27 +70,14 @@ std::string textOrEmpty(const char* text) {
     return text == nullptr ? std::string() : std::string(text);
 }
 
-/// The wave at 2 kHz, without the delay of the decimation.
-std::vector<float> decimated(std::span<const float> wave, std::uint32_t sampleRateHz) {
+std::size_t factorOf(std::uint32_t sampleRateHz) {
     constexpr auto featureHz = static_cast<std::uint32_t>(effects::WaveFeatures::sampleRateHz);
     const std::uint32_t factor = sampleRateHz / featureHz;
     if (factor == 0 || factor > effects::WaveDecimation::maximumFactor || sampleRateHz % featureHz != 0) {
         throw std::invalid_argument("options: sample_rate_hz is " + std::to_string(sampleRateHz) +
                                     "; expected a multiple of 2000 up to 192000, or 0 for 2000");
     }
-    effects::WaveDecimation decimation(factor);
-    const std::size_t delay = factor == 1 ? 0 : effects::WaveDecimation::delaySamples;
-    const std::size_t count = wave.size() / factor;
-    std::vector<float> slow;
-    slow.reserve(count + delay);
-    for (std::size_t i = 0; slow.size() < count + delay; ++i) {
-        float sample = 0.0F;
-        if (decimation.take(i < wave.size() ? wave[i] : 0.0F, sample)) {
-            slow.push_back(sample);
-        }
-    }
-    slow.erase(slow.begin(), slow.begin() + static_cast<std::ptrdiff_t>(delay));
-    return slow;
+    return factor;
 }
 
 /// Copies a result of `count` elements to a caller's array, unless the capacity is 0.
@@ -116,7 +103,8 @@ haptoflow_status haptoflow_clip_create(const haptoflow_clip_options* options, ha
         (void)require(clip, "clip");
         const std::size_t count = countOf(given.sample_count, "sample_count");
         const std::span wave(count > 0 ? require(given.wave_mps2, "wave_mps2") : given.wave_mps2, count);
-        const std::vector<float> slow = decimated(wave, given.sample_rate_hz == 0 ? 2000U : given.sample_rate_hz);
+        const std::vector<float> slow =
+            effects::decimated(wave, given.sample_rate_hz == 0 ? 1 : factorOf(given.sample_rate_hz));
         *clip = openClips().open(orRefused([&] {
             return std::make_shared<OpenClip>(clips::ReadClip{
                 .clip = clips::clipOf(slow, {.isLoop = given.is_loop != 0,

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::array<std::string_view, clipFormats> endings{"haptic", "ahap", "hjif"};
 
-/// What follows from it: fingers tell frequencies apart from a fifth on.
+/// 3.5 %, far below the fifth from which on a hand tells frequencies apart.
 constexpr double frequencyToleranceDb = 0.3;
 
 double inPercent(double decibels) noexcept {
@@ -51,7 +51,7 @@ std::string withoutTrailingCommas(std::string_view text) {
     return result;
 }
 
-/// Strongest first where two pieces sound at once.
+/// At each time the strongest piece.
 void joinOverlapping(std::span<const ClipPiece> pieces, HapticClip& clip) {
     std::vector<double> times;
     for (const ClipPiece& piece : pieces) {
@@ -104,15 +104,13 @@ void joinInTurn(std::span<const ClipPiece> pieces, HapticClip& clip) {
     }
 }
 
-/// The longest time that any part of the clip names.
+/// The end of whatever lasts longest.
 double endOf(const HapticClip& clip) {
     double end = 0.0;
     for (const std::vector<ClipPoint>* points : {&clip.amplitude, &clip.frequencyHz}) {
         end = points->empty() ? end : std::max(end, points->back().seconds);
     }
-    // Time for a last transient's two cycles.
-    constexpr double transientSeconds = 0.03;
-    return clip.transients.empty() ? end : std::max(end, clip.transients.back().seconds + transientSeconds);
+    return clip.transients.empty() ? end : std::max(end, clip.transients.back().seconds + pulseSeconds);
 }
 
 }  // namespace

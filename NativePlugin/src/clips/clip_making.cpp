@@ -16,9 +16,6 @@ using effects::WaveFeatures;
 using effects::WaveFrame;
 
 constexpr double frameSeconds = 0.004;
-/// A transient's share of the amplitude, and the time in which players play it; of MPEG-I's reference.
-constexpr double transientSeconds = 0.024;
-constexpr double pulseSeconds = 0.022;
 
 double shareOf(double amplitudeMps2) noexcept {
     return static_cast<double>(
@@ -48,7 +45,7 @@ std::vector<WaveFrame> framesOf(std::span<const float> waveMps2, const ClipMakin
 /// the amplitude with which a player's pulse has the energy that was taken.
 double takeOut(std::vector<ClipPoint>& amplitudeMps2, double onset) {
     const double start = onset - frameSeconds;
-    const double end = onset + transientSeconds;
+    const double end = onset + pulseSeconds;
     const double before = valueAt(amplitudeMps2, start, 0.0);
     const double after = valueAt(amplitudeMps2, end, 0.0);
     double energy = 0.0;

@@ -10,9 +10,6 @@
 namespace haptoflow::clips {
 namespace {
 
-/// As in MPEG-I's reference software (Band), which however plays two cycles in this time whatever the frequency.
-constexpr double transientSeconds = 0.022;
-
 /// The acceleration whose share of a device with amplitude and frequency is this.
 double accelerationOfShare(double share) noexcept {
     constexpr double largestMps2 = 1000.0;
@@ -74,7 +71,7 @@ std::vector<float> render(const HapticClip& clip, double rateHz, double minFrequ
         const double step = onDevice(transient.frequencyHz) / rateHz;
         const double peak = scale(transient.amplitude);
         const auto first = static_cast<std::size_t>(std::ceil(transient.seconds * rateHz));
-        const std::size_t last = std::min(wave.size(), first + static_cast<std::size_t>(transientSeconds * rateHz));
+        const std::size_t last = std::min(wave.size(), first + static_cast<std::size_t>(pulseSeconds * rateHz));
         for (std::size_t i = first; i < last; ++i) {
             wave[i] +=
                 static_cast<float>(peak * std::sin(2.0 * std::numbers::pi * static_cast<double>(i - first) * step));

@@ -73,11 +73,14 @@ private:
 
 [[nodiscard]] double valueAt(std::span<const ClipPoint> points, double seconds, double outside) noexcept;
 
+/// How long a transient is played. MPEG-I's reference software (Band) does so, with two cycles whatever the frequency.
+inline constexpr double pulseSeconds = 0.022;
+
 /// Carrier of a clip that names no frequency, and of its transients.
 inline constexpr double usualFrequencyHz = 160.0;
 
 /// What a device with this range of frequencies plays of a clip, +-1, `rateHz` (2 to 192 kHz) samples a second from the
-/// clip's start to its end: the carrier, whose phase is continuous, and each transient as 22 ms of its frequency.
+/// clip's start to its end: the carrier, whose phase is continuous, and each transient as a pulse of its frequency.
 /// Throws std::invalid_argument for a rate or range out of bounds. Allocates.
 [[nodiscard]] std::vector<float> playedWave(const HapticClip& clip, double rateHz, double minFrequencyHz = 1.0,
                                             double maxFrequencyHz = 1000.0);

@@ -373,4 +373,20 @@ double WaveFeatures::onDevice(double frequencyHz) const noexcept {
     return std::clamp(playedLow * std::pow(frequencyHz / lowestTextureHz, compression), low, high);
 }
 
+std::vector<float> decimated(std::span<const float> wave, std::size_t factor) {
+    WaveDecimation decimation(factor);
+    const std::size_t delay = factor == 1 ? 0 : WaveDecimation::delaySamples;
+    const std::size_t count = wave.size() / factor + delay;
+    std::vector<float> slow;
+    slow.reserve(count);
+    for (std::size_t i = 0; slow.size() < count; ++i) {
+        float sample = 0.0F;
+        if (decimation.take(i < wave.size() ? wave[i] : 0.0F, sample)) {
+            slow.push_back(sample);
+        }
+    }
+    slow.erase(slow.begin(), slow.begin() + static_cast<std::ptrdiff_t>(delay));
+    return slow;
+}
+
 }  // namespace haptoflow::effects

@@ -36,6 +36,10 @@ private:
     std::size_t untilNext_;
 };
 
+/// A whole wave decimated by a factor, without the filter's delay: as many samples as fit. Throws
+/// std::invalid_argument. Allocates.
+[[nodiscard]] std::vector<float> decimated(std::span<const float> wave, std::size_t factor);
+
 /// A sudden rise of the envelope: the onset of a tap or an edge.
 struct WaveTransient {
     /// Time from the start of the frame to the onset, 0 to the frame's length.

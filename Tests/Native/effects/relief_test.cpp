@@ -180,15 +180,8 @@ TEST(ReliefTest, AnotherMaterialUnderTheTipMakesNoStep) {
 
 /// The amplitudes that a motor of one frequency gets for a wave at 48 kHz, one for each frame.
 std::vector<WaveFrame> motorFrames(const std::vector<float>& wave, double frameSeconds) {
-    WaveDecimation decimation(24);
-    std::vector<float> slow;
-    for (const float sample : wave) {
-        float kept = 0.0F;
-        if (decimation.take(sample, kept)) {
-            slow.push_back(kept);
-        }
-    }
-    return framesOf(slow, {.frameSeconds = frameSeconds, .minFrequencyHz = 160.0, .maxFrequencyHz = 160.0});
+    return framesOf(decimated(wave, 24),
+                    {.frameSeconds = frameSeconds, .minFrequencyHz = 160.0, .maxFrequencyHz = 160.0});
 }
 
 TEST(ReliefTest, AMotorTellsGroovesApartThatATipCrossesEveryTenthOfASecond) {
