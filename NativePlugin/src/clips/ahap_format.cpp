@@ -287,6 +287,7 @@ void readAhap(const json& document, ReadClip& read) {
     const std::vector<ClipPoint> intensity = pattern.intensity.whole();
     const std::vector<ClipPoint> sharpness = pattern.sharpness.whole();
     std::vector<ClipPiece> pieces;
+    std::size_t points = 0;
     for (const Event& event : pattern.continuous) {
         if (event.start + event.seconds > HapticClip::longestSeconds) {
             throw ClipError("has an event that ends after " +
@@ -294,6 +295,11 @@ void readAhap(const json& document, ReadClip& read) {
                             std::to_string(std::llround(HapticClip::longestSeconds)) + " s");
         }
         pieces.push_back(pieceOf(event, intensity, sharpness));
+        // Each event has its own copy of the curves above it.
+        points += pieces.back().amplitude.size() + pieces.back().frequencyHz.size();
+        if (points > HapticClip::mostPoints) {
+            throw ClipError("has too many events under its curves");
+        }
     }
     join(std::move(pieces), read.clip);
     for (const Event& event : pattern.transients) {

@@ -64,6 +64,9 @@ void joinOverlapping(std::span<const ClipPiece> pieces, HapticClip& clip) {
     // Times just inside an interval read a jump's value on the right side.
     constexpr double inside = 1e-9;
     std::size_t firstActive = 0;
+    // A file of a few megabytes may lay ten thousands of effects over each other.
+    constexpr std::size_t mostReads = 20'000'000;
+    std::size_t reads = 0;
     for (std::size_t i = 0; i + 1 < times.size(); ++i) {
         while (firstActive < pieces.size() && pieces[firstActive].amplitude.back().seconds <= times[i]) {
             ++firstActive;
@@ -72,6 +75,9 @@ void joinOverlapping(std::span<const ClipPiece> pieces, HapticClip& clip) {
             double strongest = 0.0;
             const ClipPiece* sounding = nullptr;
             for (std::size_t k = firstActive; k < pieces.size() && pieces[k].amplitude.front().seconds < place; ++k) {
+                if (++reads > mostReads) {
+                    throw ClipError("has too many effects at the same time");
+                }
                 if (pieces[k].amplitude.back().seconds < place) {
                     continue;
                 }
@@ -189,6 +195,11 @@ ReadClip readClip(std::string_view text) {
         } else {
             throw ClipError(
                 R"(has none of the keys "signals" (.haptic 1.0), "Pattern" (.ahap) and "perceptions" (.hjif))");
+        }
+        if (read.clip.transients.size() > HapticClip::mostTransients ||
+            std::max(read.clip.amplitude.size(), read.clip.frequencyHz.size()) > HapticClip::mostPoints) {
+            throw ClipError("has more than " + std::to_string(HapticClip::mostTransients) + " transients or " +
+                            std::to_string(HapticClip::mostPoints) + " points");
         }
         std::ranges::stable_sort(read.clip.transients, {}, &ClipTransient::seconds);
         read.clip.durationSeconds = endOf(read.clip);

@@ -45,6 +45,7 @@ struct ClipOrigin {
 struct HapticClip {
     static constexpr double longestSeconds = 600.0;
     static constexpr std::size_t mostPoints = 1'000'000;
+    static constexpr std::size_t mostTransients = 20'000;
 
     double durationSeconds = 0.0;
     /// Shares of the device's range, 0 to 1. The times of a curve do not fall; two equal ones are a jump.

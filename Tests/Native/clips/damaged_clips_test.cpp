@@ -69,6 +69,40 @@ INSTANTIATE_TEST_SUITE_P(
                 "the id of an effect of the library"}),
     [](const auto& each) { return each.param.name; });
 
+/// A list of a text, so many times.
+std::string repeated(const std::string& text, int times) {
+    std::string list;
+    for (int i = 0; i < times; ++i) {
+        list += (i > 0 ? "," : "") + text;
+    }
+    return list;
+}
+
+TEST(CrowdedClip, IsRefusedBeforeItTakesLong) {
+    const std::string longEvent =
+        R"({"Event":{"EventType":"HapticContinuous","Time":0,"EventDuration":600,"EventParameters":[]}})";
+    const std::string curve =
+        R"({"ParameterCurve":{"ParameterID":"HapticIntensityControl","Time":0,"ParameterCurveControlPoints":[
+        {"Time":0,"ParameterValue":0},{"Time":600,"ParameterValue":1}]}})";
+    EXPECT_NE(messageOf(R"({"Pattern":[)" + curve + ',' + repeated(longEvent, 20) + "]}").find("too many events"),
+              std::string::npos);
+    const std::string tap = R"({"Event":{"EventType":"HapticTransient","Time":1}})";
+    EXPECT_NE(messageOf(R"({"Pattern":[)" + repeated(tap, 30'000) + "]}").find("more than 20000 transients"),
+              std::string::npos);
+    std::string effects;
+    for (int i = 0; i < 8'000; ++i) {
+        effects += (i > 0 ? "," : "") + (R"({"effect_type":"Basis","position":)" + std::to_string(i)) +
+                   R"(,"keyframes":[{"relative_position":0,"amplitude_modulation":1},{"relative_position":30000,)"
+                   R"("amplitude_modulation":0}]})";
+    }
+    EXPECT_NE(
+        messageOf(R"({"perceptions":[{"perception_modality":"Vibrotactile","effect_library":[],"channels":[{"gain":1,)"
+                  R"("bands":[{"band_type":"VectorialWave","effects":[)" +
+                  effects + "]}]}]}]}")
+            .find("at the same time"),
+        std::string::npos);
+}
+
 class EveryDamagedFormat : public testing::TestWithParam<ClipFormat> {};
 
 INSTANTIATE_TEST_SUITE_P(Formats, EveryDamagedFormat,
