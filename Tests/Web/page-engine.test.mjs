@@ -92,7 +92,7 @@ describe('the engine in a page', { skip: !hasBrowser }, () => {
     assert.equal(found.aborted, 'aborted');
     assert.equal(found.refused, 'RECORDING_UNUSABLE');
     assert.deepEqual(found.rows.map(({ tier }) => tier), ['sketch', 'draft', 'standard']);
-    assert.deepEqual(found.costs.map(({ effect }) => effect), ['texture', 'impact', 'edge', 'relief', 'delay', 'compensation', 'listen']);
+    assert.deepEqual(found.costs.map(({ effect }) => effect), ['texture', 'impact', 'edge', 'relief', 'clip', 'delay', 'compensation', 'listen']);
     assert.ok(found.costs[0].microsecondsPerBlock > 0);
     assert.ok(found.rows.every(({ hotMs, pacedMs }) => hotMs.median > 0 && pacedMs.median >= hotMs.minimum));
   });

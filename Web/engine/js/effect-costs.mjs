@@ -1,4 +1,5 @@
 import { effectMask, field, fieldCount } from './contact-fields.mjs';
+import { openClip } from './clip.mjs';
 import { makeRelief } from './relief.mjs';
 
 // What each effect adds to a block: a voice plays the same stroke with it and without it, in turns, and the quickest of each
@@ -16,11 +17,15 @@ const texture = { texture: true, impact: false, edge: false, relief: false };
 const ribs = { columns: 128, rows: 1, heightsMetres: Float32Array.from({ length: 128 }, (_, index) => [0, 5e-5, 1e-4, 5e-5][index % 4]), sizeMetres: /** @type {[number, number]} */ ([0.064, 0.064]), depthMetres: 1e-4 };
 const speedMps = 0.15;
 
-/** @type {{effect: string, effects?: object, set?: [string, number], actuator?: string}[]} */
+/** A second of 160 Hz. */
+const clip = JSON.stringify({ version: { major: 1, minor: 0, patch: 0 }, signals: { continuous: { envelopes: { amplitude: [{ time: 0, amplitude: 0.3 }, { time: 1, amplitude: 0.3 }] } } } });
+
+/** @type {{effect: string, effects?: object, set?: [string, number], actuator?: string, clip?: string}[]} */
 const subjects = [
   { effect: 'impact', effects: { ...texture, impact: true } },
   { effect: 'edge', effects: { ...texture, edge: true } },
   { effect: 'relief', effects: { ...texture, relief: true } },
+  { effect: 'clip', clip },
   { effect: 'delay', set: ['delay', 0.02] },
   { effect: 'compensation', actuator: 'voice-coil' },
   { effect: 'listen', set: ['listen', 1] },
@@ -79,6 +84,8 @@ export function measureEffects(core) {
   const rows = subjects.map((subject) => {
     const voice = player.open(subject);
     const mask = effectMask(subject.effects ?? texture);
+    const loop = subject.clip ? openClip(core, subject.clip) : 0;
+    if (loop !== 0) core.call('hapto_voice_play_clip', voice, loop, 1, 1);
     player.play(voice, mask);
     let [off, on] = [Infinity, Infinity];
     for (let run = 0; run < runs; run += 1) {
@@ -87,6 +94,7 @@ export function measureEffects(core) {
     }
     own = Math.min(own, off);
     core.call('hapto_voice_destroy', voice);
+    if (loop !== 0) core.call('hapto_clip_close', loop);
     return { effect: subject.effect, microsecondsPerBlock: Math.max(0, on - off) * perBlock };
   });
   core.call('hapto_engine_close');

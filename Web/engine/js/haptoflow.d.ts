@@ -204,7 +204,7 @@ export interface EffectStatistics {
   readonly runs: number;
   /** Their time together; 0 with shared memory for all but the texture: the audio thread has no clock. See `measureEffects`. */
   readonly microseconds: number;
-  /** Impacts or edges that sounded. */
+  /** Impacts or edges that sounded; starts of clips. */
   readonly events: number;
 }
 
@@ -232,7 +232,7 @@ export interface VoiceStatistics {
   readonly resumptions: number;
   /** Blocks that came too late through the ring; 0 with shared memory. */
   readonly ringUnderruns: number;
-  readonly effects: Readonly<Record<'texture' | 'impact' | 'edge' | 'relief' | 'delay' | 'compensation' | 'listen', EffectStatistics>>;
+  readonly effects: Readonly<Record<'texture' | 'impact' | 'edge' | 'relief' | 'clip' | 'delay' | 'compensation' | 'listen', EffectStatistics>>;
 }
 
 export interface TierTimes {
@@ -344,6 +344,13 @@ export interface Voice {
   lift(): void;
   /** Silences this touch at once; the next one sounds. */
   panic(): void;
+  /**
+   * Plays a clip beside the texture, with or without contact, once or until another one or `stopClip`: at once, except that an
+   * engine first loads a clip which it has not, in some milliseconds for each second of it. Needs states, of a tip in the air
+   * too: without them, and by mute, pause, panic and a fault, it ends. A voice plays one clip at a time. `gain` is 0 to 4.
+   */
+  playClip(clip: Clip, options?: { gain?: number; isLoop?: boolean }): Promise<void>;
+  stopClip(): void;
   statistics(): VoiceStatistics;
   /** `seconds` is how much it remembers, up to 60; 2 unless given. */
   waveTap(options?: { seconds?: number }): WaveTap;
@@ -446,6 +453,8 @@ export interface Render {
   /** What `haptoflow render` writes, within 1e-6 of its peak. */
   readonly samples: Float32Array;
   readonly rateHz: number;
+  /** What +-1 is. */
+  readonly fullScaleMps2: number;
   readonly tier: string;
   readonly seconds: number;
   readonly touches: number;
@@ -453,6 +462,56 @@ export interface Render {
   readonly segments: number;
   readonly inferenceMsMedian: number;
   readonly inferenceMsP99: number;
+}
+
+/** `.haptic` 1.0.0 of Meta, `.ahap` of Apple, `.hjif` of MPEG-I; Documentation~/effects-and-outputs.md says what each loses. */
+export type ClipFormat = 'haptic' | 'ahap' | 'hjif';
+
+/** A wave, at most 600 s; a `Render` has what it needs. */
+export interface ClipOptions {
+  samples: Float32Array;
+  /** 8000 to 192000. */
+  rateHz: number;
+  /** What +-1 is; the engine's unless given, else 200. 1 for samples in m/s^2. */
+  fullScaleMps2?: number;
+  /** The wave goes on at its beginning. */
+  isLoop?: boolean;
+  /** What files say of the clip. */
+  title?: string;
+  description?: string;
+  source?: string;
+}
+
+/** A short, sudden pulse: a tap or an edge. */
+export interface ClipTransient {
+  readonly timeSeconds: number;
+  /** Share of a device's range, 0 to 1. */
+  readonly amplitude: number;
+  readonly frequencyHz: number;
+}
+
+/** A vibration as other tools and devices play it. Data alone: it may be copied, and any engine plays it. */
+export interface Clip {
+  readonly format: ClipFormat;
+  readonly seconds: number;
+  readonly amplitudePoints: number;
+  readonly frequencyPoints: number;
+  readonly transients: readonly ClipTransient[];
+  /** Evenly from the clip's start to its end, about every 4 ms: shares of a device's range, 0 to 1. */
+  readonly amplitude: Float32Array;
+  /** At the same times. */
+  readonly frequencyHz: Float32Array;
+  readonly largestAmplitude: number;
+  readonly title: string;
+  readonly description: string;
+  /** The program that wrote it. */
+  readonly editor: string;
+  /** In words, what the file has and the clip has not; empty for nothing. */
+  readonly omitted: string;
+  /** What is played: the text that was read; of a wave, that of its .haptic file. */
+  readonly text: string;
+  /** The clip written in each format. */
+  readonly files: Readonly<Record<ClipFormat, string>>;
 }
 
 export interface RecordingFile {
@@ -553,7 +612,7 @@ export interface Measurement {
 
 /** What one effect costs on this device. */
 export interface EffectMeasurement {
-  readonly effect: 'texture' | 'impact' | 'edge' | 'relief' | 'delay' | 'compensation' | 'listen';
+  readonly effect: 'texture' | 'impact' | 'edge' | 'relief' | 'clip' | 'delay' | 'compensation' | 'listen';
   /** Added to a block of 128 frames by this effect alone; the texture's is that of a voice with nothing else. */
   readonly microsecondsPerBlock: number;
 }
@@ -595,6 +654,12 @@ export class HaptoFlow extends EventTarget {
   addMaterial(material: string | object): Promise<Label>;
   /** Makes a relief of heights, for any number of surfaces, scenes and states. Takes about 0.1 s for 10^6 texels. */
   createRelief(options: ReliefOptions | ReliefImageOptions): Promise<Relief>;
+  /** Makes a clip of a wave, such as a render's or a wave tap's, in a worker of its own. @throws HaptoFlowError */
+  createClip(options: ClipOptions): Promise<Clip>;
+  /** Reads the text of a .haptic, .ahap or .hjif file, at most 16 MiB and 600 s, in a worker of its own. @throws HaptoFlowError that names the key */
+  readClip(text: string): Promise<Clip>;
+  /** Frees what this engine keeps of a clip that it has played; it may be played again. A voice that plays it plays on. */
+  forgetClip(clip: Clip): void;
   /** Reads SCENE.json, text or object; `loadReliefs` then loads the images of its reliefs. Throws HaptoFlowError that names the key. */
   loadScene(scene: string | object): Scene;
   /**

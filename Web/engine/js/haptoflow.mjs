@@ -1,4 +1,5 @@
 import { usableContext } from './audio-context.mjs';
+import { requireWave } from './clip.mjs';
 import { LabelIndices } from './contact-fields.mjs';
 import { asHaptoFlowError, HaptoFlowError, requireNotAborted } from './errors.mjs';
 import { engineModule, modelBytes, placesOf } from './files.mjs';
@@ -91,6 +92,8 @@ export class HaptoFlow extends EventTarget {
   /** @type {Map<number, number>} */
   #reliefNumbers = new Map();
   #newestRelief = 0;
+  /** What the present engine has of clips. @type {WeakMap<import('./haptoflow.d.ts').Clip, {address: number, loaded: Promise<number>}>} */
+  #clips = new WeakMap();
   /** @type {Quality} */
   #quality;
   /** @type {any} the worker's last statistics */
@@ -277,6 +280,8 @@ export class HaptoFlow extends EventTarget {
       fullScaleMps2: this.#options.fullScaleMps2 ?? 200,
       live: () => this.#live,
       reliefNumber: (number) => this.#reliefNumbers.get(number) ?? 0,
+      clipAddress: (clip) => this.#clips.get(clip)?.address ?? 0,
+      loadClip: (clip) => this.#loadClip(clip),
       onFault: (error) => void this.#recover(error),
       forget: (closed) => {
         this.#voices.delete(closed);
@@ -320,6 +325,40 @@ export class HaptoFlow extends EventTarget {
     this.#reliefs.delete(relief.number);
     this.#reliefNumbers.delete(relief.number);
     if (number !== undefined) this.#live.tell({ type: 'destroy-relief', number });
+  }
+
+  /** @param {import('./haptoflow.d.ts').ClipOptions} options @returns {Promise<import('./haptoflow.d.ts').Clip>} */
+  async createClip(options) {
+    requireWave(options);
+    return runTask('clip', { ...this.#taskOptions, wave: { fullScaleMps2: this.#options.fullScaleMps2, ...options } });
+  }
+
+  /** @param {string} text @returns {Promise<import('./haptoflow.d.ts').Clip>} */
+  async readClip(text) {
+    return runTask('clip', { ...this.#taskOptions, text: String(text) });
+  }
+
+  async #loadClip(/** @type {import('./haptoflow.d.ts').Clip} */ clip) {
+    this.#requireOpen();
+    await this.#recovering;
+    let found = this.#clips.get(clip);
+    if (!found) {
+      const made = { address: 0, loaded: this.#live.ask({ type: 'clip', text: clip.text }) };
+      found = made;
+      this.#clips.set(clip, made);
+      made.loaded.then((address) => {
+        made.address = address;
+      }, () => this.#clips.delete(clip));
+    }
+    return found.loaded;
+  }
+
+  /** @param {import('./haptoflow.d.ts').Clip} clip */
+  forgetClip(clip) {
+    const live = this.#live;
+    const found = this.#clips.get(clip);
+    this.#clips.delete(clip);
+    found?.loaded.then((address) => live.tell({ type: 'close-clip', clip: address }), () => {});
   }
 
   /** @param {string | object} scene */
@@ -481,7 +520,9 @@ export class HaptoFlow extends EventTarget {
 
   async #startAgain() {
     this.#live.end();
+    for (const voice of this.#voices) voice.lose();
     this.#reliefNumbers.clear();
+    this.#clips = new WeakMap();
     this.#live = this.#newLive();
     await this.#live.start({ model: this.#modelBytes, options: this.#engineOptions, onProgress: () => {} });
     // In the order of their indices, which scenes hold.

@@ -1,3 +1,4 @@
+import { openClip } from './clip.mjs';
 import { Core, createMemory } from './module.mjs';
 import { asHaptoFlowError, plainError } from './errors.mjs';
 import { makeRelief } from './relief.mjs';
@@ -75,6 +76,9 @@ class LiveWorker {
       case 'material': return this.#addMaterial(request);
       case 'relief': return makeRelief(this.core, request.relief);
       case 'destroy-relief': return this.core.call('hapto_relief_destroy', request.number);
+      case 'clip': return openClip(this.core, request.text);
+      case 'close-clip': return this.core.call('hapto_clip_close', request.clip);
+      case 'play-clip': return this.core.call('hapto_voice_play_clip', request.voice, request.clip, request.gain, request.isLoop ? 1 : 0);
       case 'open-voice': return this.#openVoice(request);
       case 'close-voice': return this.#closeVoice(request.voice);
       case 'ring': return this.#lengthenRing(request);

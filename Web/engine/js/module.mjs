@@ -177,16 +177,25 @@ export class Core {
   }
 
   /**
+   * Calls a function that returns a text.
+   * @param {string} name
+   * @param {...(number | string)} values
+   */
+  text(name, ...values) {
+    return this.#with(values, (numbers) => {
+      const address = this.exports[name](...numbers);
+      if (address === 0) throw this.#error();
+      return this.textAt(address);
+    });
+  }
+
+  /**
    * Calls a function that returns JSON.
    * @param {string} name
    * @param {...(number | string)} values
    */
   json(name, ...values) {
-    return this.#with(values, (numbers) => {
-      const address = this.exports[name](...numbers);
-      if (address === 0) throw this.#error();
-      return JSON.parse(this.textAt(address));
-    });
+    return JSON.parse(this.text(name, ...values));
   }
 
   #with(/** @type {(number | string)[]} */ values, /** @type {(numbers: number[]) => any} */ action) {

@@ -1,4 +1,5 @@
 import { readFile } from 'node:fs/promises';
+import { createClip, readClip } from './clip.mjs';
 import { learn, offlineCore, render } from './offline.mjs';
 import { startRuntimeFrom } from './runtime.mjs';
 
@@ -23,5 +24,7 @@ export async function openOffline({ model, onProgress } = {}) {
     model: core.json('hapto_model_json'),
     render: (/** @type {any} */ options) => render(core, options),
     learn: (/** @type {any} */ options) => learn(core, options),
+    createClip: (/** @type {any} */ options) => createClip(core, options),
+    readClip: (/** @type {string} */ text) => readClip(core, text),
   };
 }

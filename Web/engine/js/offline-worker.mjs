@@ -1,3 +1,4 @@
+import { createClip, readClip } from './clip.mjs';
 import { plainError } from './errors.mjs';
 import { measureEffects } from './effect-costs.mjs';
 import { Core, createMemory } from './module.mjs';
@@ -14,6 +15,12 @@ globalThis.onmessage = async (/** @type {MessageEvent<any>} */ { data: { module,
     if (task === 'heights') {
       const heights = heightsOfNormals(new Core(module, { memory: createMemory({ isLarge: true }), mayWait: true }), options.map);
       postMessage({ result: heights }, { transfer: [/** @type {ArrayBuffer} */ (heights.buffer)] });
+      return;
+    }
+    if (task === 'clip') {
+      const core = new Core(module, { memory: createMemory({ isLarge: true }), mayWait: true });
+      const clip = options.text === undefined ? createClip(core, options.wave) : readClip(core, options.text);
+      postMessage({ result: clip }, { transfer: [/** @type {ArrayBuffer} */ (clip.amplitude.buffer), /** @type {ArrayBuffer} */ (clip.frequencyHz.buffer)] });
       return;
     }
     const core = offlineCore({ module, model, runtime: await startRuntime(onnxRuntime), onProgress });

@@ -69,7 +69,7 @@ export function render(core, options) {
       delaySeconds: delayMs / 1000,
     }));
     const first = core.exports.hapto_samples() >> 2;
-    return { ...figures, samples: core.f32.slice(first, first + core.exports.hapto_sample_count()) };
+    return { ...figures, fullScaleMps2, samples: core.f32.slice(first, first + core.exports.hapto_sample_count()) };
   } finally {
     for (const { number } of laid) core.call('hapto_relief_destroy', number);
   }

@@ -4,7 +4,7 @@ import { startWorker } from './start-worker.mjs';
 
 /**
  * Runs a task of offline.mjs in a worker of its own, which a signal ends at once.
- * @param {'render' | 'learn' | 'measure' | 'effects' | 'heights'} task
+ * @param {'render' | 'learn' | 'measure' | 'effects' | 'heights' | 'clip'} task
  * @param {any} options
  * @returns {Promise<any>}
  */

@@ -23,6 +23,8 @@ const fadeMs = 30;
  * @property {number} fullScaleMps2
  * @property {() => import('./live.mjs').Live} live
  * @property {(number: number) => number} reliefNumber the present engine's number of a relief; 0 for none
+ * @property {(clip: import('./haptoflow.d.ts').Clip) => number} clipAddress in the present engine; 0 until it is loaded
+ * @property {(clip: import('./haptoflow.d.ts').Clip) => Promise<number>} loadClip
  * @property {(error: HaptoFlowError) => void} onFault
  * @property {(voice: Voice) => void} forget
  */
@@ -51,6 +53,8 @@ export class Voice {
   #grownMs = -Infinity;
   #isClosed = false;
   #isTouching = false;
+  /** Of a clip that loads, only the newest wish is fulfilled. */
+  #clipWishes = 0;
   /** @type {any} what the worker told last, without shared memory */
   lastStatistics = null;
 
@@ -72,6 +76,12 @@ export class Voice {
 
   get isClosed() {
     return this.#isClosed;
+  }
+
+  /** Its engine is lost: until `attach`, what it knows of that engine's memory would be written into the next one's. */
+  lose() {
+    this.#index = -1;
+    this.#address = 0;
   }
 
   /** Makes the voice in the present engine; after a fault, again. */
@@ -137,6 +147,8 @@ export class Voice {
   }
 
   #tellSetting(/** @type {string} */ name, /** @type {number} */ value) {
+    // `attach` sets them all.
+    if (this.#index < 0) return;
     const live = this.#host.live();
     if (live.core) live.core.call('hapto_voice_set', this.#index, name, value);
     else live.tell({ type: 'set', voice: this.#index, name, value });
@@ -166,6 +178,7 @@ export class Voice {
   set actuator(profile) {
     this.#requireOpen();
     this.#actuator = profile;
+    if (this.#index < 0) return;
     this.#host.live().ask({ type: 'actuator', voice: this.#index, profile }).catch((error) => this.#host.onFault(asHaptoFlowError(error)));
   }
 
@@ -180,6 +193,7 @@ export class Voice {
   /** Publishes the fields that begin at `first`. @param {Float64Array} numbers @param {number} [first] */
   publishFields(numbers, first = 0) {
     this.#isTouching = numbers[first + field.touching] !== 0;
+    if (this.#index < 0) return;
     const { core } = this.#host.live();
     if (core) {
       const shared = core.f64;
@@ -188,7 +202,7 @@ export class Voice {
       for (let index = 0; index < fieldCount; index += 1) shared[at + index] = numbers[first + index];
       shared[at + field.relief] = this.#host.reliefNumber(numbers[first + field.relief]);
       core.exports.hapto_voice_publish(this.#index, this.#address);
-    } else if (this.#index >= 0) {
+    } else {
       const fields = numbers.slice(first, first + fieldCount);
       fields[field.relief] = this.#host.reliefNumber(fields[field.relief]);
       this.#host.live().tell({ type: 'publish', voice: this.#index, fields });
@@ -206,6 +220,33 @@ export class Voice {
     this.#tellSetting('panic', 1);
   }
 
+  /** @param {import('./haptoflow.d.ts').Clip} clip @param {{gain?: number, isLoop?: boolean}} [options] */
+  async playClip(clip, { gain = 1, isLoop = false } = {}) {
+    this.#requireOpen();
+    if (!(gain >= 0 && gain <= 4)) throw new HaptoFlowError('invalid-argument', `gain is ${gain}; expected 0 to 4`);
+    this.#clipWishes += 1;
+    const wish = this.#clipWishes;
+    let address = this.#host.clipAddress(clip);
+    if (address === 0) {
+      address = await this.#host.loadClip(clip);
+      if (wish !== this.#clipWishes || this.#isClosed) return;
+    }
+    this.#tellClip(address, gain, isLoop);
+  }
+
+  stopClip() {
+    this.#requireOpen();
+    this.#clipWishes += 1;
+    this.#tellClip(0, 0, false);
+  }
+
+  #tellClip(/** @type {number} */ clip, /** @type {number} */ gain, /** @type {boolean} */ isLoop) {
+    if (this.#index < 0) return;
+    const live = this.#host.live();
+    if (live.core) live.core.call('hapto_voice_play_clip', this.#index, clip, gain, isLoop ? 1 : 0);
+    else live.tell({ type: 'play-clip', voice: this.#index, clip, gain, isLoop });
+  }
+
   /** Of the newest state. */
   get isTouching() {
     return this.#isTouching;
@@ -216,7 +257,7 @@ export class Voice {
     const { context } = this.#host;
     if (context.state !== 'running') return 'context';
     const { core } = this.#host.live();
-    const number = core ? core.call('hapto_voice_silence', this.#index) : (this.lastStatistics?.silence ?? 1);
+    const number = core && this.#index >= 0 ? core.call('hapto_voice_silence', this.#index) : (this.lastStatistics?.silence ?? 1);
     return silenceNames[number] ?? 'rest';
   }
 
@@ -224,7 +265,7 @@ export class Voice {
   statistics() {
     this.#requireOpen();
     const { core } = this.#host.live();
-    const found = core ? core.json('hapto_voice_statistics', this.#index) : this.lastStatistics;
+    const found = core && this.#index >= 0 ? core.json('hapto_voice_statistics', this.#index) : this.lastStatistics;
     return { ...found, silence: this.silence, ringUnderruns: this.#ringUnderruns };
   }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -31,13 +32,6 @@ Struct sized() {
     Struct content{};
     content.struct_size = sizeof(Struct);
     return content;
-}
-
-haptoflow_engine* theEngine() {
-    if (openEngine == nullptr) {
-        throw WebError("closed", "the engine is closed");
-    }
-    return openEngine;
 }
 
 engine::LiveEngine& live() {
@@ -158,6 +152,13 @@ haptoflow_model* theModel() {
         throw WebError("closed", "no model is open");
     }
     return openModel;
+}
+
+haptoflow_engine* theEngine() {
+    if (openEngine == nullptr) {
+        throw WebError("closed", "the engine is closed");
+    }
+    return openEngine;
 }
 
 haptoflow_runtime* theRuntime() {
@@ -419,6 +420,16 @@ HAPTO_EXPORT HAPTO_NAMED("hapto_voice_set_actuator") int hapto_voice_set_actuato
     });
 }
 
+/// Plays a clip of this memory, or ends the one that plays, for 0.
+HAPTO_EXPORT HAPTO_NAMED("hapto_voice_play_clip") int hapto_voice_play_clip(int index, int clip, double gain,
+                                                                            int isLoop) {
+    return guarded([&] {
+        const auto* address = reinterpret_cast<const haptoflow_clip*>(static_cast<std::uintptr_t>(clip));
+        require(haptoflow_voice_play_clip(voiceAt(index), address, static_cast<float>(gain), isLoop != 0 ? 1 : 0));
+        return 0;
+    });
+}
+
 /// The haptoflow_silence of the newest block.
 HAPTO_EXPORT HAPTO_NAMED("hapto_voice_silence") int hapto_voice_silence(int index) {
     return guarded([&] {
@@ -457,6 +468,7 @@ HAPTO_EXPORT HAPTO_NAMED("hapto_voice_statistics") const char* hapto_voice_stati
                          {"impact", effectJson(voice, HAPTOFLOW_EFFECT_IMPACT)},
                          {"edge", effectJson(voice, HAPTOFLOW_EFFECT_EDGE)},
                          {"relief", effectJson(voice, HAPTOFLOW_EFFECT_RELIEF)},
+                         {"clip", effectJson(voice, HAPTOFLOW_EFFECT_CLIP)},
                          {"delay", effectJson(voice, HAPTOFLOW_EFFECT_DELAY)},
                          {"compensation", effectJson(voice, HAPTOFLOW_EFFECT_COMPENSATION)},
                          {"listen", effectJson(voice, HAPTOFLOW_EFFECT_LISTEN)}}}});
