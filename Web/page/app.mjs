@@ -4,7 +4,8 @@ import { Hand } from './table/hand.mjs';
 import { presetStrokes } from './table/preset-strokes.mjs';
 import { Tip } from './table/tip.mjs';
 import { fittedTo, forgetModel, isModel, keptModel } from './model-file.mjs';
-import { deviceSentences, Messages, sentenceOf, silenceSentence } from './messages.mjs';
+import { deviceSentences, materialWords, Messages, sentenceOf, silenceSentence } from './messages.mjs';
+import { ClipPanel, isClip } from './panels/clip.mjs';
 import { ComparePanel } from './panels/compare.mjs';
 import { DevicePanel } from './panels/device.mjs';
 import { EffectsPanel } from './panels/effects.mjs';
@@ -134,7 +135,8 @@ class Page {
       play: () => this.#playOver(Math.max(0, view.selected)),
     });
     this.recorder = new Recorder(tips);
-    this.record = new RecordPanel(this.recorder, () => this.#recorded(), () => reliefs.changes);
+    this.record = new RecordPanel(this.recorder, haptics, () => this.#recorded(), () => reliefs.changes);
+    this.clip = new ClipPanel(haptics, tips[0]);
     this.relief = new ReliefPanel({
       reliefs,
       mostTexels: HaptoFlow.mostTexels,
@@ -198,10 +200,13 @@ class Page {
     this.relief.refresh();
   }
 
-  /** Pictures become reliefs, of what they are dropped on, and models play. Returns whether the files were any. */
+  /** Clips are shown, pictures become reliefs, of what they are dropped on, and models play. Returns whether the files were any. */
   #takeDropped(/** @type {File[]} */ files, /** @type {DragEvent} */ event) {
     const picture = files.find(isPicture);
-    if (picture) {
+    const clip = files.find(isClip);
+    if (clip) {
+      void this.clip.take(clip);
+    } else if (picture) {
       if (event.target === find('#table')) {
         const { x, z } = this.view.placeOf(event);
         this.#select(this.table.at(x, z));
@@ -238,9 +243,7 @@ class Page {
 
   /** Title and material of an object. */
   #nameOf(/** @type {number} */ index) {
-    const material = this.table.materials[index];
-    const words = typeof material === 'string' ? material : Object.entries(material).map(([label, share]) => `${Math.round(100 * share)} % ${label}`).join(' and ');
-    return `${this.titleOf(index)} · ${words}`;
+    return `${this.titleOf(index)} · ${materialWords(this.table.materials[index])}`;
   }
 
   #makePresets() {
@@ -368,6 +371,7 @@ class Page {
       this.#drawSignal(nowMs);
       this.outputs.frame(nowMs);
       this.record.frame();
+      this.clip.frame();
       const name = this.#showReading();
       if (name !== '' && name !== lastName && nowMs - announced > announceEveryMs) {
         find('#announce').textContent = name;

@@ -49,6 +49,9 @@ const reasonOf = (why) => {
   return `the browser fails at it (${String(why?.message ?? why).replace(/\.$/, '')})`;
 };
 
+/** @param {import('../engine/js/haptoflow.d.ts').Material} material */
+export const materialWords = (material) => (typeof material === 'string' ? material : Object.entries(material).map(([label, share]) => `${Math.round(100 * share)} % ${label}`).join(' and '));
+
 /** The message for a silence; empty where there is nothing to say. @param {string} reason */
 export const silenceSentence = (reason) => silences[reason] ?? '';
 

@@ -1,7 +1,7 @@
-import { wavBytes } from './wav.mjs';
 import { strokeTable } from './stroke-table.mjs';
 
-const longestSeconds = 600;
+/** A clip's longest, too. */
+export const longestSeconds = 600;
 
 /** Records what tips do and what is heard, until it is stopped. */
 export class Recorder {
@@ -32,7 +32,10 @@ export class Recorder {
     this.#began = performance.now();
     this.#taps = this.#tips.map(({ voice }) => voice.waveTap({ seconds: 20 }));
     this.#chunks = this.#tips.map(() => []);
-    for (const tip of this.#tips) tip.rows = [];
+    for (const tip of this.#tips) {
+      tip.rows = [];
+      tip.touched.clear();
+    }
     // A hidden page's timers come once a second.
     this.#timer = setInterval(() => this.#collect(), 200);
   }
@@ -51,7 +54,7 @@ export class Recorder {
 
   /**
    * Ends the recording.
-   * @returns {{wav: Uint8Array, seconds: number, strokes: string[]}} strokes: STROKE.csv of each tip that moved
+   * @returns {{samples: Float32Array, rateHz: number, seconds: number, strokes: string[], materials: string[]}} strokes: STROKE.csv of each tip that moved; materials: what was touched
    */
   stop() {
     this.#collect();
@@ -73,6 +76,7 @@ export class Recorder {
     for (const tip of this.#tips) tip.rows = null;
     this.#taps = [];
     this.#chunks = [];
-    return { wav: wavBytes(samples, rateHz), seconds: samples.length / rateHz, strokes };
+    const materials = [...new Set(this.#tips.flatMap(({ touched }) => [...touched]))];
+    return { samples, rateHz, seconds: samples.length / rateHz, strokes, materials };
   }
 }

@@ -1,3 +1,4 @@
+import { materialWords } from '../messages.mjs';
 import { airMetres } from './table.mjs';
 
 // One tip: places and forces go in, contact states go to its voice, and rows to a recording.
@@ -18,6 +19,8 @@ export class Tip {
   isDown = false;
   /** The stroke that is being recorded; null while none is. @type {import('../stroke-table.mjs').StrokeRow[] | null} */
   rows = null;
+  /** Materials that it has touched since somebody emptied this. @type {Set<string>} */
+  touched = new Set();
   /** @type {import('../../engine/js/haptoflow.d.ts').SceneContact | null} */
   contact = null;
   /** Who holds the tip: a pointer's number, "keys" or "preset". @type {number | string | null} */
@@ -34,6 +37,7 @@ export class Tip {
     this.#last = Math.max(this.#last, timeSeconds);
     const sample = { timeSeconds: this.#last, positionMetres: /** @type {[number, number, number]} */ (position), forceNewtons };
     this.contact = publishes ? this.#scene.publish(this.voice, sample) : this.#scene.update(sample);
+    if (publishes && this.contact.touching && this.contact.material !== undefined) this.touched.add(materialWords(this.contact.material));
     this.rows?.push({ ...sample, positionMetres: [...position], orientation });
   }
 
