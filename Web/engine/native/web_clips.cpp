@@ -36,9 +36,8 @@ int addressOf(const haptoflow_clip* clip) {
 }  // namespace
 
 HAPTO_EXPORT HAPTO_NAMED("hapto_clip_create") int hapto_clip_create(const float* waveMps2, std::uint32_t count,
-                                                                    std::uint32_t rateHz, int isLoop,
-                                                                    const char* title, const char* description,
-                                                                    const char* source) {
+                                                                    std::uint32_t rateHz, int isLoop, const char* title,
+                                                                    const char* description, const char* source) {
     return guarded([&] {
         haptoflow_clip_options options{};
         options.struct_size = sizeof(options);
@@ -90,8 +89,8 @@ HAPTO_EXPORT HAPTO_NAMED("hapto_clip_json") const char* hapto_clip_json(int addr
 }
 
 /// The transients of a clip file's text, which the C interface only counts.
-HAPTO_EXPORT HAPTO_NAMED("hapto_clip_transients") const char* hapto_clip_transients(const char* text,
-                                                                                    std::uint32_t length) {
+HAPTO_EXPORT HAPTO_NAMED("hapto_clip_transients") const
+    char* hapto_clip_transients(const char* text, std::uint32_t length) {
     return guardedText([&] {
         json transients = json::array();
         for (const clips::ClipTransient& each : clips::readClip({text, length}).clip.transients) {
