@@ -13,29 +13,65 @@
 
 namespace haptoflow::model {
 
-nlohmann::json parseBoundedJson(std::string_view text, std::string_view document) {
-    const std::string name(document);
-    // The keys of every object that is open; an array has none. Depth and keys are checked before a value is built.
-    std::vector<std::unordered_set<std::string>> open;
-    const auto check = [&](int /*depth*/, nlohmann::json::parse_event_t event, nlohmann::json& parsed) {
-        using Event = nlohmann::json::parse_event_t;
-        if (event == Event::object_start || event == Event::array_start) {
-            if (open.size() >= static_cast<std::size_t>(maximumJsonDepth)) {
-                throw ModelError(ModelStatus::oversized,
-                                 name + " nests deeper than " + std::to_string(maximumJsonDepth) + " levels");
-            }
-            open.emplace_back();
-        } else if (event == Event::object_end || event == Event::array_end) {
-            open.pop_back();
-        } else if (event == Event::key && !open.back().insert(parsed.get<std::string>()).second) {
-            throw ModelError(
-                ModelStatus::inconsistent,
-                name + " names the key \"" + parsed.get<std::string>().substr(0, 64) + "\" twice in one object");
+namespace {
+
+/// Throws at a document that nests too deeply or repeats a key, before a value is built. nlohmann's parse callback
+/// could say both, but its time grows with the square of an array's length.
+class Bounds final : public nlohmann::json_sax<nlohmann::json> {
+public:
+    explicit Bounds(std::string document) : document_(std::move(document)) {}
+
+    bool start_object(std::size_t /*elements*/) override { return open(); }
+    bool start_array(std::size_t /*elements*/) override { return open(); }
+    bool end_object() override { return close(); }
+    bool end_array() override { return close(); }
+    bool key(string_t& name) override {
+        if (!open_.back().insert(name).second) {
+            throw ModelError(ModelStatus::inconsistent,
+                             document_ + " names the key \"" + name.substr(0, 64) + "\" twice in one object");
         }
         return true;
-    };
+    }
+    bool null() override { return true; }
+    bool boolean(bool /*value*/) override { return true; }
+    bool number_integer(number_integer_t /*value*/) override { return true; }
+    bool number_unsigned(number_unsigned_t /*value*/) override { return true; }
+    bool number_float(number_float_t /*value*/, const string_t& /*text*/) override { return true; }
+    bool string(string_t& /*value*/) override { return true; }
+    bool binary(binary_t& /*value*/) override { return true; }
+    /// The parser that builds the value says it.
+    bool parse_error(std::size_t /*position*/, const std::string& /*token*/,
+                     const nlohmann::detail::exception& /*error*/) override {
+        return false;
+    }
+
+private:
+    bool open() {
+        if (open_.size() >= static_cast<std::size_t>(maximumJsonDepth)) {
+            throw ModelError(ModelStatus::oversized,
+                             document_ + " nests deeper than " + std::to_string(maximumJsonDepth) + " levels");
+        }
+        open_.emplace_back();
+        return true;
+    }
+    bool close() {
+        open_.pop_back();
+        return true;
+    }
+
+    std::string document_;
+    // The keys of every object that is open; an array has none.
+    std::vector<std::unordered_set<std::string>> open_;
+};
+
+}  // namespace
+
+nlohmann::json parseBoundedJson(std::string_view text, std::string_view document) {
+    const std::string name(document);
+    Bounds bounds(name);
+    (void)nlohmann::json::sax_parse(text, &bounds);
     try {
-        return nlohmann::json::parse(text, check);
+        return nlohmann::json::parse(text);
     } catch (const nlohmann::json::parse_error& error) {
         throw ModelError(ModelStatus::damaged, name + " is not valid JSON at its byte " + std::to_string(error.byte));
     } catch (const nlohmann::json::exception&) {
