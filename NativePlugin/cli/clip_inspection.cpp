@@ -1,5 +1,4 @@
 #include "clip_output.hpp"
-#include "effects/carrier_rendering.hpp"
 #include "effects/wave_features.hpp"
 #include "headless/command_files.hpp"
 #include "messages.hpp"
@@ -22,18 +21,6 @@ namespace {
 using clips::ClipPoint;
 using clips::HapticClip;
 
-/// The resonance of a common motor with one frequency.
-constexpr double motorHz = 160.0;
-
-/// How far the motor's rendering is from the clip in perceived intensity, over what is felt.
-effects::IntensityErrors motorErrors(const HapticClip& clip) {
-    const effects::WaveFeatureOptions motor{
-        .frameSeconds = 0.008, .minFrequencyHz = motorHz, .maxFrequencyHz = motorHz};
-    const std::vector<float> wave = clips::waveOf(clip, effects::WaveFeatures::sampleRateHz);
-    return effects::intensityErrors(
-        wave, effects::renderCarrier(effects::framesOf(wave, motor), effects::CarrierShape::held), motor);
-}
-
 std::pair<double, double> rangeOf(const std::vector<ClipPoint>& points) {
     if (points.empty()) {
         return {};
@@ -42,7 +29,7 @@ std::pair<double, double> rangeOf(const std::vector<ClipPoint>& points) {
     return {lowest->value, highest->value};
 }
 
-/// The amplitude over time as a row of blocks, each as high as the largest amplitude in its part.
+/// Draws the amplitude over time as a row of blocks. Each is as high as the largest amplitude of its stretch of time.
 std::string amplitudeRow(const HapticClip& clip, std::size_t columns) {
     static constexpr std::array<const char*, 9> blocks{" ", "▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"};
     constexpr int readsPerColumn = 16;
@@ -127,11 +114,7 @@ void inspectClip(const std::string& path, bool asJson, const std::string& pictur
     }
     const auto [lowestHz, highestHz] = rangeOf(clip.frequencyHz);
     const double loudest = rangeOf(clip.amplitude).second;
-    const effects::IntensityErrors motor = motorErrors(clip);
-    std::string omitted;
-    for (const std::string& each : read.omitted) {
-        omitted += (omitted.empty() ? "" : ", ") + each;
-    }
+    const effects::IntensityErrors motor = motorErrors(clips::waveOf(clip, effects::WaveFeatures::sampleRateHz));
     if (asJson) {
         const nlohmann::ordered_json report{
             {"file", path},
@@ -169,7 +152,7 @@ void inspectClip(const std::string& path, bool asJson, const std::string& pictur
         {"a motor of 160 Hz", motor.feltFrames == 0 ? "plays nothing that is felt"
                                                     : "plays it within " + fixedDecimals(motor.percentile95Db, 1) +
                                                           " dB of perceived intensity in 95 % of what is felt"},
-        {"not read", orDash(omitted)}};
+        {"not read", orDash(clips::omittedText(read))}};
     for (const auto& [name, value] : rows) {
         std::cout << "  " << name << std::string(19 - name.size(), ' ') << value << '\n';
     }

@@ -1,14 +1,13 @@
 #include "clip_output.hpp"
 
+#include "bench/measurements.hpp"
 #include "effects/wave_features.hpp"
 #include "messages.hpp"
 #include "model/plain_text.hpp"
 
 #include <algorithm>
-#include <array>
-#include <chrono>
-#include <cstdio>
 #include <filesystem>
+#include <utility>
 
 namespace haptoflow::cli {
 
@@ -22,37 +21,45 @@ std::optional<clips::ClipFormat> clipFormatOf(std::string_view path) {
     return std::nullopt;
 }
 
-std::string today() {
-    const std::chrono::year_month_day date(std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now()));
-    std::array<char, 16> text{};
-    (void)std::snprintf(text.data(), text.size(), "%04d-%02u-%02u", static_cast<int>(date.year()),
-                        static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()));
-    return text.data();
+std::string renderedBy(const std::string& modelName, const std::string& quality, std::uint64_t seed,
+                       const std::string& licence) {
+    return modelName + ", quality " + quality + ", seed " + std::to_string(seed) + "; " + licence;
 }
 
-ClipFigures writeClipFile(const OutputFile& file, const clips::HapticClip& clip, std::span<const float> waveMps2) {
-    const clips::WrittenClip written =
-        clips::writeClip(clip, {.format = clipFormatOf(file.path().string()).value(), .date = today()});
+clips::WrittenClip writeClipFile(const OutputFile& file, const clips::HapticClip& clip) {
+    clips::WrittenClip written =
+        clips::writeClip(clip, {.format = clipFormatOf(file.path().string()).value(), .date = bench::today()});
     writeText(file, written.text);
+    return written;
+}
+
+ClipFigures writeAndCompareClip(const OutputFile& file, const clips::HapticClip& clip,
+                                std::span<const float> waveMps2) {
+    clips::WrittenClip written = writeClipFile(file, clip);
     const std::vector<float> played =
         clips::waveOf(clips::readClip(written.text).clip, effects::WaveFeatures::sampleRateHz);
     const std::size_t count = std::min(played.size(), waveMps2.size());
     return {.file = file.path().filename().string(),
-            .amplitudePoints = written.amplitudePoints,
-            .frequencyPoints = written.frequencyPoints,
             .transients = clip.transients.size(),
-            .amplitudeErrorDb = written.amplitudeErrorDb,
-            .frequencyErrorPercent = written.frequencyErrorPercent,
+            .written = std::move(written),
             .intensity = effects::intensityErrors(waveMps2.first(count), std::span(played).first(count))};
+}
+
+effects::IntensityErrors motorErrors(std::span<const float> waveMps2) {
+    constexpr double resonanceHz = 160.0;
+    const effects::WaveFeatureOptions motor{
+        .frameSeconds = 0.008, .minFrequencyHz = resonanceHz, .maxFrequencyHz = resonanceHz};
+    return effects::intensityErrors(
+        waveMps2, effects::renderCarrier(effects::framesOf(waveMps2, motor), effects::CarrierShape::held), motor);
 }
 
 void noteCoarseClip(const ClipFigures& figures) {
     const clips::ClipWriting usual;
     // The tolerance is a ratio upwards; downwards it is a little more in decibels.
-    if (figures.amplitudeErrorDb > 1.1 * usual.toleranceDb) {
+    if (figures.written.amplitudeErrorDb > 1.1 * usual.toleranceDb) {
         note(figures.file + ": " + model::shortNumber(usual.pointsPerSecond) +
-             " points a second follow this wave's amplitude within " + fixedDecimals(figures.amplitudeErrorDb, 1) +
-             " dB");
+             " points a second follow this wave's amplitude within " +
+             fixedDecimals(figures.written.amplitudeErrorDb, 1) + " dB");
     }
 }
 

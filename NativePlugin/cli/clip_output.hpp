@@ -4,6 +4,8 @@
 #include "effects/carrier_rendering.hpp"
 #include "output_file.hpp"
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -15,25 +17,28 @@ namespace haptoflow::cli {
 /// The format of a file's name by its ending; nothing for other files.
 [[nodiscard]] std::optional<clips::ClipFormat> clipFormatOf(std::string_view path);
 
-/// The date of today in UTC: YYYY-MM-DD.
-[[nodiscard]] std::string today();
+/// How a clip was rendered, for its description: model, quality, seed and licence.
+[[nodiscard]] std::string renderedBy(const std::string& modelName, const std::string& quality, std::uint64_t seed,
+                                     const std::string& licence);
 
-/// What became of a clip in a file.
+/// Figures of a clip in a file: its points and transients, and how far it is from the wave that it was made from.
 struct ClipFigures {
     std::string file;
-    std::size_t amplitudePoints = 0;
-    std::size_t frequencyPoints = 0;
     std::size_t transients = 0;
-    double amplitudeErrorDb = 0.0;
-    double frequencyErrorPercent = 0.0;
-    /// What a device with amplitude and frequency plays of the file, against the wave that it was made from.
+    clips::WrittenClip written{};
+    /// Of what a device with amplitude and frequency plays.
     effects::IntensityErrors intensity{};
 };
 
-/// Writes a clip to a file's partial, in the format of its name. `waveMps2` is the 2 kHz wave of which it was made.
-/// Throws InputError that names the file.
-[[nodiscard]] ClipFigures writeClipFile(const OutputFile& file, const clips::HapticClip& clip,
-                                        std::span<const float> waveMps2);
+/// Writes a clip to a file's partial, in the format of its name. Throws InputError that names the file.
+clips::WrittenClip writeClipFile(const OutputFile& file, const clips::HapticClip& clip);
+
+/// Writes a clip that was made of a 2 kHz wave, and compares what is played of the file with that wave.
+[[nodiscard]] ClipFigures writeAndCompareClip(const OutputFile& file, const clips::HapticClip& clip,
+                                              std::span<const float> waveMps2);
+
+/// The errors in perceived intensity of a common motor, which plays its resonance of 160 Hz alone.
+[[nodiscard]] effects::IntensityErrors motorErrors(std::span<const float> waveMps2);
 
 /// Prints a note if a clip's points do not follow its amplitude within half a decibel.
 void noteCoarseClip(const ClipFigures& figures);

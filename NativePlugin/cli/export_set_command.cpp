@@ -60,14 +60,6 @@ struct Loop {
     std::vector<float> slowWave;
 };
 
-class WaveSink final : public engine::OfflineSink {
-public:
-    void output(std::span<const float> samples) override { wave.insert(wave.end(), samples.begin(), samples.end()); }
-    void waveform(std::span<const float> /*samplesMps2*/) override {}
-
-    std::vector<float> wave;
-};
-
 /// So many rounds of a loop.
 std::vector<float> repeated(std::span<const float> loop, int rounds) {
     std::vector<float> wave;
@@ -94,14 +86,6 @@ std::vector<float> onDevice(std::span<const float> loop) {
     return {first, first + static_cast<std::ptrdiff_t>(loop.size())};
 }
 
-double rmsOf(std::span<const float> wave) {
-    double energy = 0.0;
-    for (const float sample : wave) {
-        energy += static_cast<double>(sample) * static_cast<double>(sample);
-    }
-    return std::sqrt(energy / static_cast<double>(wave.size()));
-}
-
 /// Renders the loops of one set.
 class LoopRenderer {
 public:
@@ -124,21 +108,19 @@ public:
         state.velocityMps = {static_cast<float>(speedMps), 0.0F};
         state.forceNewtons = static_cast<float>(forceNewtons);
         const double wholeSeconds = leadInSeconds + options_.seconds + crossfadeSeconds + 0.02;
-        std::size_t index = 0;
-        const auto next = [&]() -> std::optional<engine::TimedContactState> {
-            state.timeSeconds = static_cast<double>(index) / stateRateHz;
-            ++index;
-            return state.timeSeconds <= wholeSeconds ? std::optional(state) : std::nullopt;
-        };
-        WaveSink sink;
-        (void)engine::renderOffline(model_, *generator_, next, settings_, sink);
-        std::ranges::for_each(sink.wave, [this](float& sample) { sample *= settings_.fullScaleMps2; });
+        std::vector<engine::TimedContactState> states;
+        while (state.timeSeconds <= wholeSeconds) {
+            states.push_back(state);
+            state.timeSeconds = static_cast<double>(states.size()) / stateRateHz;
+        }
+        std::vector<float> wave = engine::renderOffline(model_, *generator_, states, settings_).samples;
+        std::ranges::for_each(wave, [this](float& sample) { sample *= settings_.fullScaleMps2; });
         const auto samples = [](double seconds) { return static_cast<std::size_t>(std::llround(seconds * rateHz)); };
         // Both rates hold a loop of whole samples.
-        std::vector<float> loop = clips::loopOf(
-            std::span(sink.wave).subspan(samples(leadInSeconds), samples(options_.seconds + crossfadeSeconds)),
-            samples(options_.seconds - searchSeconds), samples(options_.seconds), samples(crossfadeSeconds),
-            samplesPerFeature);
+        std::vector<float> loop =
+            clips::loopOf(std::span(wave).subspan(samples(leadInSeconds), samples(options_.seconds + crossfadeSeconds)),
+                          samples(options_.seconds - searchSeconds), samples(options_.seconds),
+                          samples(crossfadeSeconds), samplesPerFeature);
         std::vector<float> slow = slowLoop(loop);
         return {.wave = std::move(loop), .slowWave = std::move(slow)};
     }
@@ -200,7 +182,7 @@ public:
                 writer.write(onDevice(loop.wave));
                 writer.close();
             } else {
-                errorDb = std::max(errorDb, writeClipFile(file, clip, loop.slowWave).amplitudeErrorDb);
+                errorDb = std::max(errorDb, writeClipFile(file, clip).amplitudeErrorDb);
             }
             file.commit();
             entry["files"][format] = fileName;
@@ -274,9 +256,9 @@ void runExportSet(const ExportOptions& options) {
                     loop.slowWave,
                     {.isLoop = true,
                      .origin = {.title = label,
-                                .description = what + "; " + modelPath.filename().string() + ", quality " + tier.name +
-                                               ", seed " + std::to_string(options.seed) + "; " +
-                                               model.header().provenance.licence,
+                                .description = what + "; " +
+                                               renderedBy(modelPath.filename().string(), tier.name, options.seed,
+                                                          model.header().provenance.licence),
                                 .editor = "HaptoFlow " HAPTOFLOW_VERSION,
                                 .tags = {label, "texture", "loop"}}});
                 const std::string name =
@@ -284,7 +266,7 @@ void runExportSet(const ExportOptions& options) {
                 clipsOfLabel.push_back({{"speed_mps", speed},
                                         {"force_newtons", force},
                                         {"seconds", static_cast<double>(loop.wave.size()) / rateHz},
-                                        {"rms_mps2", rmsOf(loop.wave)}});
+                                        {"rms_mps2", model::rmsOf(loop.wave)}});
                 folder.write(name, options.formats, loop, clip, clipsOfLabel.back());
             }
         }

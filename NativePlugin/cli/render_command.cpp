@@ -196,7 +196,7 @@ public:
         if (!clips_.empty()) {
             const clips::HapticClip clip = clips::clipOf(frames_->wave(), {.origin = origin});
             for (const auto& file : clips_) {
-                figures.push_back(writeClipFile(*file, clip, frames_->wave()));
+                figures.push_back(writeAndCompareClip(*file, clip, frames_->wave()));
                 noteCoarseClip(figures.back());
             }
         }
@@ -321,9 +321,8 @@ clips::ClipOrigin originOf(const RenderOptions& options, const std::vector<std::
     }
     const auto nameOf = [](const std::string& path) { return std::filesystem::path(path).filename().string(); };
     return {.title = title,
-            .description = nameOf(options.strokePath) + " over " + nameOf(options.scenePath) + "; " + modelName +
-                           ", quality " + quality + ", seed " + std::to_string(options.engine.seed) + "; " +
-                           header.provenance.licence,
+            .description = nameOf(options.strokePath) + " over " + nameOf(options.scenePath) + "; " +
+                           renderedBy(modelName, quality, options.engine.seed, header.provenance.licence),
             .editor = "HaptoFlow " HAPTOFLOW_VERSION,
             .source = nameOf(options.strokePath),
             .tags = labels};

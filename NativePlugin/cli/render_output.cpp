@@ -72,11 +72,11 @@ std::string renderReport(const RenderIdentity& identity, const engine::OfflineFi
     };
     for (const ClipFigures& clip : identity.clips) {
         report["clips"].push_back({{"file", clip.file},
-                                   {"amplitude_points", clip.amplitudePoints},
-                                   {"frequency_points", clip.frequencyPoints},
+                                   {"amplitude_points", clip.written.amplitudePoints},
+                                   {"frequency_points", clip.written.frequencyPoints},
                                    {"transients", clip.transients},
-                                   {"amplitude_error_db", clip.amplitudeErrorDb},
-                                   {"frequency_error_percent", clip.frequencyErrorPercent},
+                                   {"amplitude_error_db", clip.written.amplitudeErrorDb},
+                                   {"frequency_error_percent", clip.written.frequencyErrorPercent},
                                    {"intensity_error_db", summaryOf(clip.intensity)}});
     }
     return report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
@@ -92,7 +92,7 @@ const effects::WaveFeatureOptions& options() {
     return usual;
 }
 
-/// The last frame is complete only some samples after its end.
+/// Zeros after the render's end: decimation and features finish the last frame so many samples later.
 constexpr std::size_t trailingSamples = WaveFeatures::lookaheadSamples + WaveDecimation::delaySamples;
 
 /// Time in the render, in seconds, of a sample of the features, with the delay of the decimation subtracted.
@@ -106,48 +106,36 @@ float shareOf(float amplitudeMps2) {
     return effects::deviceShare(effects::DeviceKind::parametric, amplitudeMps2);
 }
 
-nlohmann::ordered_json errorOf(std::span<const float> wave, std::span<const effects::WaveFrame> frames,
-                               const effects::WaveFeatureOptions& cut, effects::CarrierShape shape) {
-    return summaryOf(effects::intensityErrors(wave, effects::renderCarrier(frames, shape), cut));
-}
-
 /// Errors of the played intensity.
 nlohmann::ordered_json intensityErrors(std::span<const float> wave, std::span<const effects::WaveFrame> frames) {
-    effects::WaveFeatureOptions motor;
-    motor.frameSeconds = 0.008;
-    motor.minFrequencyHz = 160.0;
-    motor.maxFrequencyHz = 160.0;
-    return {{"frames", errorOf(wave, frames, options(), effects::CarrierShape::linear)},
-            {"motor_160_hz", errorOf(wave, effects::framesOf(wave, motor), motor, effects::CarrierShape::held)}};
+    const std::vector<float> played = effects::renderCarrier(frames, effects::CarrierShape::linear);
+    return {{"frames", summaryOf(effects::intensityErrors(wave, played, options()))},
+            {"motor_160_hz", summaryOf(motorErrors(wave))}};
 }
 
 }  // namespace
 
 ParametricFrames::ParametricFrames(double outputRateHz)
-    : decimation_(static_cast<std::size_t>(outputRateHz / WaveFeatures::sampleRateHz)), features_(options()) {}
+    : decimation_(static_cast<std::size_t>(outputRateHz / WaveFeatures::sampleRateHz)) {}
 
 void ParametricFrames::take(std::span<const float> samples, float fullScaleMps2) {
     for (const float sample : samples) {
         float decimated = 0.0F;
         if (decimation_.take(sample * fullScaleMps2, decimated)) {
-            feed(decimated);
+            wave_.push_back(decimated);
         }
     }
 }
 
-void ParametricFrames::feed(float sampleMps2) {
-    wave_.push_back(sampleMps2);
-    effects::WaveFrame frame;
-    const auto progress = features_.process(std::span(&sampleMps2, 1), std::span(&frame, 1));
-    if (progress.frames > 0) {
-        frames_.push_back(frame);
-    }
+void ParametricFrames::finish() {
+    wave_.resize(wave_.size() + trailingSamples);
 }
 
-void ParametricFrames::finish() {
-    for (std::size_t i = 0; i < trailingSamples; ++i) {
-        feed(0.0F);
-    }
+std::vector<effects::WaveFrame> ParametricFrames::frames() const {
+    WaveFeatures features(options());
+    std::vector<effects::WaveFrame> frames(features.framesWithin(wave_.size()));
+    frames.resize(features.process(wave_, frames).frames);
+    return frames;
 }
 
 std::span<const float> ParametricFrames::wave() const {
@@ -157,7 +145,7 @@ std::span<const float> ParametricFrames::wave() const {
 std::string ParametricFrames::toCsv() const {
     std::string table =
         "seconds,amplitude_mps2,frequency_hz,intensity,device_share,transient_seconds,transient_mps2,transient_hz\n";
-    for (const effects::WaveFrame& frame : frames_) {
+    for (const effects::WaveFrame& frame : frames()) {
         const double seconds = secondsAt(frame.firstSample);
         const auto add = [&table](double value, char after) { (table += model::shortNumber(value)) += after; };
         add(seconds, ',');
@@ -177,11 +165,12 @@ std::string ParametricFrames::toCsv() const {
 }
 
 std::string ParametricFrames::toJson() const {
-    nlohmann::ordered_json frames = nlohmann::ordered_json::array();
+    const std::vector<effects::WaveFrame> all = frames();
+    nlohmann::ordered_json rows = nlohmann::ordered_json::array();
     nlohmann::ordered_json transients = nlohmann::ordered_json::array();
-    for (const effects::WaveFrame& frame : frames_) {
+    for (const effects::WaveFrame& frame : all) {
         const double seconds = secondsAt(frame.firstSample);
-        frames.push_back(
+        rows.push_back(
             {seconds, frame.amplitudeMps2, frame.frequencyHz, frame.intensity, shareOf(frame.amplitudeMps2)});
         if (frame.transient.amplitudeMps2 > 0.0F) {
             transients.push_back({seconds + static_cast<double>(frame.transient.offsetSeconds),
@@ -195,10 +184,10 @@ std::string ParametricFrames::toJson() const {
         {"frame_seconds", options().frameSeconds},
         {"frequency_range_hz", {options().minFrequencyHz, options().maxFrequencyHz}},
         {"frame_columns", {"seconds", "amplitude_mps2", "frequency_hz", "intensity", "device_share"}},
-        {"frames", std::move(frames)},
+        {"frames", std::move(rows)},
         {"transient_columns", {"seconds", "amplitude_mps2", "frequency_hz", "device_share"}},
         {"transients", std::move(transients)},
-        {"intensity_error_db", intensityErrors(wave_, frames_)},
+        {"intensity_error_db", intensityErrors(wave_, all)},
     };
     return document.dump() + '\n';
 }

@@ -49,11 +49,9 @@ public:
     [[nodiscard]] std::span<const float> wave() const;
 
 private:
-    void feed(float sampleMps2);
+    [[nodiscard]] std::vector<effects::WaveFrame> frames() const;
 
     effects::WaveDecimation decimation_;
-    effects::WaveFeatures features_;
-    std::vector<effects::WaveFrame> frames_;
     // The wave at 2 kHz, with the decimation's delay before it and the silence that completes the last frame after it.
     std::vector<float> wave_;
 };

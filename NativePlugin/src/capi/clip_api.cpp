@@ -28,11 +28,7 @@ static_assert(static_cast<int>(clips::ClipFormat::hjif) == HAPTOFLOW_CLIP_HJIF);
 namespace haptoflow::capi {
 
 struct OpenClip {
-    explicit OpenClip(clips::ReadClip given) : read(std::move(given)) {
-        for (const std::string& each : read.omitted) {
-            omitted += (omitted.empty() ? "" : ", ") + each;
-        }
-    }
+    explicit OpenClip(clips::ReadClip given) : read(std::move(given)), omitted(clips::omittedText(read)) {}
 
     /// The wave that voices play, made once.
     [[nodiscard]] std::shared_ptr<const std::vector<float>> wave() {
@@ -45,7 +41,7 @@ struct OpenClip {
     }
 
     const clips::ReadClip read;
-    std::string omitted;
+    const std::string omitted;
 
 private:
     std::mutex mutex_;
@@ -56,9 +52,9 @@ private:
 
 namespace {
 
-/// Runs an action that may refuse a clip.
+/// Runs an action; a ClipError of it becomes std::invalid_argument, whose status is that of a wrong argument.
 template <typename Action>
-auto orRefused(Action&& action) {
+auto withClipErrors(Action&& action) {
     try {
         return action();
     } catch (const clips::ClipError& error) {
@@ -105,7 +101,7 @@ haptoflow_status haptoflow_clip_create(const haptoflow_clip_options* options, ha
         const std::span wave(count > 0 ? require(given.wave_mps2, "wave_mps2") : given.wave_mps2, count);
         const std::vector<float> slow =
             effects::decimated(wave, given.sample_rate_hz == 0 ? 1 : factorOf(given.sample_rate_hz));
-        *clip = openClips().open(orRefused([&] {
+        *clip = openClips().open(withClipErrors([&] {
             return std::make_shared<OpenClip>(clips::ReadClip{
                 .clip = clips::clipOf(slow, {.isLoop = given.is_loop != 0,
                                              .origin = {.title = textOrEmpty(given.title),
@@ -120,7 +116,7 @@ haptoflow_status haptoflow_clip_read(const char* text, uint64_t length, haptoflo
     return guarded([&] {
         (void)require(text, "text");
         (void)require(clip, "clip");
-        *clip = openClips().open(orRefused([&] {
+        *clip = openClips().open(withClipErrors([&] {
             return std::make_shared<OpenClip>(clips::readClip(std::string_view(text, countOf(length, "length"))));
         }));
     });

@@ -125,6 +125,14 @@ std::string_view endingOf(ClipFormat format) noexcept {
     return endings[static_cast<std::size_t>(format)];
 }
 
+std::string omittedText(const ReadClip& read) {
+    std::string text;
+    for (const std::string& each : read.omitted) {
+        text += (text.empty() ? "" : ", ") + each;
+    }
+    return text;
+}
+
 ThinnedCurves thinnedCurves(const HapticClip& clip, const ClipWriting& writing, double exponent) {
     const auto mostPoints =
         static_cast<std::size_t>(std::max(2.0, std::ceil(writing.pointsPerSecond * clip.durationSeconds)));
@@ -149,16 +157,15 @@ void join(std::vector<ClipPiece> pieces, HapticClip& clip) {
     overlaps ? joinOverlapping(pieces, clip) : joinInTurn(pieces, clip);
 }
 
-std::string textOf(const nlohmann::json& parent, std::string_view key) {
+std::string textOf(const nlohmann::json& value) {
     constexpr std::size_t mostBytes = 4096;
-    if (!parent.is_object()) {
-        return {};
-    }
+    return value.is_string() ? model::printable(model::shortened(value.get_ref<const std::string&>(), mostBytes))
+                             : std::string();
+}
+
+std::string textOf(const nlohmann::json& parent, std::string_view key) {
     const auto member = parent.find(key);
-    if (member == parent.end() || !member->is_string()) {
-        return {};
-    }
-    return model::printable(model::shortened(member->get_ref<const std::string&>(), mostBytes));
+    return member == parent.end() ? std::string() : textOf(*member);
 }
 
 WrittenClip writeClip(const HapticClip& clip, const ClipWriting& writing) {

@@ -10,7 +10,7 @@
 
 namespace haptoflow::clips {
 
-/// Formats of clips, all of them JSON.
+/// The formats in which clips are read and written. All are JSON.
 enum class ClipFormat : std::uint8_t {
     /// `.haptic` 1.0.0 of Lofelt and Meta: amplitude and frequency, both 0 to 1, and emphasis at points of the
     /// amplitude.
@@ -64,6 +64,9 @@ struct ReadClip {
     /// What the text has and the clip has not, in words: "2 audio events".
     std::vector<std::string> omitted{};
 };
+
+/// What was omitted as one text: "2 audio events, 1 wavelet bands". Empty for nothing.
+[[nodiscard]] std::string omittedText(const ReadClip& read);
 
 inline constexpr std::size_t mostClipBytes = std::size_t{16} << 20U;
 

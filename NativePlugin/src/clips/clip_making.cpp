@@ -1,5 +1,6 @@
 #include "clips/clip_making.hpp"
 
+#include "effects/carrier_rendering.hpp"
 #include "effects/device_loudness.hpp"
 #include "effects/wave_features.hpp"
 
@@ -22,23 +23,16 @@ double shareOf(double amplitudeMps2) noexcept {
         effects::deviceShare(effects::DeviceKind::parametric, static_cast<float>(amplitudeMps2)));
 }
 
-/// Frames of a wave, of a loop those of its second of three runs: the first starts from silence.
+/// Frames of a wave, or of three rounds of a loop, since the first begins in silence.
 std::vector<WaveFrame> framesOf(std::span<const float> waveMps2, const ClipMaking& making) {
-    WaveFeatures features({.frameSeconds = frameSeconds,
-                           .minFrequencyHz = making.minFrequencyHz,
-                           .maxFrequencyHz = making.maxFrequencyHz});
     std::vector<float> whole(waveMps2.begin(), waveMps2.end());
     if (making.isLoop) {
         whole.insert(whole.end(), waveMps2.begin(), waveMps2.end());
         whole.insert(whole.end(), waveMps2.begin(), waveMps2.end());
-    } else {
-        // Silence after the end completes the last frame.
-        whole.resize(whole.size() + static_cast<std::size_t>(frameSeconds * WaveFeatures::sampleRateHz) +
-                     WaveFeatures::lookaheadSamples);
     }
-    std::vector<WaveFrame> frames(features.framesWithin(whole.size()));
-    frames.resize(features.process(whole, frames).frames);
-    return frames;
+    return effects::framesOf(whole, {.frameSeconds = frameSeconds,
+                                     .minFrequencyHz = making.minFrequencyHz,
+                                     .maxFrequencyHz = making.maxFrequencyHz});
 }
 
 /// Takes a transient out of an amplitude in m/s^2, which keeps the line between the levels before and after it. Returns
@@ -159,9 +153,7 @@ HapticClip clipOf(std::span<const float> waveMps2, const ClipMaking& making) {
         const double start = static_cast<double>(frame.firstSample) / WaveFeatures::sampleRateHz - shift;
         const double half = 0.5 * static_cast<double>(frame.sampleCount) / WaveFeatures::sampleRateHz;
         // The last frame of a wave reaches beyond its end.
-        const double middle = making.isLoop || start >= clip.durationSeconds
-                                  ? start + half
-                                  : std::min(start + half, clip.durationSeconds);
+        const double middle = making.isLoop ? start + half : std::min(start + half, clip.durationSeconds);
         if (frame.transient.amplitudeMps2 > 0.0F) {
             const double onset = start + static_cast<double>(frame.transient.offsetSeconds);
             if (onset >= 0.0 && onset < clip.durationSeconds) {

@@ -37,7 +37,9 @@ struct ClipPiece {
 /// Curves of all pieces together: where some overlap, those of the strongest, because a device has one carrier.
 void join(std::vector<ClipPiece> pieces, HapticClip& clip);
 
-/// A text for messages and other files; empty if `parent` has no text of this name.
+/// A text of a file, shortened and without control characters; empty for another kind of value.
+[[nodiscard]] std::string textOf(const nlohmann::json& value);
+/// The same of a member; empty if there is none.
 [[nodiscard]] std::string textOf(const nlohmann::json& parent, std::string_view key);
 
 [[nodiscard]] nlohmann::ordered_json hapticOf(const HapticClip& clip, const ThinnedCurves& curves);

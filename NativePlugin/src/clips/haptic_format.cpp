@@ -119,9 +119,8 @@ void readHaptic(const json& document, ReadClip& read) {
                        .author = textOf(*metadata, "author"),
                        .source = textOf(*metadata, "source")};
         if (const auto tags = metadata->find("tags"); tags != metadata->end() && tags->is_array()) {
-            for (const json& tag : *tags) {
-                clip.origin.tags.push_back(textOf(json{{"tag", tag}}, "tag"));
-            }
+            std::ranges::transform(*tags, std::back_inserter(clip.origin.tags),
+                                   [](const json& tag) { return textOf(tag); });
         }
     }
 }

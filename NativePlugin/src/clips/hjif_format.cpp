@@ -102,11 +102,7 @@ public:
         omit(curveBands_, "curve bands");
         omit(composites_, "composite effects");
         if (read_.clip.amplitude.empty() && read_.clip.transients.empty() && !read_.omitted.empty()) {
-            std::string what;
-            for (const std::string& each : read_.omitted) {
-                what += (what.empty() ? "" : ", ") + each;
-            }
-            throw ClipError("has nothing but " + what + "; vectorial waves and transients are read");
+            throw ClipError("has nothing but " + omittedText(read_) + "; vectorial waves and transients are read");
         }
     }
 

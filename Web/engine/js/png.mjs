@@ -4,7 +4,7 @@ import { HaptoFlowError } from './errors.mjs';
 // the command line's. Inflating is the browser's.
 
 const signature = [137, 80, 78, 71, 13, 10, 26, 10];
-/** Channels by the file's colour type: grey, red green blue, palette, grey with opacity, red green blue with opacity. @type {Record<number, number>} */
+/** How many numbers a pixel has, by the file's colour type: 0 is grey, 2 red, green and blue, 3 a palette, 4 and 6 the first two with opacity. @type {Record<number, number>} */
 const channelsOf = { 0: 1, 2: 3, 3: 1, 4: 2, 6: 4 };
 /** @type {Record<number, number[]>} */
 const depthsOf = { 0: [1, 2, 4, 8, 16], 2: [8, 16], 3: [1, 2, 4, 8], 4: [8, 16], 6: [8, 16] };

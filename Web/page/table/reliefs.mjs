@@ -168,7 +168,7 @@ export class TableReliefs {
   #tipRadius;
   /** In the engine, by what is drawn. @type {Map<SurfaceRelief, import('../../engine/js/haptoflow.d.ts').Relief>} */
   #made = new Map();
-  /** By names of surfaces. @type {Map<string, SurfaceRelief>} */
+  /** The relief of each surface, by the surface's name. @type {Map<string, SurfaceRelief>} */
   #pictures = new Map();
   /** @type {import('../../engine/js/haptoflow.d.ts').Scene[]} */
   #scenes = [];

@@ -22,7 +22,7 @@ export class TableView {
   #trails = [];
   /** Index of the outlined object, -1 for none. */
   selected = -1;
-  /** By names of surfaces. @type {Map<string, import('./reliefs.mjs').SurfaceRelief>} */
+  /** The relief of each surface, by the surface's name. @type {Map<string, import('./reliefs.mjs').SurfaceRelief>} */
   #reliefs = new Map();
   /** Pictures of reliefs, and what a texel of each is long. @type {WeakMap<import('./reliefs.mjs').SurfaceRelief, {picture: HTMLCanvasElement, scale: DOMMatrix}>} */
   #shadings = new WeakMap();

@@ -18,7 +18,7 @@ namespace HaptoFlow.Preview
             new MapPlace(xMetres / Heights.SizeMetres.Columns, yMetres / Heights.SizeMetres.Rows);
     }
 
-    /// <summary>The height of a map under the tip over the time of a stroke. Immutable; any thread.</summary>
+    /// <summary>How high a map is under the tip at each time of a stroke. Immutable; any thread.</summary>
     internal sealed class HeightCurve
     {
         /// <summary>Between two states the tip goes straight, as for the engine.</summary>

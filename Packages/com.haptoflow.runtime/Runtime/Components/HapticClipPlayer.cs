@@ -4,7 +4,8 @@ using UnityEngine;
 
 namespace HaptoFlow
 {
-    /// <summary>Plays a clip on a stylus, or on all: for buttons and events of the Inspector. Main thread.</summary>
+    /// <summary>Plays a clip on one stylus or on all of them. Buttons and other events call
+    /// <see cref="Play"/>. Main thread.</summary>
     [AddComponentMenu("HaptoFlow/Haptic Clip Player")]
     [HelpPage(HelpPages.Components + "haptic-clip-player")]
     public sealed class HapticClipPlayer : MonoBehaviour

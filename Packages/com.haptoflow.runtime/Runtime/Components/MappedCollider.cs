@@ -13,8 +13,8 @@ using SurfacePhysics = UnityEngine.PhysicMaterial;
 
 namespace HaptoFlow
 {
-    /// <summary>The materials that the rules of maps assign to a collider: to the whole, or to each part. Where a
-    /// terrain's layers blend, the relief is that of the layer whose material has the largest weight. Main thread.
+    /// <summary>The materials that the rules of maps give a collider, as a whole or part by part. Where the layers
+    /// of a terrain blend, the tip feels the relief of the layer with the largest weight. Main thread.
     /// Matching the rules makes garbage; looking up a place makes none.</summary>
     internal sealed class MappedCollider
     {
