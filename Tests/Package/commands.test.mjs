@@ -1,7 +1,7 @@
 // The scripts as somebody types them.
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
-import { chmodSync, mkdtempSync, readdirSync, readFileSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
+import { chmodSync, mkdtempSync, readFileSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
 import test from 'node:test';
@@ -29,17 +29,6 @@ function onBareMachine(programs, args) {
     rmSync(folder, { recursive: true, force: true });
   }
 }
-
-test('every npm script is a file of scripts/ whose first line describes it', () => {
-  // Windows allows no colon in a file's name.
-  const fileOf = (name) => `${name.replace(':', '-')}.mjs`;
-  for (const [name, command] of Object.entries(scripts)) {
-    assert.equal(command, `node scripts/${fileOf(name)}`);
-    assert.match(readFileSync(inRepository('scripts', fileOf(name)), 'utf8'), new RegExp(`^// ${name}: \\w`));
-  }
-  const files = readdirSync(inRepository('scripts')).filter((name) => name.endsWith('.mjs'));
-  assert.deepEqual(files.sort(), Object.keys(scripts).map(fileOf).sort());
-});
 
 test('without arguments every script is listed in one line, and nothing is installed', { skip: posixOnly }, () => {
   const result = onBareMachine({ 'apt-get': 'echo INSTALLED' }, []);

@@ -1,12 +1,12 @@
 // The native libraries in git, with which Unity plays a clone, and the record of what they were built from.
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
-import { cpSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { cpSync, readFileSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import test from 'node:test';
 import { inRepository } from '../../scripts/lib/process.mjs';
 import { checkNatives } from '../../scripts/lib/lint_checks.mjs';
-import { committedNatives, committedPlatforms, complaintsOf, complaintsOfRecord, fileInPackage, hashOfInterface, hashOfSources, importFolder, largestBytes, putIntoPackage, readRecord, sourceFiles } from '../../scripts/lib/libraries.mjs';
+import { committedPlatforms, complaintsOf, complaintsOfRecord, fileInPackage, hashOfInterface, hashOfSources, importFolder, largestBytes, putIntoPackage, readRecord, sourceFiles } from '../../scripts/lib/libraries.mjs';
 import { findNatives, platforms, pluginsFolder } from '../../scripts/pack/natives.mjs';
 import { PackageFiles } from '../../scripts/pack/package_files.mjs';
 import { checkMetasAreThere, checkMetasAreWanted } from '../../scripts/pack/rules_of_files.mjs';
@@ -42,20 +42,6 @@ test('git has the libraries of the editors, each of its platform, small, with th
   assert.deepEqual(committedPlatforms.map(({ id }) => id), ['linux-x64', 'linux-arm64', 'windows-x64']);
   assert.deepEqual(complaintsOfRecord(), []);
   assert.ok(largestBytes <= 3.5e6);
-});
-
-test('git tracks these libraries with their .meta as binary files, and ignores those of other platforms', { skip: !hasGit && 'no git' }, () => {
-  const isTracked = (name) => git('ls-files', '--error-unmatch', name).status === 0;
-  const isIgnored = (name) => git('check-ignore', '--quiet', '--no-index', name).status === 0;
-  for (const { place } of committedPlatforms) {
-    const name = `${package_}/${pluginsFolder}/${place}`;
-    for (const each of [name, `${name}.meta`]) assert.ok(isTracked(each) && !isIgnored(each), each);
-    assert.match(git('check-attr', 'text', '--', name).stdout, /text: unset/, name);
-  }
-  for (const { place } of notInGit) {
-    const pieces = place.split('/').map((_, index, all) => `${package_}/${pluginsFolder}/${all.slice(0, index + 1).join('/')}`);
-    for (const name of [pieces.at(-1), ...pieces.map((piece) => `${piece}.meta`)]) assert.ok(isIgnored(name) && !isTracked(name), name);
-  }
 });
 
 test('a library of another platform, without an export, for a newer system, or too large is refused', () => {
@@ -133,18 +119,6 @@ test('every change of what the build reads changes the hash of the sources, and 
   });
 });
 
-test('a source that is added or renamed changes the hash of the sources', () => {
-  inCopy((folder) => {
-    const added = path.join(folder, 'NativePlugin', 'src', 'dsp', 'added.cpp');
-    writeFileSync(added, '');
-    const withOne = hashOfSources(folder);
-    assert.notEqual(withOne, hashOfSources());
-    rmSync(added);
-    writeFileSync(added.replace('added', 'renamed'), '');
-    assert.notEqual(hashOfSources(folder), withOne);
-  });
-});
-
 test('pack takes a library of git where none was built and the sources are the same, and says why where they are newer', () => {
   const none = () => [];
   const all = findNatives(none, new Set(), (platform) => (platform.isInGit ? `git/${platform.id}` : null));
@@ -158,13 +132,6 @@ test('pack takes a library of git where none was built and the sources are the s
     const [first] = findNatives(() => [folder], new Set(), () => 'git').found;
     assert.deepEqual([first.file, first.isFromGit], [path.join(folder, 'libaudioplugin_haptoflow.so'), false]);
   });
-});
-
-test('the libraries in git are offered exactly while the sources are theirs', () => {
-  const offered = committedPlatforms.map(committedNatives());
-  const isCurrent = readRecord().sources === hashOfSources();
-  assert.deepEqual(offered, committedPlatforms.map((platform) => (isCurrent ? fileInPackage(platform) : null)));
-  assert.deepEqual(notInGit.map(committedNatives()), notInGit.map(() => null));
 });
 
 test('a built library of macOS or Android goes into the package with the .meta of itself and its folders, as Unity wants them', () => {
@@ -184,11 +151,4 @@ test('a built library of macOS or Android goes into the package with the .meta o
     assert.deepEqual(checkPlugins(files), []);
     assert.deepEqual([checkMetasAreThere, checkMetasAreWanted].flatMap((rule) => rule(plugins)), []);
   });
-});
-
-test('in git every .meta of the plugins\' folder has its file or folder, and every file and folder its .meta', { skip: !hasGit && 'no git' }, () => {
-  const root = `${package_}/${pluginsFolder}`;
-  const names = git('ls-files', '-z', root).stdout.split('\0').filter((name) => name !== '').map((name) => name.slice(root.length + 1));
-  const files = new PackageFiles(new Map(names.map((name) => [name, ''])));
-  assert.deepEqual([checkMetasAreThere, checkMetasAreWanted].flatMap((rule) => rule(files)), []);
 });

@@ -1,6 +1,5 @@
 // Rules of the linter, and what the workflows run.
 import assert from 'node:assert/strict';
-import { existsSync, readdirSync, readFileSync } from 'node:fs';
 import test from 'node:test';
 import { findingsOfTidy, functionsWithoutThreadTag, machineTraces } from '../../scripts/lib/lint_checks.mjs';
 import { inRepository } from '../../scripts/lib/process.mjs';
@@ -33,26 +32,4 @@ test('paths of one machine and package hosts are found with their line', () => {
 
 test('system paths, relative paths and web addresses are fine', () => {
   assert.deepEqual(machineTraces('/usr/bin/python3 src/work/x.cpp https://example.com/home/x "/etc/os-release"'), []);
-});
-
-const folder = inRepository('.github', 'workflows');
-const names = readdirSync(folder).map((name) => `.github/workflows/${name}`);
-const textOf = (name) => readFileSync(inRepository(name), 'utf8');
-
-test('every script and npm script that a workflow runs is there', () => {
-  const { scripts } = JSON.parse(textOf('package.json'));
-  for (const name of names) {
-    const text = textOf(name);
-    for (const [, file] of text.matchAll(/\bnode (scripts\/\S+\.mjs)/g)) assert.ok(existsSync(inRepository(file)), `${name}: ${file}`);
-    for (const [, script] of text.matchAll(/(?:npm run|\.\/run) ([\w:]+)/g)) assert.ok(script in scripts, `${name}: ${script}`);
-  }
-});
-
-test('the Unity workflow runs the project of the repository, in the version that it was saved with', () => {
-  const workflow = textOf('.github/workflows/unity.yml');
-  const [, version] = textOf('ProjectSettings/ProjectVersion.txt').match(/^m_EditorVersion: (.*)$/m);
-  const [, versions] = workflow.match(/unity: \[(.*)\]/);
-  assert.deepEqual(versions.split(', ').map((each) => each.split('.')[0]), ['2022', '6000']);
-  assert.equal(versions.split(', ')[0], version);
-  assert.match(workflow, /run: npm ci\n[\s\S]*projectPath: \.\n/);
 });

@@ -75,17 +75,6 @@ for (const file of pictures) {
   });
 }
 
-for (const page of ofTheModelBefore.filter((file) => file.endsWith('.md'))) {
-  test(`${page} says that its figures are of the model before`, () => {
-    assert.match(readFileSync(inRepository(page), 'utf8'), /the\s+model\s+before\s+the\s+shipped\s+one/);
-  });
-}
-
-test('the picture of distilled spectra shows the model of the distilled figures', () => {
-  const { model_sha256: distilled } = JSON.parse(readFileSync(inRepository('Training/haptoflow_paper/results/distilled.json'), 'utf8'));
-  assert.equal(modelOfPicture(readFileSync(inRepository('Documentation~/images/distilled-spectra.png'))), distilled);
-});
-
 test('a page names one model in one line, none without such a line, and two are an error', () => {
   assert.equal(modelOfPage(`# Page\n\n${modelLine(sha('c'))}\n`), sha('c'));
   assert.equal(modelOfPage('Model: some other\n'), null);

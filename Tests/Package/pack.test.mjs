@@ -4,10 +4,10 @@ import { cpSync, existsSync, mkdirSync, readFileSync, symlinkSync, writeFileSync
 import path from 'node:path';
 import test from 'node:test';
 import { inRepository } from '../../scripts/lib/process.mjs';
-import { findNatives, foldersFor, kindOfLibrary, platforms, presetsToBuild } from '../../scripts/pack/natives.mjs';
+import { findNatives, kindOfLibrary, platforms, presetsToBuild } from '../../scripts/pack/natives.mjs';
 import { placeInPackage, studiesName } from '../../scripts/pack/layout.mjs';
 import { stagePackage } from '../../scripts/pack/stage.mjs';
-import { filesOfZip, runtimeBytes, tableOfContents } from '../../scripts/pack/dependency.mjs';
+import { tableOfContents } from '../../scripts/pack/dependency.mjs';
 import { elfOf } from './support/elf.mjs';
 import { inFolder } from './support/folder.mjs';
 
@@ -103,18 +103,6 @@ test('each platform takes a library of its own kind from the folders of its own 
   });
 });
 
-test('the presets are those of CMakePresets.json, and HAPTOFLOW_NATIVE_DIR stands for the release build\'s folder', () => {
-  const before = process.env.HAPTOFLOW_NATIVE_DIR;
-  process.env.HAPTOFLOW_NATIVE_DIR = 'elsewhere';
-  try {
-    const folders = platforms.map((platform) => foldersFor(platform)[0]);
-    assert.deepEqual(folders, ['elsewhere', ...['linux-arm64', 'windows-x64', 'macos', 'android-arm64'].map((preset) => inRepository('build', preset))]);
-  } finally {
-    if (before === undefined) delete process.env.HAPTOFLOW_NATIVE_DIR;
-    else process.env.HAPTOFLOW_NATIVE_DIR = before;
-  }
-});
-
 test('on Debian for x64 three libraries are built, with an NDK four, elsewhere the machine\'s own and what is configured', () => {
   const debian = { platform: 'linux', arch: 'x64', isDebian: true, hasNdk: false, isConfigured: () => false };
   assert.deepEqual(presetsToBuild(debian), ['release', 'linux-arm64', 'windows-x64']);
@@ -148,12 +136,6 @@ test('the table has sizes on the device, what a library needs, and the command f
     assert.match(lines[2], /Linux arm64 .* - .*bring ONNX Runtime for it yourself: its package has none/);
     assert.match(lines[3], /^ {2}Windows x86-64 +missing: not built; do this$/);
   });
-});
-
-test('ONNX Runtime takes on each device what its package holds for it: uncompressed from the archive for Android', () => {
-  const mebibytes = (id) => Math.round(runtimeBytes(id) / 2 ** 20);
-  assert.deepEqual(['linux-x64', 'linux-arm64', 'windows-x64', 'macos', 'android-arm64'].map(mebibytes), [27, 0, 15, 41, 31]);
-  assert.throws(() => filesOfZip(Buffer.from('no archive')), /no ZIP archive/);
 });
 
 test('files go to their places in the package or in that of the studies, and other files of the repository are not packed', () => {

@@ -59,11 +59,6 @@ for (const page of ['README.md', 'CONTRIBUTING.md']) {
   });
 }
 
-test('paths are read from backticks, below the folder of their heading', () => {
-  const text = '## Parts (below `A/B`)\n\n`c.cpp` and `d/e`, not `word` or `out/x`\n| `h` | `i` |\n\n## Others\n`f/g.py`, `f/NAME.py`\n';
-  assert.deepEqual(namedPaths(text), ['A/B/c.cpp', 'A/B/d/e', 'A/B/h', 'f/g.py']);
-});
-
 test('the figures of the README are those of the published benchmark and of the evaluation', () => {
   const readme = read('README.md').replace(/\s+/g, ' ');
   const bench = read('Training/results/benchmarks.md');
@@ -176,32 +171,4 @@ test('a folder gets one HTML page for each Markdown page, and pictures still res
     assert.match(readFileSync(path.join(folder, 'index.html'), 'utf8'), /src="images\/p\.png"/);
     assert.match(readFileSync(path.join(folder, 'other.html'), 'utf8'), /href="index\.html"/);
   });
-});
-
-// The drawings of menus and clicks are on their pages, and show what is there.
-const drawings = readdirSync(inRepository('Documentation~', 'images')).flatMap((file) => file.match(/^((?:install|first-scene)-\d.*)\.svg$/)?.[1] ?? []);
-const drawn = (name) => read('Documentation~', 'images', `${name}.svg`);
-
-test('the pages of installation and first scene show every drawing, with a sentence for those who cannot see it', () => {
-  assert.equal(drawings.length, 6);
-  const shown = { install: read('Documentation~', 'installation.md'), first: read('Documentation~', 'getting-started.md') };
-  for (const name of drawings) assert.match(shown[name.split('-')[0]], new RegExp(`!\\[Drawing: [^\\]]{20,}\\]\\(images/${name}\\.svg\\)`), name);
-});
-
-test('the drawn entries of GameObject > HaptoFlow are entries of the menu', () => {
-  const source = read('Packages', 'com.haptoflow.runtime', 'Editor', 'Scene', 'CreateMenu.cs');
-  const menus = [...source.matchAll(/"GameObject\/HaptoFlow\/([^"]+)"/g)].map(([, menu]) => menu);
-  const shown = [...drawn('first-scene-1-menu').matchAll(/>([^<>]+)<\/text>/g)].map(([, words]) => words);
-  assert.ok(menus.length >= 6);
-  assert.deepEqual(menus.filter((menu) => shown.includes(menu)), ['First Scene', 'Tagged Cube', 'Mouse Pen', 'XR Pen (Right Hand)', 'XR Pen (Left Hand)']);
-});
-
-test('the picture of the two tarballs shows the names that pack gives them', () => {
-  const { name, version, dependencies } = JSON.parse(read('Packages', 'com.haptoflow.runtime', 'package.json'));
-  const picture = drawn('install-3-two-files');
-  assert.ok(picture.includes(`>${name}-${version}.tgz<`));
-  const tarball = 'com.github.asus4.onnxruntime';
-  assert.ok(picture.includes(`>${tarball}-${dependencies[tarball]}.tgz<`));
-  const others = Object.keys(dependencies).filter((dependency) => dependency !== tarball);
-  assert.ok(others.every((dependency) => dependency.startsWith('com.unity.')), 'Unity installs only its own packages without a tarball');
 });

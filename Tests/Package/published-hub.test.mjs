@@ -5,7 +5,6 @@ import { mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSyn
 import os from 'node:os';
 import path from 'node:path';
 import { after, beforeEach, test } from 'node:test';
-import * as client from '@huggingface/hub';
 import { bringEncodec, cacheRoot, repositoryFolder } from '../../scripts/published/checkpoint.mjs';
 import { askedWaitSeconds, download, endpointOf, listFiles, networkError, resolveRevision } from '../../scripts/published/hub.mjs';
 import { commit, deafAddress, startHub } from './support/hub_server.mjs';
@@ -59,23 +58,6 @@ const weightsEntry = () => entryOf(model, 'accel/model.safetensors');
 const bring = async (options = {}) => download({ repo: model, file: await weightsEntry(), into, ...connection, ...options });
 const filesOf = (place) => readdirSync(place, { withFileTypes: true }).flatMap((entry) => (entry.isDirectory() ? filesOf(path.join(place, entry.name)) : [entry.name]));
 
-test('the stand-in answers the hub\'s own client: pages, a revision, a file with its chunks described, and its bytes', async () => {
-  const common = { repo: dataset, hubUrl: hub.address };
-  const listed = [];
-  for await (const entry of client.listFiles({ ...common, path: 'sensor_data/accel/38' })) listed.push(entry.path);
-  assert.deepEqual(listed, Object.keys(textures));
-  assert.equal((await client.modelInfo({ name: model.name, hubUrl: hub.address, additionalFields: ['sha'] })).sha, commit);
-  const file = { repo: model, hubUrl: hub.address, path: 'accel/model.safetensors' };
-  const described = await client.fileDownloadInfo(file);
-  assert.equal(described.size, weights.length);
-  assert.match(described.xet.hash, /^[0-9a-f]{64}$/);
-  const plain = await client.downloadFile({ ...file, path: 'accel/meta.json' });
-  assert.deepEqual(Buffer.from(await plain.arrayBuffer()), meta);
-  const large = await client.downloadFile({ ...file, xet: false });
-  assert.deepEqual(Buffer.from(await large.arrayBuffer()), weights);
-  assert.equal(await client.fileDownloadInfo({ ...file, path: 'accel/none.json' }), null);
-});
-
 test('a listing has every page, with sizes, folders and the SHA-256 of large files', async () => {
   const entries = await listFiles({ repo: dataset, folder: 'sensor_data/accel/38', ...connection });
   assert.deepEqual(entries.map((entry) => entry.path), Object.keys(textures));
@@ -121,13 +103,6 @@ test('a small file, of which the listing knows Git\'s name only, is checked by i
   hub.fail('resolve-cache', { wrong: true });
   await assert.rejects(download({ repo: model, file, into, ...connection }), /meta\.json: its Git name is [0-9a-f]{40}, and the hub's listing says/);
   assert.deepEqual(filesOf(into), []);
-});
-
-test('files of a data set come from its own paths', async () => {
-  const name = Object.keys(textures)[4];
-  const { place } = await download({ repo: dataset, file: await entryOf(dataset, name), into, ...connection });
-  assert.deepEqual(readFileSync(place), textures[name]);
-  assert.ok(hub.requests.some(({ url }) => url.startsWith(`/datasets/lab/textures/resolve/main/${name}`)));
 });
 
 test('a complete file is not requested again', async () => {

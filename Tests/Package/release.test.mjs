@@ -26,15 +26,6 @@ const tarball = (files) => inFolder((folder) => {
 const elf = (machine, alignment) => elfOf({ machine, alignment });
 const android = (alignment) => elfOf({ machine: 183, libraries: ['libc.so'], alignment });
 
-test('every script of a release shows its help', () => {
-  for (const name of ['collect_natives', 'draft', 'upm_branch']) {
-    const { status, stdout } = script(name, '--help');
-    assert.equal(status, 0, name);
-    assert.match(stdout, new RegExp(`^usage: node scripts/pack/${name}\\.mjs`), name);
-    assert.equal(script(name).status, 2, name);
-  }
-});
-
 test('libraries that lie anywhere below a folder go to the build folders of their presets, and a missing one is named', () => {
   inFolder((folder) => {
     const [from, to] = [path.join(folder, 'artifacts'), path.join(folder, 'repository')];
@@ -76,27 +67,10 @@ test('a draft has the tarballs, the demo\'s page, checksums that agree, and note
   });
 });
 
-test('a program of one\'s own asks for this version\'s package, and the installation page names its tarball', () => {
-  const text = (...parts) => readFileSync(inRepository(...parts), 'utf8');
-  const asked = `find_package(haptoflow ${version.split('.').slice(0, 2).join('.')} REQUIRED)`;
-  for (const parts of [['Documentation~', 'platforms-and-tests.md'], ['Tests', 'Native', 'consumer', 'CMakeLists.txt']]) assert.ok(text(...parts).includes(asked), parts.join('/'));
-  assert.deepEqual([...new Set(text('Documentation~', 'installation.md').match(/com\.haptoflow\.runtime-[\d.]+\.tgz/g))], [`com.haptoflow.runtime-${version}.tgz`]);
-});
-
 test('the changes of a version are those of its own section', () => {
   const changelog = '# Changelog\n\n## 1.0.1\n\n- Second.\n\n## 1.0.10 (2026)\n\n- Tenth.\n';
   assert.deepEqual(['1.0.1', '1.0.10'].map((each) => changesOf(changelog, each)), ['- Second.', '- Tenth.']);
   assert.throws(() => changesOf(changelog, '2.0.0'), /has no section "## 2\.0\.0"/);
-});
-
-test('the workflow of a release makes a draft from files that the steps before it make, with the library of every platform', () => {
-  const workflow = readFileSync(inRepository('.github', 'workflows', 'release.yml'), 'utf8');
-  const ci = readFileSync(inRepository('.github', 'workflows', 'ci.yml'), 'utf8');
-  const required = platforms.map(({ id }) => id).join(',');
-  assert.ok(workflow.includes(`--require ${required}`), 'pack requires every platform');
-  assert.equal(workflow.match(/upm_branch\.mjs out\/com\.haptoflow\.(runtime|studies)-/g).length, 2);
-  for (const { id } of platforms) assert.match(ci, new RegExp(`name: native-${id}\n`), id);
-  assert.match(workflow, /gh release create .*--draft .*--notes-file out\/release\/notes\.md out\/release\/\*\.tgz out\/release\/SHA256SUMS/);
 });
 
 const git = (folder, ...words) => {

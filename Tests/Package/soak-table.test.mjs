@@ -1,14 +1,12 @@
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
-import { readFileSync } from 'node:fs';
 import test from 'node:test';
-import { soakTable, withMeasuredPart } from '../../scripts/lib/measured_part.mjs';
+import { soakTable } from '../../scripts/lib/measured_part.mjs';
 import { modelOfPage } from './support/model_of_page.mjs';
 import { inRepository } from '../../scripts/lib/process.mjs';
 
 const modelSha256 = 'e'.repeat(64);
 const run = { date: '2026-11-22', machine: 'a machine', modelSha256 };
-const command = 'npm run test:soak -- --publish';
 const loop = (change, fit) => `<testcase name="Stays/0"><properties><property name="level_change_db" value="${change}"/>
 <property name="spectrum_gfc" value="${fit}"/></properties></testcase>`;
 const suites = (tests, failures, cases = '') => `<testsuites tests="${tests}" failures="${failures}" time="12.6" name="AllTests">
@@ -20,14 +18,6 @@ test('the soak\'s table has the worst and the median of the labels, and the size
   assert.match(table, /ten minutes on each label \| 3 of 3 \| 13 \|/);
   assert.match(table, /on 3 labels: level changed by at most 0\.31 dB \(median 0\.10\), .* at least 0\.9991 \(median 0\.9995\)/);
   assert.equal(modelOfPage(table), modelSha256);
-});
-
-test('the page has the place that the soak publishes to, and nothing else of it changes', () => {
-  const page = readFileSync(inRepository('Documentation~', 'not-proven.md'), 'utf8');
-  const published = withMeasuredPart(page, command, soakTable([{ about: 'a day', xml: suites(1, 0) }], run));
-  assert.equal(modelOfPage(published), modelSha256);
-  assert.equal(published.split('<!-- measured: begin')[0], page.split('<!-- measured: begin')[0]);
-  assert.equal(published.split('<!-- measured: end')[1], page.split('<!-- measured: end')[1]);
 });
 
 test('the soak accepts --publish, and an unknown option beside it is named', () => {

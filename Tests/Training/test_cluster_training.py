@@ -18,7 +18,7 @@ from haptoflow_training.cli import main
 from haptoflow_training.commands import train_tiers
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.model_file import read_model_file
-from haptoflow_training.recordings.cluster_dataset import labels_of_textures, open_dataset
+from haptoflow_training.recordings.cluster_dataset import labels_of_textures
 from haptoflow_training.recordings.dataset_writer import TextureEntry, write_recording, write_texture_list
 from haptoflow_training.recordings.labels import LabelDefinition, LabelMap, load_labels
 from haptoflow_training.recordings.recording import Recording, RecordingIdentity
@@ -29,8 +29,6 @@ from training_fixtures import run_here
 
 NAME = "tamago117/cluster-haptic-texture-dataset"
 SCRIPT = Path(__file__).resolve().parents[2] / "scripts" / "train.mjs"
-# Each recording of these textures, with three files.
-CHOSEN = ("0_0_40_500_0", "0_90_40_500_1", "38_0_40_500_0", "38_90_40_500_1")
 
 
 @contextmanager
@@ -63,10 +61,6 @@ def _brought(asked: list[str]) -> list[str]:
     return [line.split("/resolve/")[1].split("/", 1)[1] for line in asked if "/resolve/" in line]
 
 
-def _of_data_set(path: Path) -> str:
-    return "/".join(path.parts[-4:])
-
-
 @pytest.fixture
 def small(tmp_path: Path) -> list[str]:
     """Words that train a small model, two steps long."""
@@ -89,33 +83,6 @@ def test_a_model_of_chosen_textures_has_their_labels_and_licence(tmp_path: Path,
     assert [label["name"] for label in header["labels"]] == ["wood", "stone"]
     assert "Cluster Haptic Texture Dataset" in header["provenance"]["statement"]
     assert header["provenance"]["licence"] == "CC BY 4.0"
-
-
-@pytest.mark.long(
-    because="PyTorch starts four times; Tests/Package/cluster.test.mjs downloads chosen textures, damaged ones again, and reads "
-    "the training's words"
-)
-def test_chosen_textures_are_downloaded_once_and_handed_to_the_training(tmp_path: Path) -> None:
-    words = ["--textures", "0,38", "--into", "data", "--configs", "gone"]
-    with loopback_hub() as (hub, asked):
-        ended = _train(hub, tmp_path, *words)
-        # The training has begun, and refuses the configuration.
-        assert ended.returncode == 3 and f"{Path('gone') / 'base.toml'}" in ended.stderr, ended.stderr
-        files = sorted(path.name for path in (tmp_path / "data" / "sensor_data").rglob("*") if path.is_file())
-        assert files == sorted(f"{name}.parquet" for name in CHOSEN for _ in range(3))
-        first = len(asked)
-        assert "wood (0), stone (38)" in ended.stdout and "licence cc-by-4.0" in ended.stdout
-        # Again: a file that is missing and a damaged one are brought, the others are only read.
-        lost, damaged = sorted((tmp_path / "data" / "sensor_data" / "force").rglob("*.parquet"))[:2]
-        lost.unlink()
-        damaged.write_bytes(b"PAR1" + damaged.read_bytes()[4:-1] + b"2")
-        assert _train(hub, tmp_path, *words).returncode == 3
-    assert not [path for path in asked if "/49" in path or "audio" in path]
-    assert len(_brought(asked[:first])) == 13 == len(set(_brought(asked[:first])))
-    assert sorted(_brought(asked[first:])) == sorted([_of_data_set(lost), _of_data_set(damaged)])
-    labels = load_labels(tmp_path / "data" / "labels.toml")
-    assert [(label.name, label.textures) for label in labels.definitions] == [("wood", (0,)), ("stone", (38,))]
-    assert [entry.label for entry in open_dataset(tmp_path / "data", labels)] == ["wood", "wood", "stone", "stone"]
 
 
 def test_wrong_words_are_refused_before_anything_is_asked_for(tmp_path: Path) -> None:

@@ -52,15 +52,6 @@ def page() -> str:
     return page_of(shown("crossing", 0.2), shown("wood", 0.02), shown("taps and rims", 0.01), shown("boards", 0.01))
 
 
-def test_the_renders_are_the_crossing_one_plate_of_eight_labels_and_taps_with_all_effects_and_boards_with_their_map() -> None:
-    crossing, *traced, taps, boards = demo.planned()
-    assert Path(boards[1]["surfaces"][0]["relief"]["image"]).is_file()
-    assert (crossing[0], taps[3]) == ("crossing", ("--effects", "texture,impact,edge"))
-    materials = [[each["material"] for each in scene["surfaces"]] for _, scene, _, _ in traced]
-    assert materials == [[label] for label in demo.TRACED_LABELS]
-    assert len(traced) == 8
-
-
 def test_the_players_share_one_gain_the_loudest_peaks_at_minus_1_dbfs(page: str) -> None:
     sounds = re.findall(r"audio/wav;base64,([^\"]+)", page)
     waves = [np.frombuffer(base64.b64decode(each), np.int16, offset=44) for each in sounds]
@@ -104,9 +95,3 @@ def test_the_scene_is_drawn_twice_with_labels_start_tip_and_moving_object() -> N
         assert view.count("<svg ") == view.count('class="mover"') == view.count('class="tip"') == 1
         places = json.loads(re.search(r'class="tip"[^>]*data-track="([^"]*)"', view)[1])
         assert len(places) == 31
-
-
-def test_a_looped_motion_passes_through_its_keyframes_and_begins_again() -> None:
-    keyframes = [{"t": t, "position": [x, 0, 0]} for t, x in ((0, 0), (0.5, 0.1), (1, 0))]
-    places = drawings.positions_at({"keyframes": keyframes, "loop": True}, np.array([0, 0.5, 1, 2.5]))
-    assert places[:, 0] == pytest.approx([0, 0.1, 0, 0.1], abs=1e-9)

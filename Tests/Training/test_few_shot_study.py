@@ -4,38 +4,29 @@ from __future__ import annotations
 
 import json
 import os
-import re
 from pathlib import Path
 
 import numpy as np
 import pytest
 from scipy.signal import freqz, lfilter, welch
 
-from haptoflow_benchmark import cli as benchmark
 from haptoflow_benchmark.waveform_metrics import power_spectrum
-from haptoflow_paper import cli as paper
 from haptoflow_paper.cli import main
 from haptoflow_paper.studies.few_shot_cases import (
     SECONDS, FewShotCase, conditions, filtered_surfaces, make_case, study_materials
 )
 from haptoflow_paper.studies.few_shot_report import (
-    OTHER_DRAW, ROWS, assembled, condition_figures, curve_table, page_words, table, write_chart, write_results
+    OTHER_DRAW, ROWS, assembled, condition_figures, curve_table, table, write_chart, write_results
 )
 from haptoflow_paper.studies.few_shot_rivals import fit_autoregressive
 from haptoflow_paper.studies.few_shot_study import StudyPlan, cells_of, with_trained
-from haptoflow_training import cli as training
 from haptoflow_training.export.level_table import LevelTable
 from haptoflow_training.export.model_file import read_model_file
-from haptoflow_training.model_stamp import with_measured_words
 from haptoflow_training.recordings.material_recording import MaterialRecording
 from haptoflow_training.recordings.synthetic import load_materials
-from own_samples import csv_one_axis, stroke
 
 ROOT = Path(__file__).parents[2]
 DEFAULT = ROOT / "Packages" / "com.haptoflow.runtime" / "Runtime" / "Models" / "default.haptoflow"
-RESULTS = ROOT / "Training" / "haptoflow_paper" / "results" / "few-shot.json"
-PAGE = ROOT / "Documentation~" / "own-materials.md"
-TABLES = RESULTS.with_suffix(".md")
 ENGINE = Path(os.environ.get("HAPTOFLOW_ENGINE", ROOT / "build" / "native" / "haptoflow"))
 
 
@@ -173,13 +164,6 @@ def test_an_unwritable_place_is_reported_in_one_line_before_anything_is_fitted(
     assert sorted(path.name for path in tmp_path.iterdir()) == ["folder", "plain.md"]
 
 
-def test_the_published_table_is_that_of_the_published_results() -> None:
-    results = json.loads(RESULTS.read_text(encoding="utf-8"))
-    page = TABLES.read_text(encoding="utf-8")
-    assert len(results["materials"]) >= 10
-    assert with_measured_words(page, page_words(results, "../../../Documentation~/images/few-shot.png")) == page
-
-
 FLAT = LevelTable((0.1,), (0.0,), 1.0, 0.0, 0.0)
 
 
@@ -208,53 +192,3 @@ def test_the_autoregressive_rival_recovers_an_autoregressive_spectrum() -> None:
     assert np.sqrt(np.mean(made**2)) == pytest.approx(1.0, abs=0.15)
     ratio = 10.0 * np.log10(power_spectrum(made, 256)[3:100] / power_spectrum(wave, 256)[3:100])
     assert np.sqrt(np.mean(ratio**2)) < 1.0
-
-
-HEADING = "## A new material from ten seconds, in Python"
-
-PROGRAMS = {"haptoflow-benchmark": benchmark.main, "haptoflow-paper": paper.main, "haptoflow-training": training.main}
-
-
-def commands() -> list[list[str]]:
-    """The words of each command on the page, its program first."""
-    section = PAGE.read_text(encoding="utf-8").split(HEADING, 1)[1].split("\n## ", 1)[0]
-    blocks = re.findall(r"^```\n(.*?)^```", section, re.DOTALL | re.MULTILINE)
-    lines = [line.split() for block in blocks for line in block.splitlines()]
-    return [words for words in lines if words[:1] and words[0] in PROGRAMS]
-
-
-@pytest.mark.long(
-    because="every command of the page of the few-shot study runs; the commands of the page own-materials run in the "
-    "default form"
-)
-def test_every_command_of_the_page_runs_and_writes_what_it_names(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    csv_one_axis(tmp_path, "doormat", "doormat", stroke(4.0))
-    (tmp_path / "default.haptoflow").symlink_to(DEFAULT)
-    work = tmp_path / "work"
-    work.mkdir()
-    made = {name: {**stored(name, False), "filtered": name == "filtered-01"} for name in ("unseen-01", "filtered-01")}
-    for name, cells in made.items():
-        (work / f"{name}.json").write_text(json.dumps(cells), encoding="utf-8")
-    trained = {name: cells["rows"]["learn 10"] for name, cells in made.items()}
-    for seconds in SECONDS:
-        (work / f"trained-{seconds:g}.json").write_text(json.dumps(trained), encoding="utf-8")
-    ran = set()
-    for program, *words in commands():
-        quick = {
-            "add-material": ["--seconds-limit", "1"],
-            "sliders": [],
-            # The slow cells are stored already.
-            "few-shot": ["--materials", "1", "--work", str(work)],
-        }[words[0]]
-        assert PROGRAMS[program]([*words, *quick]) == 0, words
-        ran.add(words[0])
-        for before, named in zip(words[:-1], words[1:], strict=True):
-            if before in ("-o", "--results", "--chart"):
-                assert (tmp_path / named).stat().st_size > 0
-    assert ran == {"add-material", "sliders", "few-shot"}
-    assert (tmp_path / "doormat.haptomaterial").exists()
-    assert "trained 10" in (tmp_path / "few-shot.json").read_text(encoding="utf-8")
-    assert "learn 10" in (tmp_path / "few-shot.json").read_text(encoding="utf-8")

@@ -22,8 +22,6 @@ from haptoflow_training.models.level_model import LevelModel
 from haptoflow_training.models.rib_comb import PARTIALS, RibComb
 from haptoflow_training.models.skeleton import Skeleton
 from haptoflow_training.training.found_wave_vectors import rib_phase_turns
-from haptoflow_training.recordings.synthetic.carriers import guided_ride
-from haptoflow_training.recordings.synthetic.contact import SIMULATION_RATE_HZ
 from haptoflow_training.training.config import ModelConfig, RecipeConfig
 from haptoflow_training.training.energy_distance import energy_distance_loss, envelopes, spectra
 from haptoflow_training.training.losses import SkeletonLosses
@@ -143,29 +141,12 @@ def test_rate_features_are_zero_at_rest_and_tell_how_fast_and_which_way() -> Non
     assert torch.equal(there, rate_features(_test_surface_waves_phases((0.7, 0.0, 0.0), (5.0, 40.0, -300.0)))), "no place"
 
 
-@pytest.mark.parametrize("samples", [1, 27, 150])
-def test_advanced_phases_are_those_of_a_segment_that_begins_later(samples: int) -> None:
-    waves, phases = SurfaceWaves(5, 700.0), _test_surface_waves_phases((0.15, 0.6, 0.9), (35.0, -60.0, 20.0))
-    later = advanced(phases, samples)
-    assert torch.equal(later[:, 3:], phases[:, 3:])
-    assert ((later[:, :3] >= 0.0) & (later[:, :3] <= 1.0)).all()
-    for first, second in zip(waves(phases), waves(later), strict=True):
-        torch.testing.assert_close(second[..., : 200 - samples], first[..., samples:], rtol=0.0, atol=1e-3)
-        assert (second[..., samples:] - first[..., samples:]).abs().max() > 0.01
-
-
 EMBEDDING = LabelEmbedding(64, [((0.4, 0.0),), ((0.8, 0.0), (0.0, 0.8)), ()])
 
 
 def _wave(frequencies_hz: list[float], start: int, stop: int) -> torch.Tensor:
     time = torch.arange(start, stop) / 2000.0
     return torch.stack([torch.sin(2.0 * math.pi * f * time + f) for f in frequencies_hz]).sum(dim=0).reshape(1, 1, -1)
-
-
-def test_a_label_s_last_four_numbers_are_its_wave_vectors_and_zero_without_ribs() -> None:
-    torch.testing.assert_close(
-        EMBEDDING.weight[:, -4:], torch.tensor([[0.4, 0.0, 0.0, 0.0], [0.8, 0.0, 0.0, 0.8], [0.0, 0.0, 0.0, 0.0]])
-    )
 
 
 def test_the_rib_frequency_is_the_speed_across_the_ribs_over_their_wavelength() -> None:
@@ -256,27 +237,6 @@ def test_training_does_not_change_wave_vectors_and_a_saved_run_has_them(tmp_path
     assert model.embedding.weight[:, -4:].tolist() == [[0.5, 0.0, 0.0, 0.0], [0.0, 0.0, 0.0, 0.0]]
 
 
-def test_a_quarter_of_a_guided_stroke_is_so_steady_that_fast_ribs_keep_their_phase_and_half_of_that_is_along_a_scan(
-    
-) -> None:
-    """0.6 mm ribs at up to 1.5 m/s: how far the position is, in the middle of a tenth, from a straight line's."""
-    step = int(SIMULATION_RATE_HZ) // 10
-    bends, turns = [], []
-    for seed in range(6):
-        ride = guided_ride(
-            np.random.default_rng(seed), duration_seconds=8.0, median_speed_mmps=400.0, median_force_newtons=1.0
-        )
-        position = ride.path.position_mm[10 * step : 70 * step]
-        tenths = position[: len(position) // step * step].reshape(-1, step, 2)
-        bend = 0.5 * (tenths[:, step // 2 - 1] + tenths[:, step // 2] - tenths[:, 0] - tenths[:, -1])
-        bends.append(2.0 * math.pi * np.abs(bend[:, 0]) / 0.6)
-        eighths = np.arctan2(*(tenths[:, -1] - tenths[:, 0]).T) / (0.25 * math.pi)
-        turns.append(np.abs(eighths - np.round(eighths)) * 45.0)
-    steady, turned_degrees = np.concatenate(bends) < 0.05, np.concatenate(turns)
-    assert np.mean(steady) > 0.25
-    assert np.mean(turned_degrees[steady] < 5.0) > 0.4
-
-
 RATE_HZ = 2000
 VECTOR = (0.5, 0.3)
 
@@ -335,8 +295,3 @@ def test_a_followed_phase_becomes_the_one_at_which_the_skeleton_s_fundamental_is
     stated = math.copysign(1.0, rate_hz) * path_of(followed)[0, 0].double().numpy()
     line = np.mean(ended * np.exp(-2j * np.pi * stated))
     assert abs(np.angle(line)) < 0.05 and abs(line) > 1e-3
-
-
-def test_what_the_recorder_states_is_left_as_it_is() -> None:
-    model = SkeletonModel(wave_vectors=[[VECTOR]], level=LevelModel(16), skeleton=Skeleton((16, 16)))
-    assert not SkeletonLosses(model).ribs_followed

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -12,7 +12,7 @@ import torch
 from numpy.typing import NDArray
 
 from haptoflow_training.training.level_calibration import (
-    ClosedLoopLevels, TierSource, closed_loop_levels, hops, level_tables
+    ClosedLoopLevels, Extent, TierSource, closed_loop_levels, hops, level_tables, offsets_db
 )
 from haptoflow_training.export.exponents import LabelExponents, fit_exponents
 from haptoflow_training.export.exporter import export_run
@@ -65,6 +65,27 @@ def test_the_level_error_of_a_label_is_measured_in_closed_loop() -> None:
     found = level_offsets_db(_KnownSource((2.0, -1.0)), embeddings, store, HeldOut(), counted.append)
     assert found == pytest.approx([2.0, -1.0], abs=0.3)
     assert sum(counted) == hops(store)
+
+
+def _on_four_specimens(level_db: Sequence[float]) -> FakeStore:
+    """Noise at one speed, 16 recordings that cycle through specimens of these levels relative to the label's."""
+    generator, length = np.random.default_rng(5), int(4.0 * RATE_HZ)
+    motion = np.tile(np.array([0.1, 0.0, 1.0], dtype=np.float32), (16 * length, 1))
+    gains = 10.0 ** (np.array(level_db)[np.arange(16) % 4] / 20.0)
+    wave = generator.standard_normal(16 * length) * np.repeat(0.02 * gains, length)
+    recordings = [FakeRecording(0, "hand", "train", row * length, length, row % 4) for row in range(16)]
+    return FakeStore(wave.astype(np.float32), motion, travelled_mm(motion), 10.0, ["one"], recordings)
+
+
+@pytest.mark.parametrize("count", [4, 6, 8, 16])
+def test_a_label_has_the_mean_level_of_its_specimens_in_db_whichever_recordings_are_compared(count: int) -> None:
+    store = _on_four_specimens((-5.0, -1.0, 0.0, 6.0))
+    levels = closed_loop_levels(
+        _KnownSource((0.0, 0.0)), np.zeros((1, 64), dtype=np.float32), store, still_surfaces(1), HeldOut(),
+        extent=Extent(recordings_per_label=count),
+    )  # fmt: skip
+    assert set(levels.specimens) == {0, 1, 2, 3}
+    assert offsets_db(levels, 1) == pytest.approx([0.0], abs=0.2)
 
 
 def test_a_level_shift_affects_its_label_only_and_is_the_same_at_every_motion() -> None:
@@ -219,8 +240,9 @@ def test_offsets_that_are_the_same_at_all_speeds_need_no_table() -> None:
     speeds = np.repeat(np.exp(np.linspace(np.log(0.02), np.log(0.5), 20)), 12)
     heard = speeds**2
     levels = ClosedLoopLevels(
-        np.column_stack([4.0 * heard, heard]), speeds, np.ones(len(speeds)), np.zeros(len(speeds), dtype=np.int64)
-    )
+        np.column_stack([4.0 * heard, heard]), speeds, np.ones(len(speeds)), np.zeros(len(speeds), dtype=np.int64),
+        np.full(len(speeds), -1),
+    )  # fmt: skip
 
     def never(tables: Mapping[int, LevelTable]) -> ClosedLoopLevels:
         raise AssertionError("nothing is to be measured again")

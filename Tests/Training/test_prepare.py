@@ -62,37 +62,11 @@ def test_prepare_takes_a_published_folder_with_the_default_labels(
     assert "3 recordings" in printed and "1 recordings are left out: no label names their texture" in printed
 
 
-def test_prepare_takes_synthetic_recordings_with_their_own_names(tmp_path: Path) -> None:
-    out = tmp_path / "store"
-    assert main(
-        ["prepare", "--recordings", str(synthetic(tmp_path / "data")), "--out", str(out), "--workers", "2"]
-    ) == 0
-    store = SegmentStore.open(out)
-    assert store.labels == ["carpet"] and len(store.recordings) == 3
-    assert store.provenance["recordings"][0]["synthetic"] is True
-
-
-def test_prepare_skips_a_broken_file_and_says_so(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    data = published(tmp_path / "data")
-    (data / "sensor_data" / "force" / "0_0_20_500_0.csv").write_text("")
-    assert main(["prepare", "--recordings", str(data), "--out", str(tmp_path / "store")]) == 0
-    store = SegmentStore.open(tmp_path / "store")
-    assert len(store.recordings) == 2 and [one.name for one in store.skipped] == ["0_0_20_500_0"]
-    assert "skipped: 0_0_20_500_0" in capsys.readouterr().out
-
-
 def test_prepare_exits_3_where_no_recording_has_a_label(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     write_recording(tmp_path / "data", small_recording("5_0_20_500_0", seconds=1.2))
     write_texture_list(tmp_path / "data", [TextureEntry(0, "Nyatoh", {}), TextureEntry(5, "Oak", {})])
     assert main(["prepare", "--recordings", str(tmp_path / "data"), "--out", str(tmp_path / "store")]) == 3
     assert "no recording with a label" in capsys.readouterr().err
-
-
-def test_prepare_refuses_two_folders_with_the_same_names(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    first, second = published(tmp_path / "a"), published(tmp_path / "b")
-    assert main(["prepare", "--recordings", str(first), str(second), "--out", str(tmp_path / "store")]) == 3
-    assert "came twice" in capsys.readouterr().err
-    assert not (tmp_path / "store").exists()
 
 
 SETTINGS = PreprocessingSettings()
@@ -142,12 +116,6 @@ def test_a_store_opened_again_is_the_store_that_was_written(store: SegmentStore)
         again.waveform[0] = 1.0
 
 
-def test_every_recording_is_in_exactly_one_split_and_all_splits_occur(store: SegmentStore) -> None:
-    names = [{stored.name for stored in store.split(split)} for split in SPLITS]
-    assert all(names)
-    assert sum(map(len, names)) == len(set.union(*names)) == len(store.recordings)
-
-
 def test_no_sample_of_one_split_belongs_to_another_split(store: SegmentStore) -> None:
     splits_of_sample = np.zeros(len(store.waveform), dtype=int)
     for split in SPLITS:
@@ -156,14 +124,6 @@ def test_no_sample_of_one_split_belongs_to_another_split(store: SegmentStore) ->
             used[stored.start : stored.start + stored.length] = True
         splits_of_sample += used
     assert splits_of_sample.max() == 1
-
-
-def test_no_pass_over_a_track_of_the_surface_is_in_two_splits(store: SegmentStore) -> None:
-    track = {}
-    for stored in store.recordings:
-        if stored.protocol == "machine":
-            key = (stored.texture_id, stored.direction_degrees, stored.speed_mmps, stored.force_millinewtons)
-            assert track.setdefault(key, stored.split) == stored.split
 
 
 def test_a_recording_keeps_its_split_and_its_silence_when_others_are_added(store: SegmentStore, tmp_path: Path) -> None:
@@ -176,14 +136,6 @@ def test_a_recording_keeps_its_split_and_its_silence_when_others_are_added(store
         assert (stored.split, stored.padding_before, stored.padding_after, stored.length) == (
             (other.split, other.padding_before, other.padding_after, other.length)
         )
-
-
-def test_held_out_directions_and_speeds_land_in_the_test_split(tmp_path: Path) -> None:
-    settings = replace(SETTINGS, held_out_directions=(90,), held_out_speeds_mmps=(40,))
-    store = prepare_store(some_recordings(), LABELS, tmp_path / "store", settings, seed=4)
-    held_out = [one for one in store.recordings if one.direction_degrees == 90 or one.speed_mmps == 40]
-    assert held_out and {one.split for one in held_out} == {"test"}
-    assert store.split("train")
 
 
 def test_a_broken_recording_is_skipped_with_its_reason_and_the_rest_is_kept(tmp_path: Path) -> None:

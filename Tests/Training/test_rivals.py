@@ -10,15 +10,12 @@ import warnings
 from collections.abc import Callable
 from pathlib import Path
 
-import numpy as np
 import onnx
 import pytest
-import scipy.signal
 import torch
 from torch import Tensor
 
 from haptoflow_paper.rivals import ARCHITECTURES, Rival, build_rival
-from haptoflow_paper.rivals.autoregressive import AutoregressiveRival
 from haptoflow_paper.rivals.rival import INPUTS, SegmentNetworkGraph
 from haptoflow_paper.rivals.spsi import SpsiRival
 from haptoflow_paper.runs.trainer import EvaluatedTrainer
@@ -60,16 +57,6 @@ def _shortened(name: str) -> TrainingConfig:
         batch=BatchConfig(),
         recipe=dataclasses.replace(config.recipe, **few, reflow_pairs=500, energy_batch_size=6),
     )  # fmt: skip
-
-
-@pytest.mark.parametrize("name", GIVEN_THE_SAME)
-def test_a_rival_given_the_same_has_the_recordings_batches_and_time_of_our_recipe(name: str) -> None:
-    ours, rival = load_config(CONFIGS / "sketch.toml"), load_config(CONFIGS / f"{name}.toml")
-    assert rival.model.network == "field" and rival.model.ribs
-    assert rival.recipe.calibrate_level and ours.recipe.calibrate_level
-    assert rival.data == ours.data
-    assert rival.batch == ours.batch
-    assert rival.optimiser.budget_seconds == ours.optimiser.budget_seconds > 0.0
 
 
 _LARGE = pytest.mark.long(because="the two largest networks; the other rivals train and are exported by the same code")
@@ -146,8 +133,6 @@ def _train(words: list[str]) -> int:
     return main(["train", *words])
 
 
-DETERMINISTIC = ("transformer", "dstn")
-RANDOM = ("spsi", "autoregressive")
 SAMPLED = ("transformer", "dstn", "spsi")
 # In the forms as published and given the same.
 FORMS = {
@@ -205,31 +190,12 @@ def _test_rival_networks_train(baseline: Rival, draw: Batch, steps: int, rate: f
 
 
 @pytest.mark.parametrize("form", FORMS)
-def test_a_rival_s_loss_is_one_number_for_every_row(form: str) -> None:
-    inputs = _inputs(3)
-    segment, generator = inputs.pop("noisy"), torch.Generator().manual_seed(0)
-    baseline = _built(form)
-    loss = baseline.loss(segment, **inputs, generator=generator)
-    row = {name: value[1:2] for name, value in inputs.items()}
-    alone = baseline.loss(segment[1:2], **row, generator=generator)
-    assert loss.shape == (3,)
-    if "noisy" not in baseline.inputs or baseline.lines is None:
-        torch.testing.assert_close(loss[1:2], alone, rtol=1e-4, atol=1e-5)
-
-
-@pytest.mark.parametrize("form", FORMS)
 def test_exactly_the_named_inputs_affect_a_rival_s_output(form: str) -> None:
     baseline, inputs = _built(form), _inputs(2)
     before = baseline(**inputs)
     for name in INPUTS:
         after = baseline(**dict(inputs, **{name: inputs[name] + 0.1}))
         assert torch.equal(before, after) == (name not in baseline.inputs), name
-
-
-def test_deterministic_rivals_ignore_the_noise_and_sampled_ones_read_it() -> None:
-    assert sorted(DETERMINISTIC + RANDOM) == sorted(ARCHITECTURES)
-    assert all("noisy" not in _built(architecture).inputs for architecture in DETERMINISTIC)
-    assert all("noisy" in _built(architecture).inputs for architecture in RANDOM)
 
 
 def test_spsi_learns_a_spectrum_and_renders_at_the_stated_level() -> None:
@@ -253,32 +219,6 @@ def test_spsi_learns_a_spectrum_and_renders_at_the_stated_level() -> None:
     assert (stated - expected)[5:95].abs().mean() < 0.15
     power = (stated.exp().square() * 2.0).sum() / (200.0 * 75.0)
     assert made.square().mean().sqrt().item() == pytest.approx(power.sqrt().item(), rel=0.05)
-
-
-@pytest.mark.long(because="a filter is trained; test_all_pole_filter.py holds its arithmetic and Burg's estimates")
-def test_the_autoregressive_rival_learns_the_poles_and_level_of_a_process() -> None:
-    radius, angle = 0.95, 2.0 * math.pi * 0.08
-    truth = np.array([1.0, -2.0 * radius * math.cos(angle), radius**2])
-    gain = 0.2
-    source = np.random.default_rng(4)
-
-    def draw(_step: int) -> tuple[Tensor, Tensor]:
-        wave = scipy.signal.lfilter([gain], truth, source.standard_normal((16, 800)))[:, 400:]
-        both = torch.from_numpy(wave).float().unsqueeze(1)
-        return both[:, :, :200], both[:, :, 200:]
-
-    torch.manual_seed(0)
-    baseline = AutoregressiveRival()
-    losses = _test_rival_networks_train(baseline, draw, 150, 3e-3)
-    with torch.no_grad():
-        coefficients, log_gain = baseline.process(*_one_condition(1)[:2])
-    learned = np.concatenate([[1.0], coefficients[0].double().numpy()])
-    least = math.log(gain) + 0.5
-    assert losses[-1] - least < 0.1 < losses[0] - least
-    assert math.exp(log_gain.item()) == pytest.approx(gain, rel=0.1)
-    response = [np.abs(scipy.signal.freqz([1.0], a, worN=128)[1]) for a in (truth, learned)]
-    assert np.abs(20.0 * np.log10(response[1] / response[0])).mean() < 1.5
-    assert abs(int(response[1].argmax()) - int(response[0].argmax())) <= 1
 
 
 def _exported(baseline: Rival, batch: int) -> onnx.ModelProto:

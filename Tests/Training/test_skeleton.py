@@ -78,21 +78,6 @@ def test_without_ribs_and_rungs_its_power_is_1_in_the_long_run() -> None:
     assert sum(powers[10:]) / 30.0 == pytest.approx(1.0, rel=0.05)
 
 
-@pytest.mark.parametrize("later", [1, 27, 150])
-def test_a_segment_begun_later_says_the_same_of_the_same_samples(later: int) -> None:
-    gains, phases = _with_ribs(2), _phases((40.0, -25.0, 66.0), (0.1, 0.7, 0.4))
-    previous, noise = _wave(1, 3), _noise(1, 4)
-    first = SKELETON.parts(noise, previous, gains, phases).segment
-    second = SKELETON.parts(
-        torch.cat([noise[:, :, later:], _noise(1, 5, later)], dim=2),
-        torch.cat([previous[:, :, later:], first[:, :, :later]], dim=2),
-        gains,
-        advanced(phases, later),
-    ).segment
-    torch.testing.assert_close(second[:, :, : 200 - later], first[:, :, later:], rtol=0.0, atol=5e-3)
-    assert first.square().mean() > 0.5
-
-
 def _line(gains: SkeletonGains, phases: torch.Tensor) -> torch.Tensor:
     """[200]: the lines alone."""
     return SKELETON.parts(QUIET, SILENCE, gains, phases).segment[0, 0]

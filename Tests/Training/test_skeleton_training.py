@@ -93,13 +93,6 @@ def exported(runs: Path, store: FakeStore) -> ModelFile:
     return read_model_file(runs / "m.haptoflow")
 
 
-def test_a_skeleton_is_fitted_by_burg_s_estimates_likelihood_and_energy_and_a_refinement_by_energy_alone(runs: Path) -> None:
-    phases = [[phase.objective for phase in Trainer.phases(config)] for config in (_sketch(), _refinement())]
-    assert phases == [["level", "filter", "likelihood", "energy", "energy", "level"], ["energy", "energy"]]
-    for tier in ("sketch", "draft"):
-        assert json.loads((runs / tier / "run.json").read_text(encoding="utf-8"))["steps"] > 0
-
-
 def test_training_moves_the_skeleton_and_its_specimens_and_a_refinement_leaves_both_as_they_are(runs: Path) -> None:
     sketch, standard = (load_trained(runs / name)[2] for name in ("sketch", "standard"))
     assert isinstance(sketch, SkeletonModel) and isinstance(standard, SkeletonModel)

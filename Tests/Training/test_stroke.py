@@ -40,14 +40,6 @@ def test_a_random_strokes_velocity_is_the_derivative_of_its_position():
     assert np.allclose(difference, stroke.velocity_mps[:-1], atol=1e-9)
 
 
-def test_a_random_stroke_is_not_sinusoidal():
-    stroke = random_planar_stroke(
-        np.random.default_rng(6), duration_seconds=16.0, rate_hz=500.0, median_speed_mps=0.3, extent_metres=0.3
-    )
-    power = np.abs(np.fft.rfft(stroke.velocity_mps[:, 0] * np.hanning(len(stroke.velocity_mps)))) ** 2
-    assert np.sort(power)[-3:].sum() < 0.5 * power.sum()
-
-
 def test_a_scripted_stroke_starts_and_ends_at_its_waypoints_and_rounds_the_others_without_stopping():
     stroke = scripted_stroke(WAYPOINTS, segment_seconds=0.5, rate_hz=240.0, seed=2, tremor_metres=0.0)
     assert np.allclose(stroke.position_metres[0], WAYPOINTS[0])

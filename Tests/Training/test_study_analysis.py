@@ -166,14 +166,6 @@ def test_too_few_participants_are_refused_in_one_line(tmp_path: Path, capsys: py
     assert not (tmp_path / "r.html").exists()
 
 
-def test_faulty_logs_make_no_report(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    logs = latency_study(tmp_path / "logs")
-    change_field(log_of(logs, 2), 3, "answer", "maybe")
-    assert main(["study", "analyse", str(logs), "--out", str(tmp_path / "r.html")]) == 3
-    assert "row 3, column answer: 'maybe' is not yes or no" in capsys.readouterr().err
-    assert not (tmp_path / "r.html").exists()
-
-
 def test_results_are_not_written_among_the_logs(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     logs = latency_study(tmp_path / "logs")
     words = ["study", "analyse", str(logs), "--out", str(tmp_path / "r.html"), "--results", str(logs / "r.json")]
@@ -235,17 +227,6 @@ def test_ratings_that_are_all_equal_are_a_dash_and_partly_equal_ones_are_named(t
     assert re.search(r"<td>jute</td><td>-</td>", page)
     assert re.search(r"<td>wood</td><td>rejected for \d of 2; 1 not tested, all ratings equal</td>", page)
     assert "of 0" not in page
-
-
-def test_figures_name_their_counts_and_show_every_answer_and_rating(tmp_path: Path) -> None:
-    page, results = analysed(similarity_study(latency_study(tmp_path / "logs", 6), 6), tmp_path)
-    latency, similarity = pictures_of(page)
-    assert ">6 participants; ticks above and below are single answers</text>" in latency
-    assert latency.count("(n = 66 answers)") == 2
-    assert similarity.count("(n = 6)") == 2
-    # A mark for each of 132 answers, and for each of 36 ratings.
-    assert latency.count("<use ") > 132 and similarity.count("<use ") > 36
-    assert results["similarity"]["equivalence_points"] == 0.5  # type: ignore[index]
 
 
 @pytest.mark.parametrize("value", [None, 0, -1, 7, "0.5", True])

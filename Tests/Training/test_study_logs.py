@@ -297,29 +297,3 @@ def test_a_session_as_the_unity_samples_write_it_is_read_whole_with_its_interrup
         plan_of = similarity_plan(session.participant, session.sidecar["seed"], materials, methods)
         expected = [asdict(trial) for trial in plan_of]
     assert plan == expected
-
-
-def test_a_session_of_the_similarity_sample_is_analysed_together_with_those_of_two_others(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    (recorded,) = SESSIONS.glob("similarity-*.csv")
-    logs, report, results = (tmp_path / name for name in ("logs", "report.html", "results.json"))
-    logs.mkdir()
-    for path in (recorded, recorded.with_suffix(".json")):
-        shutil.copy(path, logs)
-    assert main(["study", "analyse", str(logs), "--out", str(report)]) == 3
-    assert capsys.readouterr().err.endswith("1 participant of the similarity study; its tests need 3\n")
-    for participant in (8, 9):
-        log = logs / f"similarity-P{participant:02d}-0000000{participant}.csv"
-        shutil.copy(recorded, log)
-        shutil.copy(recorded.with_suffix(".json"), log.with_suffix(".json"))
-        of = {"participant": participant, "session": f"0000000{participant}"}
-        change_sidecar(log, lambda sidecar, of=of: sidecar | of)
-        change_field(log, 6, "rating", str(participant - 7))
-    assert main(["study", "analyse", str(logs), "--out", str(report), "--results", str(results)]) == 0
-    page = report.read_text(encoding="utf-8")
-    sidecar = json.loads(recorded.with_suffix(".json").read_text(encoding="utf-8"))
-    assert len(sidecar["settings"]["materials"]) == 6 and len(sidecar["settings"]["methods"]) == 4
-    for entry in sidecar["settings"]["materials"] + sidecar["settings"]["methods"]:
-        assert entry["name"] in page
-    assert "SIMULATED" in page and "Sample of jute" in results.read_text(encoding="utf-8")

@@ -12,13 +12,8 @@ import pytest
 
 from haptoflow_training.cli import main
 from haptoflow_training.errors import InputError
-from haptoflow_training.model_stamp import with_measured_words
-from haptoflow_training.studies.delay_budget import (
-    BenchFigures, Block, Budget, Spread, budgets, page_words as budget_words, read_bench
-)
-from haptoflow_training.studies.log_table import COLUMNS
+from haptoflow_training.studies.delay_budget import BenchFigures, Block, Budget, Spread, budgets, read_bench
 from haptoflow_training.studies.plans import SplitMix64, latency_plan, similarity_plan, williams_design
-from haptoflow_training.studies.session_file import KEYS
 
 GOLDEN = Path(__file__).parents[1] / "Golden" / "studies" / "plans.json"
 LEVELS = [float(level) for level in range(50, 251, 20)]
@@ -202,20 +197,3 @@ def test_every_command_of_a_page_runs_in_its_order(
         assert "SIMULATED" in (tmp_path / "report.html").read_text(encoding="utf-8")
     if "merge" in ran:
         assert sorted(path.name for path in (tmp_path / "tables").iterdir()) == ["latency.csv", "similarity.csv"]
-
-
-def test_every_column_and_key_of_the_logs_is_explained() -> None:
-    named = set(re.findall(r"`([a-z0-9_]+)`", FILES.read_text(encoding="utf-8")))
-    for columns in COLUMNS.values():
-        for column in columns:
-            assert column.name in named, column.name
-            assert set(column.words) <= named | {"turn-on", "turn-off"}
-    for key in ("format", "version", *KEYS):
-        assert key in named, key
-
-
-def test_the_published_budget_is_that_of_the_published_benchmark() -> None:
-    page = (RESULTS / "delay-budget.md").read_text(encoding="utf-8")
-    chart = "../../Documentation~/images/delay-budget.png"
-    words = budget_words(read_bench(PUBLISHED), chart)
-    assert page == with_measured_words(page, words), "write it anew: haptoflow-training study budget --page"

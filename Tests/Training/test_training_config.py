@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import tomllib
 from pathlib import Path
 
 import pytest
@@ -61,16 +60,6 @@ def test_a_configuration_that_names_no_network_trains_the_tier_that_ships_withou
     shipped = load_config(CONFIGURATIONS / "default" / "base.toml")
     assert config.model == shipped.model and config.tier == shipped.tier == "sketch"
     assert isinstance(build_model(config, [(), ()]), SkeletonModel)
-
-
-def _stated_network(path: Path) -> str | None:
-    """The value of `network` in the file, else in a file that it extends."""
-    table = tomllib.loads(path.read_text(encoding="utf-8"))
-    if "network" in table.get("model", {}):
-        return str(table["model"]["network"])
-    named = table.get("extends", [])
-    parents = [named] if isinstance(named, str) else named
-    return next(filter(None, (_stated_network(path.parent / parent) for parent in reversed(parents))), None)
 
 
 def test_recordings_of_one_s_own_train_labels_alone() -> None:

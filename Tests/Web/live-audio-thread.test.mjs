@@ -81,39 +81,6 @@ test('a published touch sounds in the next block, before the worker had a turn',
   assert.ok(loudest(engine.play()) > 0);
 });
 
-test('an impact sounds with the first frame of the next block', async () => {
-  const engine = await liveEngine(qualities.standard);
-  engine.play();
-  engine.publish({ effects: 3, approachSpeed: 0.2, touchCounter: 1 });
-  assert.ok(engine.play().slice(0, 8).some((sample) => sample !== 0));
-});
-
-test('after lift-off nothing sounds beyond the block and 5 ms', async () => {
-  const engine = await liveEngine(qualities.standard);
-  for (let turn = 0; turn < 30; turn += 1) {
-    engine.publish({});
-    engine.generate();
-    engine.play();
-  }
-  assert.ok(loudest(engine.play()) > 0);
-  engine.publish({ touching: 0 });
-  for (let samples = 0; samples < blockFrames + 0.005 * 48000; samples += blockFrames) engine.play();
-  for (let block = 0; block < 20; block += 1) assert.equal(loudest(engine.play()), 0);
-  assert.equal(engine.statistics().underruns, 0);
-});
-
-test('a page that no longer publishes is silent after 100 ms', async () => {
-  const engine = await liveEngine(qualities.sketch);
-  engine.publish({});
-  for (let block = 0; block < 45; block += 1) {
-    engine.generate();
-    engine.play();
-  }
-  assert.equal(loudest(engine.play()), 0);
-  assert.equal(engine.statistics().silence, 2);
-  assert.equal(engine.statistics().staleStops, 1);
-});
-
 test('the worker generates, the audio thread plays it, and nothing is late at the pace of a display', async () => {
   const engine = await liveEngine(qualities.standard);
   const blocksPerState = 5;

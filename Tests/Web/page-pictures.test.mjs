@@ -259,22 +259,5 @@ describe('on the live page', { skip: !hasBrowser }, () => {
     assert.deepEqual(width, [0.05, false]);
   });
 
-  test('the picture outlives a lost worker, and needs no server', async () => {
-    const { page } = opened;
-    await opened.page.context().setOffline(true);
-    try {
-      assert.match(await choose(bars), /^“bars\.png” lies on/);
-    } finally {
-      await opened.page.context().setOffline(false);
-    }
-    await inPage(async () => {
-      const { haptics } = globalThis.haptoflowPage;
-      const recovered = new Promise((resolve) => haptics.addEventListener('recovered', resolve));
-      haptics[Symbol.for('haptoflow.worker')].terminate();
-      await recovered;
-    });
-    assert.ok((await overGlass()).runs > 20);
-  });
-
   test('nothing was complained of', () => assert.deepEqual(opened.complaints, []));
 });

@@ -2,10 +2,9 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import path from 'node:path';
 import { after, before, describe, test } from 'node:test';
-import { render } from '../../Web/engine/js/offline.mjs';
 import { heightAt, reliefOf, reliefsOf } from '../../Web/page/table/reliefs.mjs';
 import { hasBrowser, openLivePage } from './support/browser.mjs';
-import { coreWithModel, repository } from './support/engine.mjs';
+import { repository } from './support/engine.mjs';
 
 // What is seen on the table, what its profile shows and what is felt are the same heights.
 
@@ -52,23 +51,6 @@ test('the word reads from left to right, and its letters stand upright', () => {
 test('a look without grooves and word, or with a letter that nobody drew, is refused in words', () => {
   assert.throws(() => reliefOf({ depth_metres: 1e-3, share: 0.1 }, [0.1, 0.1], 0), /"grooves" or "word"/);
   assert.throws(() => reliefOf({ word: { text: 'Q', height_metres: 0.01, width_metres: 0.001 }, depth_metres: 1e-3, share: 0.1 }, [0.1, 0.1], 0), /letter "Q"/);
-});
-
-test('a stroke across the boards has its peaks at the gaps, and is quiet between them', async () => {
-  const core = await coreWithModel();
-  const speed = 0.1;
-  const [from, to] = [-0.165, 0.165];
-  const rows = Math.round((to - from) / speed / 0.01);
-  const stroke = `t,x,y,z,force\n${Array.from({ length: rows + 1 }, (_, row) => `${0.01 * row},${freeX},0.0008,${(from + 0.01 * row * speed).toFixed(6)},0.8`).join('\n')}\n`;
-  const { samples, rateHz } = render(core, { scene: workbench, stroke, quality: 'sketch', effects: { texture: false }, reliefs: Object.fromEntries(reliefs) });
-  const levelOf = (/** @type {number} */ begin, /** @type {number} */ end) => {
-    const found = samples.subarray(Math.round(((begin - from) / speed) * rateHz), Math.round(((end - from) / speed) * rateHz));
-    return 200 * found.reduce((most, sample) => Math.max(most, Math.abs(sample)), 0);
-  };
-  const peaks = gaps.map((z) => levelOf(z - 0.003, z + 0.004));
-  const between = gaps.slice(1).map((z) => levelOf(z - 0.03, z - 0.005));
-  assert.ok(Math.min(...peaks) > 4, `${peaks} m/s^2 at the gaps`);
-  assert.ok(Math.max(...between) < Math.min(...peaks) / 10, `${peaks} m/s^2 at the gaps, ${between} between them`);
 });
 
 describe('on the live page', { skip: !hasBrowser }, () => {

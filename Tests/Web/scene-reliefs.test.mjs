@@ -143,12 +143,6 @@ for (const [name, action, code, message] of refusals) {
   });
 }
 
-test('an image of one pixel is a flat face', () => {
-  const one = { 'map.png': { width: 1, height: 1, data: new Uint8ClampedArray([255, 255, 255, 255]) } };
-  const options = { scene: sceneOf(map), stroke, quality: 'sketch', effects: { texture: false } };
-  assert.ok(render(core, { ...options, images: one }).samples.every((each) => Math.abs(each) < 1e-7));
-});
-
 test('the engine has the limit of texels that the scripts have', () => {
   const of = (rows) => ({ columns: 2 ** 20, rows, heightsMetres: new Float32Array(2 ** 20 * rows), sizeMetres: [0.1, 0.1], depthMetres: 1e-3 });
   assert.equal(mostTexels, 3 * 2 ** 20);
@@ -222,24 +216,6 @@ describe('in a page', { skip: !hasBrowser }, () => {
     });
     opened.server.changes.clear();
     assert.equal(refused, 'input: boards.png: not a PNG file');
-  });
-
-  test('PNG files of many kinds have the pixels that the browser itself sees', async () => {
-    const opaque = [{ bits: 8, colourType: 2 }, { bits: 2, colourType: 0 }, { bits: 4, colourType: 3 }];
-    for (const kind of opaque) {
-      const channels = kind.colourType === 2 ? 3 : 1;
-      const numbers = Array.from({ length: channels * 130 }, (_, at) => (at * 7919) % 2 ** kind.bits);
-      const palette = kind.colourType === 3 ? Array.from({ length: 48 }, (_, at) => (at * 37) % 256) : undefined;
-      const bytes = png({ width: 13, height: 10, numbers, palette, ...kind, isInterlaced: true, filterOf: (row) => row % 5 });
-      const seen = await inPage(async (base64) => {
-        const blob = new Blob([Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0))]);
-        const bitmap = await createImageBitmap(blob, { colorSpaceConversion: 'none' });
-        const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext('2d');
-        context.drawImage(bitmap, 0, 0);
-        return [...context.getImageData(0, 0, bitmap.width, bitmap.height).data];
-      }, bytes.toString('base64'));
-      assert.deepEqual([...(await decodePng(bytes)).data], seen, JSON.stringify(kind));
-    }
   });
 
   test('a picture is scaled to the pixels that are wanted, and what is none is refused by its name', async () => {

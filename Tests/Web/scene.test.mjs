@@ -53,22 +53,6 @@ for (const name of ['crossing', 'taps', 'tracing']) {
 const table = { surfaces: [{ name: 'table', shape: { box: { size: [1, 0.02, 1] } }, material: { wood: 3, fur: 1 }, stiffness: 500 }] };
 const over = (seconds, depth = 0.002) => ({ timeSeconds: seconds, positionMetres: [0.1 * seconds, 0.011 - depth, 0] });
 
-test('a tip that slides over a box touches it with its blend, its depth and the force of its stiffness', () => {
-  const scene = sceneOf(table);
-  let contact = scene.update(over(0));
-  for (let frame = 1; frame < 30; frame += 1) contact = scene.update(over(frame / 72));
-  assert.equal(contact.surfaceName, 'table');
-  assert.deepEqual(contact.material, { wood: 0.75, fur: 0.25 });
-  assert.ok(Math.abs(contact.penetrationMetres - 0.002) < 1e-9);
-  assert.ok(Math.abs(contact.forceNewtons - 1) < 1e-6);
-  assert.ok(Math.abs(Math.hypot(...contact.velocityMps) - 0.1) < 1e-3);
-  assert.deepEqual(contact.normal.map(Math.round), [0, 1, 0]);
-});
-
-test('a measured force replaces that of the spring', () => {
-  assert.equal(sceneOf(table).update({ ...over(0), forceNewtons: 2.5 }).forceNewtons, 2.5);
-});
-
 test('a surface can change its material, scale and tone; one that does not exist is named', () => {
   const scene = sceneOf(table);
   scene.setSurface('table', { material: 'glass', spatialScale: 2, toneDbPerOctave: -3 });

@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { hasBrowser, isLong, openHeadsetPage } from './support/browser.mjs';
+import { hasBrowser, openHeadsetPage } from './support/browser.mjs';
 
 // In Chromium with an emulated Quest; what xr-hand.test.mjs tests of hands without a browser is here in the long form only. Its frames come slowly where other programs run, so that nothing is judged by a frame's time.
 
@@ -14,13 +14,6 @@ before(async () => {
   if (hasBrowser) opened = await openHeadsetPage({ viewport: { width: 160, height: 120 } });
 });
 after(() => opened?.close());
-
-function correlation(a, b) {
-  const mean = (values) => values.reduce((sum, value) => sum + value, 0) / values.length;
-  const [ma, mb] = [mean(a), mean(b)];
-  const sum = (of) => a.reduce((total, _, index) => total + of(a[index] - ma, b[index] - mb), 0);
-  return sum((x, y) => x * y) / Math.sqrt(sum((x) => x * x) * sum((_, y) => y * y));
-}
 
 test('entering shows the door, leaving closes it, twice', { skip }, async () => {
   const found = await inPage(async () => {
@@ -45,108 +38,6 @@ test('entering shows the door, leaving closes it, twice', { skip }, async () => 
     assert.equal(canvases, 0);
   }
   assert.deepEqual(opened.complaints, []);
-});
-
-test('a stroke over two labels pulses with the envelope of the voice, and not outside contact', { skip }, async () => {
-  const found = await inPage(async () => {
-    const { enter, stroke, pulses, park, pause } = globalThis.tools;
-    const { visit, haptics } = await enter();
-    const voice = haptics.voices[1];
-    const tap = voice.waveTap({ seconds: 2 });
-    const reference = voice.motorTap();
-    const wave = new Float32Array(24000);
-    const frames = [];
-    let written = 0;
-    // Beside every pulse: the loudest 20 ms that ended since the one before, and the motor output's own points.
-    const loudest = (newFrames) => {
-      tap.latest(wave);
-      let most = 0;
-      for (let end = wave.length; end > Math.max(960, wave.length - newFrames); end -= 120) {
-        let sum = 0;
-        for (let index = end - 960; index < end; index += 1) sum += wave[index] ** 2;
-        most = Math.max(most, Math.sqrt(sum / 960));
-      }
-      return most;
-    };
-    globalThis.onPulse = (side, value) => {
-      const count = tap.written - written;
-      written += count;
-      const points = reference.read();
-      const shares = points.map(({ share, transientShare }) => Math.max(share, transientShare));
-      frames.push({ side, value, level: loudest(count), count, share: Math.max(0, ...shares), points: points.length, frame });
-    };
-    const begin = pulses.length;
-    const spans = [];
-    let frame = 0;
-    const span = async (name, seconds, placeOf) => {
-      const from = frame;
-      await stroke(visit, seconds, (...words) => {
-        frame += 1;
-        return placeOf(...words);
-      });
-      spans.push({ name, from, to: frame });
-    };
-    // Over sandpaper, slower and slower; in the air; over the carpet, faster and faster; in the air.
-    await span('air', 0.5, () => [-0.185, 0.03, -0.112]);
-    await span('sandpaper', 2.2, (side, s) => [-0.185 + 0.035 * Math.sin(2 * Math.PI * (1.4 * s - 0.28 * s * s)), 0.0004, -0.112 + 0.02 * Math.sin(s)]);
-    await span('air', 0.7, () => [0, 0.05, -0.112]);
-    await span('carpet', 2.5, (side, s) => [0.185 + 0.035 * Math.sin(2 * Math.PI * (0.15 * s + 0.2 * s * s)), 0.0035, -0.112 + 0.02 * Math.sin(s)]);
-    await span('air', 0.7, () => [0, 0.05, -0.112]);
-    park('right');
-    await pause(100);
-    globalThis.onPulse = null;
-    tap.close();
-    reference.close();
-    const rates = visit.rates();
-    await visit.end();
-    return { frames, spans, pulses: pulses.slice(begin), rates };
-  });
-  const inside = (name) => found.frames.filter(({ frame }) => found.spans.some((span) => span.name === name && frame > span.from && frame <= span.to));
-  assert.ok(inside('sandpaper').length > 20, `${inside('sandpaper').length} pulses on sandpaper, ${found.rates.framesPerSecond} frames a second`);
-  assert.ok(inside('carpet').length > 20);
-  // The first frames in the air may still feel the end of the touch.
-  const late = found.frames.filter(({ frame }) => found.spans.some((span) => span.name === 'air' && frame > span.from + 3 && frame <= span.to));
-  assert.deepEqual(late, []);
-  assert.ok(found.pulses.every(({ side, value, durationMs }) => side === 'right' && value > 0 && value <= 1 && durationMs > 0 && durationMs <= 60));
-  // The first pulse after a pause stands for a longer stretch of wave.
-  const compared = found.frames.filter(({ count, points }) => count < 12000 && points > 0);
-  const motor = correlation(compared.map(({ value }) => value), compared.map(({ share }) => share));
-  // The loudness law of motors has this exponent (NativePlugin/src/effects/device_loudness.cpp).
-  const level = correlation(compared.map(({ value }) => value), compared.map((frame) => frame.level ** 0.41));
-  const fit = `correlation with the motor output ${motor.toFixed(4)}, with the wave's level by the law of motors ${level.toFixed(4)}`;
-  console.log(`# ${compared.length} pulses, ${fit}, ${found.rates.framesPerSecond.toFixed(1)} frames a second`);
-  assert.ok(motor > 0.9, `${motor}`);
-  assert.ok(level > 0.9, `${level}`);
-});
-
-test('ears hear the texture far above its true level, and the wave for the motor keeps that level', { skip }, async () => {
-  const found = await inPage(async () => {
-    const { enter, stroke } = globalThis.tools;
-    const { visit, haptics } = await enter();
-    const analyser = new AnalyserNode(haptics.context, { fftSize: 32768 });
-    haptics.output.connect(analyser);
-    const tap = haptics.voices[1].waveTap();
-    const rms = (samples) => Math.sqrt(samples.reduce((sum, sample) => sum + sample * sample, 0) / samples.length);
-    const levels = {};
-    for (const [label, x, y, z] of [['wood', 0, 0.0004, -0.05], ['sandpaper', -0.185, 0.0014, -0.112]]) {
-      await stroke(visit, 0.9, (side, s) => [x + 0.035 * Math.sin(6 * s), y, z]);
-      const [heard, felt] = [new Float32Array(32768), new Float32Array(32768)];
-      analyser.getFloatTimeDomainData(heard);
-      tap.latest(felt);
-      levels[label] = { heard: rms(heard), felt: rms(felt), peak: heard.reduce((most, sample) => Math.max(most, Math.abs(sample)), 0) };
-    }
-    tap.close();
-    await visit.end();
-    haptics.output.disconnect(analyser);
-    return levels;
-  });
-  const decibels = (value) => Number((20 * Math.log10(value)).toFixed(1));
-  for (const [label, { heard, felt, peak }] of Object.entries(found)) {
-    console.log(`# ${label}: ears ${decibels(heard)} dBFS, motor ${decibels(felt)} dBFS, peak ${peak.toFixed(2)}`);
-  }
-  assert.ok(found.wood.heard > 8 * found.wood.felt && found.sandpaper.heard > 2 * found.sandpaper.felt);
-  assert.ok(found.sandpaper.heard > found.wood.heard);
-  assert.ok(found.wood.peak < 1 && found.sandpaper.peak < 1);
 });
 
 test('the page gets each hand\'s voice before it sounds: an effect that is off there does not run here', { skip }, async () => {
@@ -212,42 +103,6 @@ test('out of focus, hidden and back: silence at once, no pulse, then touch again
   }
 });
 
-if (isLong) test('a lost pose lifts, and the pose that comes back elsewhere is no jump', { skip }, async () => {
-  const found = await inPage(async () => {
-    const { enter, stroke, putTip, nextFrame, P_SPACE, pulses, pause } = globalThis.tools;
-    const { visit, haptics } = await enter();
-    const voice = haptics.voices[1];
-    const space = device.controllers.right.inputSource.targetRaySpace;
-    await stroke(visit, 0.5, (side, s) => [-0.185 + 0.03 * Math.sin(8 * s), 0.0004, -0.112]);
-    const before = voice.statistics();
-    space[P_SPACE].emulated = true;
-    await nextFrame();
-    await nextFrame();
-    await pause(100);
-    const lost = voice.silence;
-    const sent = pulses.length;
-    putTip(visit, 'right', [0.185, 0.0035, -0.112]);
-    await nextFrame();
-    await nextFrame();
-    const sentWhileLost = pulses.length - sent;
-    space[P_SPACE].emulated = false;
-    await nextFrame();
-    await nextFrame();
-    await nextFrame();
-    // It rests where it came back: had it jumped, it would slide.
-    const silence = voice.silence;
-    await pause(50);
-    const after = voice.statistics();
-    await visit.end();
-    return { lost, silence, sentWhileLost, onsets: after.onsets - before.onsets, taps: after.taps - before.taps };
-  });
-  assert.ok(['rest', 'stale'].includes(found.lost), found.lost);
-  assert.equal(found.sentWhileLost, 0);
-  assert.ok(['rest', 'stale'].includes(found.silence), found.silence);
-  assert.equal(found.onsets, 0);
-  assert.equal(found.taps, 0);
-});
-
 test('after the room was recentred the bench stands before the viewer again', { skip }, async () => {
   const found = await inPage(async () => {
     const { enter, nextFrame, stroke, pulses } = globalThis.tools;
@@ -265,28 +120,6 @@ test('after the room was recentred the bench stands before the viewer again', { 
   const [x, y, z] = found.viewer;
   [x, y - 0.45, z - 0.4].forEach((value, axis) => assert.ok(Math.abs(found.bench[axis] - value) < 1e-6, JSON.stringify(found)));
   assert.ok(found.pulses > 0);
-});
-
-if (isLong) test('two hands at once have two voices; one that vanishes in mid-stroke falls silent, comes back and sounds', { skip }, async () => {
-  const found = await inPage(async () => {
-    const { enter, stroke, listen, pulses } = globalThis.tools;
-    const { visit } = await enter();
-    const both = (side, s) => (side === 'left' ? [-0.062 + 0.03 * Math.sin(8 * s), 0.001, -0.112] : [0.185 + 0.03 * Math.sin(7 * s), 0.0035, -0.112]);
-    const begin = pulses.length;
-    const together = await listen(visit, 0.5, both, ['left', 'right']);
-    const sides = new Set(pulses.slice(begin).map(({ side }) => side));
-    device.controllers.left.connected = false;
-    await stroke(visit, 0.2, both, ['right']);
-    const alone = await listen(visit, 0.3, both, ['right']);
-    device.controllers.left.connected = true;
-    const again = await listen(visit, 0.5, both, ['left', 'right']);
-    await visit.end();
-    return { together, sides: [...sides].sort(), alone, again };
-  });
-  assert.ok(found.together.every((reasons) => reasons.includes('none')), JSON.stringify(found));
-  assert.deepEqual(found.sides, ['left', 'right']);
-  assert.ok(!found.alone[0].includes('none') && found.alone[1].includes('none'), JSON.stringify(found));
-  assert.ok(found.again.every((reasons) => reasons.includes('none')), JSON.stringify(found));
 });
 
 test('a swatch sounds when it is touched, and the button paints the object with it', { skip }, async () => {
@@ -317,57 +150,6 @@ test('a swatch sounds when it is touched, and the button paints the object with 
   assert.ok(found.sounded > 0, `${found.sounded}`);
   assert.deepEqual(found.onBoard, []);
   assert.deepEqual(found.painted, [{ surface: 'paper sheet', material: 'sandpaper' }]);
-});
-
-if (isLong) test('an MX Ink presses with its tip force: harder is stronger', { skip }, async () => {
-  const found = await inPage(async () => {
-    const { enter, stroke, pulses } = globalThis.tools;
-    const scene = { surfaces: [{ name: 'fur', shape: { box: { size: [0.4, 0.02, 0.3] } }, position: [0, -0.01, 0], material: 'fur' }] };
-    const { visit } = await enter({ controllers: 'mx-ink', newtonsAtFullPressure: 3, scene });
-    const slide = (side, s) => [0.08 * Math.sin(3 * s), 0.0005, 0];
-    const medians = [];
-    for (const force of [0.1, 0.9]) {
-      device.controllers.right.updateButtonValue('tip-force', force);
-      await stroke(visit, 0.3, slide);
-      const begin = pulses.length;
-      await stroke(visit, 0.6, slide);
-      const values = pulses.slice(begin).map(({ value }) => value).sort((a, b) => a - b);
-      medians.push({ count: values.length, median: values[Math.floor(values.length / 2)] });
-    }
-    const profile = device.controllers.right.inputSource.profiles[0];
-    await visit.end();
-    return { medians, profile };
-  });
-  assert.equal(found.profile, 'logitech-mx-ink');
-  const [light, hard] = found.medians;
-  assert.ok(light.count > 5 && hard.count > 5 && hard.median > 1.2 * light.median, JSON.stringify(found.medians));
-});
-
-test('a bare hand touches with its index finger, and hears without feeling', { skip }, async () => {
-  const found = await inPage(async () => {
-    const { enter, listen, nextFrame, pulses } = globalThis.tools;
-    const { visit } = await enter({ controllers: 'mx-ink' });
-    device.primaryInputMode = 'hand';
-    const hand = device.hands.right;
-    for (let frame = 0; frame < 4; frame += 1) await nextFrame();
-    const { session } = visit;
-    const space = await session.requestReferenceSpace('local-floor');
-    const finger = await new Promise((resolve) => {
-      session.requestAnimationFrame((time, frame) => resolve(frame.getJointPose(hand.inputSource.hand.get('index-finger-tip'), space).transform.position));
-    });
-    const reach = ['x', 'y', 'z'].map((axis) => finger[axis] - hand.position[axis]);
-    const begin = pulses.length;
-    const heard = await listen(visit, 0.8, (side, s) => {
-      const room = visit.placement.toRoom([-0.185 + 0.03 * Math.sin(8 * s), 0.0004, -0.112], []);
-      hand.position.set(...room.map((part, axis) => part - reach[axis]));
-      return null;
-    });
-    device.primaryInputMode = 'controller';
-    await visit.end();
-    return { heard: heard[1], sent: pulses.length - begin };
-  });
-  assert.ok(found.heard.includes('none'), JSON.stringify(found));
-  assert.equal(found.sent, 0);
 });
 
 test('lost graphics end the visit with a plain message, and one can enter again', { skip }, async () => {
