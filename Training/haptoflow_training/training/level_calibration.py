@@ -56,12 +56,13 @@ class Extent:
 @dataclass(frozen=True)
 class ClosedLoopLevels:
     """Windows of 0.1 s. powers [n, 2]: generated and recorded mean square, (m/s^2)^2; speeds_mps, forces_newtons
-    [n]; owners [n]: label indices."""
+    [n]; owners [n]: label indices; specimens [n]: the recorded pieces, -1 where none is known."""
 
     powers: NDArray[np.float64]
     speeds_mps: NDArray[np.float64]
     forces_newtons: NDArray[np.float64]
     owners: NDArray[np.int64]
+    specimens: NDArray[np.int64]
 
 
 def hops(store: SegmentStore, extent: Extent = Extent()) -> int:
@@ -73,10 +74,10 @@ def hops(store: SegmentStore, extent: Extent = Extent()) -> int:
 def offsets_db(levels: ClosedLoopLevels, labels: int) -> list[float]:
     """For each label, the generated level over the recorded level in dB; 0 where too little was recorded. It is the
     mean over classes of speed (borders from 20 mm/s to 1.6 m/s), so that a speed that is recorded often does not weigh
-    more than another."""
+    more than another, and within a class over specimens, in dB: a label is the mean of its pieces, not the loudest."""
     classes = np.digitize(levels.speeds_mps, _SPEED_BORDERS_MPS)
     owned = [levels.owners == label for label in range(labels)]
-    return [_offset_db(levels.powers[own], classes[own]) for own in owned]
+    return [_offset_db(levels.powers[own], classes[own], levels.specimens[own]) for own in owned]
 
 
 def closed_loop_levels(
@@ -102,7 +103,7 @@ def closed_loop_levels(
     run = run_closed_loop(
         source, embeddings, motions, labels, statistics, update_rate_hz=UPDATE_RATE_HZ, seed=_SEED, advance=advance
     )
-    made, recorded_powers, speeds, forces, owners = [], [], [], [], []
+    made, recorded_powers, speeds, forces, owners, specimens = [], [], [], [], [], []
     for recording, wave in zip(chosen, run.waves, strict=True):
         recorded = store.waveform[_span(recording, extent)] * store.peak_mps2
         motion = store.motion[_span(recording, extent)]
@@ -116,30 +117,42 @@ def closed_loop_levels(
         speeds.append(speed.mean(axis=1)[compared])
         forces.append(motion[: count * _WINDOW_SAMPLES, 2].reshape(count, _WINDOW_SAMPLES).mean(axis=1)[compared])
         owners.append(np.full(len(speeds[-1]), recording.label_index))
+        specimens.append(np.full(len(speeds[-1]), _specimen_of(recording)))
     return ClosedLoopLevels(
         np.stack([np.concatenate(made), np.concatenate(recorded_powers)], axis=1),
         np.concatenate(speeds),
         np.concatenate(forces),
         np.concatenate(owners),
+        np.concatenate(specimens),
     )
 
 
-def _offset_db(powers: NDArray[np.float64], classes: NDArray[np.int64]) -> float:
+def _offset_db(powers: NDArray[np.float64], classes: NDArray[np.int64], specimens: NDArray[np.int64]) -> float:
     """The mean level difference in dB. powers [n, 2]: generated and recorded, one row for each window."""
-    ratios = []
+    by_class = []
     for speed_class in range(1, len(_SPEED_BORDERS_MPS)):
-        inside = powers[classes == speed_class]
-        if len(inside) >= _MINIMUM_WINDOWS and inside[:, 1].sum() > 0.0:
-            generated, recorded = inside.sum(axis=0)
-            ratios.append(10.0 * np.log10((generated + 1e-12) / recorded))
-    return float(np.mean(ratios)) if ratios else 0.0
+        ratios = []
+        for specimen in np.unique(specimens):
+            inside = powers[(classes == speed_class) & (specimens == specimen)]
+            if len(inside) >= _MINIMUM_WINDOWS and inside[:, 1].sum() > 0.0:
+                generated, recorded = inside.sum(axis=0)
+                ratios.append(10.0 * np.log10((generated + 1e-12) / recorded))
+        if ratios:
+            by_class.append(np.mean(ratios))
+    return float(np.mean(by_class)) if by_class else 0.0
+
+
+def _specimen_of(recording: StoredRecording) -> int:
+    return -1 if recording.specimen is None else recording.specimen
 
 
 def _chosen(store: SegmentStore, extent: Extent) -> list[StoredRecording]:
-    """The same number of recordings for each label, spread evenly over what there is."""
+    """The same number of recordings for each label, spread evenly over its specimens and what there is of each."""
     chosen = []
     for label in range(len(store.labels)):
         own = [entry for entry in store.recordings if entry.label_index == label and entry.split != "test"]
+        # Protocols repeat their specimens in cycles, and every fourth of them would meet two pieces of eight.
+        own.sort(key=_specimen_of)
         places = np.linspace(0, len(own) - 1, min(len(own), extent.recordings_per_label)).round().astype(int)
         chosen += [own[place] for place in places]
     return chosen
