@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -86,6 +86,22 @@ def test_a_label_has_the_mean_level_of_its_specimens_in_db_whichever_recordings_
     )  # fmt: skip
     assert set(levels.specimens) == {0, 1, 2, 3}
     assert offsets_db(levels, 1) == pytest.approx([0.0], abs=0.2)
+
+
+def test_a_recording_is_compared_with_a_render_of_its_own_specimen() -> None:
+    class OfSpecimens(_KnownSource):
+        def generate(self, embeddings: _Floats, *others: _Floats) -> _Floats:
+            return super().generate(np.zeros_like(embeddings), *others) * 10.0 ** (embeddings[:, 1:2] / 20.0)
+
+    store = _on_four_specimens((-5.0, -1.0, 0.0, 6.0))
+    two_pieces = [entry for entry in store.recordings if entry.specimen in (0, 3)]
+    specimens = np.zeros((1, 4, 64), dtype=np.float32)
+    specimens[0, :, 1] = (-5.0, -1.0, 0.0, 6.0)
+    levels = closed_loop_levels(
+        OfSpecimens((0.0, 0.0)), np.zeros((1, 64), dtype=np.float32), replace(store, recordings=two_pieces),
+        still_surfaces(1), HeldOut(), specimens=specimens,
+    )  # fmt: skip
+    assert offsets_db(levels, 1) == pytest.approx([0.0], abs=0.1)
 
 
 def test_a_level_shift_affects_its_label_only_and_is_the_same_at_every_motion() -> None:

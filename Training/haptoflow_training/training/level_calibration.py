@@ -89,10 +89,12 @@ def closed_loop_levels(
     advance: Callable[[int], None] = lambda count: None,
     extent: Extent = Extent(),
     labels_wanted: frozenset[int] | None = None,
+    specimens: _Floats | None = None,
 ) -> ClosedLoopLevels:
     """The levels that `source` generates for the motion of training recordings in closed loop at 72 Hz, with the
     recorded ones. embeddings [labels, 64]; statistics: of the surfaces, by label. labels_wanted: only
-    these label indices; None for all.
+    these label indices; None for all. specimens [labels, specimens, 64]: offsets of the recorded pieces from their
+    label, so that each recording is compared with a render of its own piece; None where none are known.
 
     Recordings of the test split are not used, and windows with a sample in a held-out band are not compared.
     """
@@ -100,10 +102,14 @@ def closed_loop_levels(
     longest = max(_length(recording, extent) for recording in chosen)
     motions = np.stack([_padded(store.motion[_span(recording, extent)], longest) for recording in chosen])
     labels = np.array([recording.label_index for recording in chosen])
+    pieces = np.array([_specimen_of(recording) for recording in chosen])
+    known = specimens is not None and specimens.shape[1] > 0
+    offsets = np.where(pieces[:, None] >= 0, specimens[labels, pieces], np.float32(0.0)) if known else None
     run = run_closed_loop(
-        source, embeddings, motions, labels, statistics, update_rate_hz=UPDATE_RATE_HZ, seed=_SEED, advance=advance
-    )
-    made, recorded_powers, speeds, forces, owners, specimens = [], [], [], [], [], []
+        source, embeddings, motions, labels, statistics, update_rate_hz=UPDATE_RATE_HZ, seed=_SEED, advance=advance,
+        offsets=offsets,
+    )  # fmt: skip
+    made, recorded_powers, speeds, forces, owners, windows_of = [], [], [], [], [], []
     for recording, wave in zip(chosen, run.waves, strict=True):
         recorded = store.waveform[_span(recording, extent)] * store.peak_mps2
         motion = store.motion[_span(recording, extent)]
@@ -117,13 +123,13 @@ def closed_loop_levels(
         speeds.append(speed.mean(axis=1)[compared])
         forces.append(motion[: count * _WINDOW_SAMPLES, 2].reshape(count, _WINDOW_SAMPLES).mean(axis=1)[compared])
         owners.append(np.full(len(speeds[-1]), recording.label_index))
-        specimens.append(np.full(len(speeds[-1]), _specimen_of(recording)))
+        windows_of.append(np.full(len(speeds[-1]), _specimen_of(recording)))
     return ClosedLoopLevels(
         np.stack([np.concatenate(made), np.concatenate(recorded_powers)], axis=1),
         np.concatenate(speeds),
         np.concatenate(forces),
         np.concatenate(owners),
-        np.concatenate(specimens),
+        np.concatenate(windows_of),
     )
 
 
@@ -178,6 +184,9 @@ class TierSource:
         self._tier = tier
         self.pasts, self.noise_before = tier.model.pasts, tier.model.noise_before
         self.embeddings: _Floats = tier.model.embedding.weight.detach().numpy()
+        offsets: _Floats = tier.model.embedding.offsets.detach().numpy()
+        # The wave vectors belong to the label.
+        self.specimens: _Floats = np.pad(offsets, ((0, 0), (0, 0), (0, self.embeddings.shape[1] - offsets.shape[2])))
         self._tables = {self.embeddings[label].tobytes(): table for label, table in (tables or {}).items()}
 
     @torch.no_grad()
@@ -288,7 +297,7 @@ def measured_levels(folder: Path, source: Source, extent: Extent = Extent()) -> 
         wanted = frozenset(tables) or None
         with tqdm(total=hops(source.store, extent), unit="hop", desc="levels") as bar:
             return closed_loop_levels(
-                made, made.embeddings, source.store, statistics, held_out, bar.update, extent, wanted
+                made, made.embeddings, source.store, statistics, held_out, bar.update, extent, wanted, made.specimens
             )
 
     levels = measure({})
