@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import matplotlib
 import numpy as np
 import pytest
+from matplotlib import pyplot
 
 from haptoflow_paper.rows.reference_conditions import Condition, conditions
 from haptoflow_paper.rows.reference_set import REFERENCE_ROWS, ReferencePair, reference_waves
 from haptoflow_paper.report.accuracy_time import table, timed_rows, with_times
-from haptoflow_paper.report.accuracy_time_chart import draw_chart, draw_spectra
+from haptoflow_paper.report.accuracy_time_chart import PANELS, draw_chart, draw_panel, draw_spectra
 from haptoflow_paper.report.accuracy_time_report import write_document
 from haptoflow_paper.rows import accuracy
 from haptoflow_paper.rows.row_plan import PlannedRow
@@ -139,3 +141,29 @@ def test_the_stored_row_of_each_shipped_tier_was_measured_with_the_shipped_weigh
 
 
 matplotlib.use("Agg")
+
+
+SHIPPED = json.loads((ROOT / "Training" / "haptoflow_paper" / "results" / "accuracy-time.json").read_text(encoding="utf-8"))
+
+
+@pytest.fixture
+def axes() -> Iterator[Any]:
+    figure, axes = pyplot.subplots()
+    yield axes
+    pyplot.close(figure)
+
+
+@pytest.mark.parametrize("panel", PANELS, ids=lambda panel: panel.key)
+def test_no_two_names_in_the_shipped_picture_overlap(axes: Any, panel: Any) -> None:
+    axes.figure.set_size_inches(6.0, 5.3)
+    draw_panel(axes, panel, SHIPPED["rows"])
+    axes.figure.canvas.draw()
+    boxes = [text.get_window_extent() for text in axes.texts]
+    covered = [
+        (first.get_text(), second.get_text())
+        for index, first in enumerate(axes.texts) for other, second in enumerate(axes.texts)
+        if index < other and boxes[index].overlaps(boxes[other])
+    ]  # fmt: skip
+    # At least our tiers, the reference and the paper's time.
+    assert len(boxes) >= 4 and np.all([box.width > 0 for box in boxes])
+    assert covered == []

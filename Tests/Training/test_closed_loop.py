@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 
 import numpy as np
 import pytest
@@ -142,19 +141,6 @@ def _tracked(
     return np.array(phases)
 
 
-def test_the_same_seed_gives_the_same_phases_and_another_seed_other_ones() -> None:
-    first, again, other = (_tracked(JUTE, 3, 5, (0.1, 0.05, 1.0), seed) for seed in (1, 1, 2))
-    np.testing.assert_array_equal(first, again)
-    assert np.abs(first - other).max() > 0.01
-    assert np.abs(first[:, 0] - first[:, 1]).max() > 0.01, "every row has a surface of its own"
-
-
-def test_phases_are_turns_below_one_and_even_ribs_do_not_wander() -> None:
-    phases = _tracked(JUTE, 8, 200, (0.3, -0.2, 1.0))
-    assert 0.0 <= phases[:, :, :3].min() and phases[:, :, :3].max() < 1.0
-    assert np.all(_tracked(WOOD, 2, 20, (0.3, -0.2, 1.0)) == 0.0)
-
-
 def test_each_rate_is_how_fast_its_phase_advances() -> None:
     for label in (JUTE, RUBBER):
         phases = _tracked(label, 40, 60, (0.05, 0.02, 1.0)).astype(np.float64)
@@ -218,13 +204,3 @@ def test_stick_and_slip_goes_on_where_a_stroke_turns_back_and_stops_at_rest() ->
     there, back, rest = (np.array([[speed, 0.0, 1.0]], dtype=np.float32) for speed in (0.05, -0.05, 0.0))
     assert track.at(embeddings, labels, back)[0, 5] == track.at(embeddings, labels, there)[0, 5] > 0.0
     assert track.at(embeddings, labels, rest)[0, 5] == 0.0
-
-
-def test_statistics_are_those_of_the_materials_and_zero_where_nothing_wanders() -> None:
-    ruled, slipping = _material("jute"), _material("rubber")
-    assert STATISTICS.wander[JUTE, 0] == ruled.rulings[0].jitter > 0.0
-    assert STATISTICS.wavelengths_mm[JUTE, 0] == pytest.approx(7.0 * ruled.rulings[0].wavelength_mm)
-    assert STATISTICS.slips_per_mm[RUBBER] == pytest.approx(1.0 / slipping.stick_slip_length_mm)
-    assert not STATISTICS.wander[WOOD].any() and STATISTICS.slips_per_mm[WOOD] == 0.0
-    unknown = SurfaceStatistics.of_labels([dataclasses.replace(INFOS[JUTE], rib_wander=())])
-    assert not unknown.wander.any()

@@ -274,14 +274,6 @@ def test_inspect_names_missing_and_broken_files_and_still_succeeds(
     assert "0_0_20_500_1.csv: columns time,X; expected columns time,X,Y,Z" in printed
 
 
-def test_inspect_prints_json_that_holds_the_whole_report(root: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["inspect", str(root), "--json"]) == 0
-    report = json.loads(capsys.readouterr().out)
-    assert report["recordings"] == 5 and report["audio_files"] == 1 and report["problems"] == []
-    assert report["duration_seconds"]["total"] == pytest.approx(4.0, abs=0.01)
-    assert report["provenance"]["licence"] == "CC BY 4.0"
-
-
 def test_inspect_counts_by_label_where_a_labels_file_is_given(root: Path, capsys: pytest.CaptureFixture[str]) -> None:
     labels = root / "labels.toml"
     labels.write_text(

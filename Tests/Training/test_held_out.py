@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -11,12 +12,14 @@ import torch
 from numpy.typing import NDArray
 from training_fixtures import FakeRecording, FakeStore, level_offsets_db, travelled_mm
 
+from haptoflow_paper.codec.small_codec import read_small_codec_config
 from haptoflow_paper.codec.trainer import SegmentSampler
 from haptoflow_paper.runs.tier import build_seed_bank
 from haptoflow_training.export.exponents import draw_windows, fit_exponents
 from haptoflow_training.training.batches import HeldOut, SegmentBatches, clear_spans
-from haptoflow_training.training.config import BatchConfig
+from haptoflow_training.training.config import BatchConfig, load_config
 
+ROOT = Path(__file__).parents[2]
 BATCH = BatchConfig(
     silence_probability=0.0, switch_probability=0.0, chain_silence_probability=0.0,
     held_out_speed_mps=(0.25, 0.3), held_out_force_newtons=(1.2, 1.5), held_out_direction_degrees=(215.0, 235.0),
@@ -84,6 +87,14 @@ def test_no_sample_of_a_codec_s_segment_lies_in_a_held_out_band() -> None:
         SegmentSampler(store, "train", bands).draw(np.random.default_rng(3), 2000) for bands in (HELD_OUT, HeldOut())
     )
     assert torch.all(kept.amax(dim=2) < 1.01 * kept.amin(dim=2)) and torch.any(free.amax(dim=2) > 2.0 * free.amin(dim=2))
+
+
+def test_the_codec_holds_out_the_same_bands_as_networks() -> None:
+    config = read_small_codec_config(ROOT / "Training" / "haptoflow_paper" / "configs" / "codec-small.toml")
+    network = load_config(ROOT / "Training" / "configs" / "default" / "standard.toml")
+    assert config.held_out_as is not None
+    bands = HeldOut.of(load_config(config.held_out_as).batch)
+    assert bands == HeldOut.of(network.batch) != HeldOut()
 
 
 def test_seeds_and_exponents_use_only_windows_outside_the_bands(monkeypatch: pytest.MonkeyPatch) -> None:

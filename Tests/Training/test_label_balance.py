@@ -27,7 +27,6 @@ from test_trainer import ALONE, _config
 from training_fixtures import make_store
 
 ROWS = 32
-_MOMENTS = slice(101 + PARTIALS + 8, -4)
 
 
 def _features(wave: torch.Tensor, ribs_hz: tuple[float, float] = (0.0, 0.0)) -> LabelFeatures:
@@ -96,29 +95,6 @@ def test_labels_and_speeds_are_averaged_separately_and_too_few_segments_give_no_
     assert loss(label[:4], 0.9, 2.0) == 0.0
 
 
-def test_rare_impacts_differ_from_noise_of_equal_power_in_their_moments_and_their_rate_can_be_learnt() -> None:
-    generator = torch.Generator().manual_seed(5)
-
-    def blows(share: torch.Tensor) -> torch.Tensor:
-        """Even noise and rare impacts by share of power, [32, 400]."""
-        rare = torch.randn(ROWS, 400, generator=generator)
-        rare = rare * (torch.rand(ROWS, 400, generator=generator) < 0.02) / 0.02**0.5
-        return share.sqrt() * rare + (1.0 - share).sqrt() * torch.randn(ROWS, 400, generator=generator)
-
-    even, rare = (_features(blows(torch.tensor(share))).values[:, _MOMENTS].mean(dim=0) for share in (0.0, 0.6))
-    assert (rare / even)[0].item() < 0.9 and (rare / even)[1].item() > 1.5
-
-    balance, label = LabelBalance(1), torch.zeros(ROWS, dtype=torch.long)
-    share = torch.tensor(0.1, requires_grad=True)
-    optimiser = torch.optim.Adam([share], lr=0.02)
-    for _ in range(250):
-        optimiser.zero_grad()
-        drawn = blows(share), blows(share)
-        _heard(balance, label, 0.2, blows(torch.tensor(0.6)), *drawn).backward()
-        optimiser.step()
-    assert share.item() == pytest.approx(0.6, abs=0.12)
-
-
 def test_the_loss_is_zero_for_the_true_velocity() -> None:
     target = torch.full((8, 1, 200), 2.0)
 
@@ -179,24 +155,6 @@ def test_the_energy_distance_prefers_a_continued_tone_to_a_restarted_one() -> No
     losses = [_loss(going_on, past, (made, made), own=own) for own in (False, True) for made in (going_on, anew)]
     assert losses[0] < losses[1] - 0.3
     assert losses[2] < losses[3] - 0.1, "own past: by spectra alone"
-
-
-def _blows(seed: int, rate: float) -> torch.Tensor:
-    """[256, 200] of noise power 1: even for rate 1, in a share `rate` of the samples for less."""
-    generator = torch.Generator().manual_seed(seed)
-    noise = torch.randn(256, 200, generator=generator)
-    return noise * (torch.rand(256, 200, generator=generator) < rate) / rate**0.5
-
-
-@pytest.mark.parametrize("rate", [0.01, 0.1, 0.4])
-def test_the_energy_distance_prefers_impacts_at_the_recorded_rate(rate: float) -> None:
-    recorded, past = _blows(1, rate), torch.zeros(256, 200)
-
-    def loss(drawn_rate: float) -> float:
-        return _loss(recorded, past, (_blows(2, drawn_rate), _blows(3, drawn_rate)), own=True)
-
-    assert loss(rate) < loss(1.0) - 0.05
-    assert loss(rate) < loss(0.3 * rate) - 0.02
 
 
 def test_rendering_a_chain_appends_each_generated_hop() -> None:

@@ -11,7 +11,6 @@ import pytest
 import torch
 from numpy.typing import NDArray
 
-from haptoflow_paper.runs.continuing_comb import GAINS, ContinuingComb, spread_gains
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE
 from haptoflow_training.models.haptoflow_model import SkeletonModel
 from haptoflow_training.models.label_embedding import (
@@ -144,11 +143,6 @@ def test_rate_features_are_zero_at_rest_and_tell_how_fast_and_which_way() -> Non
 EMBEDDING = LabelEmbedding(64, [((0.4, 0.0),), ((0.8, 0.0), (0.0, 0.8)), ()])
 
 
-def _wave(frequencies_hz: list[float], start: int, stop: int) -> torch.Tensor:
-    time = torch.arange(start, stop) / 2000.0
-    return torch.stack([torch.sin(2.0 * math.pi * f * time + f) for f in frequencies_hz]).sum(dim=0).reshape(1, 1, -1)
-
-
 def test_the_rib_frequency_is_the_speed_across_the_ribs_over_their_wavelength() -> None:
     angle = math.radians(60.0)
     motion = torch.tensor([[0.2 * math.cos(angle), 0.2 * math.sin(angle), 1.0]])
@@ -164,33 +158,6 @@ def _test_ribs_phases(
     phases = surface_phases(embedding, motion, torch.zeros(len(embedding), 2), torch.zeros(len(embedding), 6))
     phases[:, :2] = torch.tensor(turns)
     return phases
-
-
-def _comb(
-    past: torch.Tensor,
-    label: int,
-    speed_mps: float,
-    gains: torch.Tensor | None = None,
-    turns: tuple[float, float] = (0.0, 0.0),
-) -> torch.Tensor:
-    """[B, 5, 200]: the past continued by both families of ribs, pulses of both, lines."""
-    count = len(past)
-    motion = torch.tensor([[speed_mps, 0.0, 1.0]] * count)
-    embedding = EMBEDDING(torch.tensor([label] * count))
-    phases = _test_ribs_phases(embedding, motion, turns)
-    spread = (torch.zeros(1, GAINS) if gains is None else gains)[:, spread_gains()]
-    return ContinuingComb()(torch.flip(past, [2]), phases, spread)
-
-
-@pytest.mark.parametrize("speed_mps", [0.1, 0.237, 0.9])
-def test_the_comb_continues_a_tone_and_its_overtone_with_their_phases(speed_mps: float) -> None:
-    fundamental = 400.0 * speed_mps
-    tones = [f for f in (fundamental, 2.0 * fundamental) if f < 960.0]
-    combed = _comb(_wave(tones, -200, 0), 0, speed_mps)
-    truth = _wave(tones, 0, 200)[0, 0]
-    error = (combed[0, 0] - truth).square().mean().sqrt() / truth.square().mean().sqrt()
-    assert error.item() < 0.25, "a ramp of 100 ms tells harmonics 20 Hz apart from their neighbours"
-    assert combed[0, 1].abs().max().item() == 0.0, "a second family of ribs that is not there"
 
 
 def test_a_segment_s_partials_relative_to_the_surface_do_not_depend_on_the_place() -> None:

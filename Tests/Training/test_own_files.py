@@ -64,6 +64,25 @@ def test_constants_are_read_from_the_sidecar_or_the_folder_s_recordings_json(tmp
     assert recording.label == "felt" and recording.force_newtons[0] == pytest.approx(2.0)
 
 
+@pytest.mark.parametrize(("rate_hz", "kind"), [(1000, np.int32), (44100, np.float32)])
+def test_a_wav_of_any_rate_and_kind_keeps_its_level_and_what_lies_above_the_band_does_not_fold_back(
+    tmp_path: Path, rate_hz: int, kind: type
+) -> None:
+    time = np.arange(3 * rate_hz) / rate_hz
+    wave = 3.0 * np.sin(2 * np.pi * 150.0 * time)
+    if rate_hz > 20000:
+        wave += 3.0 * np.sin(2 * np.pi * 7900.0 * time)
+    scale = np.iinfo(kind).max if np.issubdtype(kind, np.integer) else 1.0
+    path = tmp_path / "tone.wav"
+    wavfile.write(path, rate_hz, (wave / 20.0 * scale).astype(kind))
+    with_sidecar(path, {"full_scale_mps2": 20, "speed_mps": 0.1, "force_newtons": 1})
+    found = read(path).vibration_mps2[200:-200]
+    assert np.sqrt(np.mean(found**2)) == pytest.approx(3.0 / np.sqrt(2.0), rel=0.02)
+    spectrum = np.abs(np.fft.rfft(found * np.hanning(len(found))))
+    frequency = np.fft.rfftfreq(len(found), 0.0005)
+    assert spectrum[np.abs(frequency - 150.0) > 20.0].max() < 0.005 * spectrum.max()
+
+
 @pytest.mark.parametrize(
     ("text", "sidecar", "words"),
     [

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 from pathlib import Path
 
@@ -9,9 +10,12 @@ import numpy as np
 import pytest
 
 from haptoflow_benchmark.engine_render import read_recorded_strokes
-from haptoflow_paper.studies.place_study import Pass, Profile, likeness, over_place
+from haptoflow_paper.studies.creeping import hand_overs
+from haptoflow_paper.studies import place_report
+from haptoflow_paper.studies.place_study import RULED, Pass, Profile, bumps, likeness, over_place, second_passes, summary
 from haptoflow_paper.studies.velocity_cases import growing_parabola, made_motions, real_motions, sampled
-from haptoflow_paper.studies.velocity_study import PRODUCT_SETTINGS, product_velocity
+from haptoflow_paper.studies.velocity_study import PRODUCT, PRODUCT_SETTINGS, page_words, product_velocity
+from haptoflow_training.model_stamp import with_measured_words
 
 
 def _surface(places_metres: np.ndarray, seed: int = 3) -> np.ndarray:
@@ -45,9 +49,34 @@ def test_a_late_vibration_is_shifted_and_not_unlike() -> None:
     assert found.unshifted < 0.5
 
 
+def test_the_page_says_met_and_missed() -> None:
+    figures = {"correlation": 0.62, "unshifted": 0.6, "shift_mm": 0.01}
+    chance = {"correlation": 0.1, "unshifted": 0.0, "shift_mm": 0.4}
+    names = [*second_passes(), "second round of a circle"]
+    by_label = {
+        label: {name: chance if name in ("1 mm beside", "another object") else figures for name in names}
+        | ({"bumps": {"bumps": 10, "again": 4, "by_chance": 1}} if label == "stone" else {})
+        for label in ("wood", "stone", *RULED)
+    }
+    assert summary(by_label, "backwards")["median"] == pytest.approx(0.62)
+    creeping = {"wood": {"now": {"2": {"peak_mps2": 0.1, "kurtosis": 3.0}}, "recorder": {"2": {"peak_mps2": 0.0, "kurtosis": 0.0}}}}
+    words = place_report.page_words(
+        {"model_sha256": "ab", "likeness": {"now": by_label}, "creeping": creeping,
+         "hand_overs": {"wood": [{"swing": 2.0, "chance": 0.6, "burst": 0.4, "burst_chance": 0.2}]},
+         "held": [{"diameter_mm": 0.7, "peak_mps2": 0.0}, {"diameter_mm": 1.4, "peak_mps2": 0.2}]}
+    )  # fmt: skip
+    assert "| same direction and speed | 0.62 (0.62 to 0.62) | 0.97: missed |" in words
+    assert "| backwards | 0.62 (0.62 to 0.62) | 0.68: missed |" in words
+    assert "| 1 mm beside | 0.10 (0.10 to 0.10) | chance: met |" in words
+    assert "next pass has 4 within a millimetre" in words
+    assert "1 are exactly silent" in words and "heard are 1.40 mm (goal missed)" in words
+
+
 ROOT = Path(__file__).parents[2]
 STROKES = ROOT.parent / "shared" / "strokes" / "vr-pen-on-surface" / "strokes.csv"
 ENGINE = Path(os.environ.get("HAPTOFLOW_ENGINE", ROOT / "build" / "native" / "haptoflow"))
+RESULTS = ROOT / "Training" / "haptoflow_paper" / "results" / "velocity.json"
+PAGE = ROOT / "Training" / "haptoflow_paper" / "results" / "velocity.md"
 
 
 @pytest.mark.parametrize("rate_hz", [72.0, 500.0])
@@ -64,3 +93,10 @@ def test_the_product_is_the_growing_parabola_with_the_settings_that_the_study_na
         assert is_known.all()
         # Before the third measurement the study's windows are one place longer than the product's history.
         assert np.abs(found - wanted[:, [0, 2]])[3:].max() < 1e-6, motion.kind
+
+
+def test_the_page_shows_the_committed_results() -> None:
+    page = PAGE.read_text(encoding="utf-8")
+    results = json.loads(RESULTS.read_text(encoding="utf-8"))
+    assert results["rows"][PRODUCT]["cells"] and not set(results["choosing"]) & set(results["reporting"])
+    assert page == with_measured_words(page, page_words(results)), "write it anew: haptoflow-paper velocity --page"

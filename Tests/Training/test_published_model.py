@@ -52,8 +52,6 @@ def test_three_segments_that_follow_each_other_are_the_golden_ones(model: Publis
 
 ROOT = Path(__file__).parents[2]
 ENGINE = ROOT / "build" / "native" / "haptoflow"
-RUN_GRAPHS = ROOT / "Training" / "haptoflow_paper" / "published" / "run_graphs.mjs"
-Results = dict[str, NDArray[np.float64]]
 PEAK_G = 1.5
 UNIT_MPS2 = PEAK_G * STANDARD_GRAVITY_MPS2
 
@@ -74,83 +72,6 @@ def path(solver: str, tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture(scope="module")
 def file(path: Path) -> ModelFile:
     return read_model_file(path)
-
-
-def _batch(golden: GoldenChain, name: str) -> torch.Tensor:
-    return torch.cat([golden.tensor(segment, name) for segment in range(golden.segments)])
-
-
-TIMES = (1.0, 0.5, 0.125)
-
-
-class TestOnnxRuntime:
-    """Each exported graph in ONNX Runtime, all three segments in one batch, from the golden input of its stage."""
-
-    @pytest.fixture(scope="class")
-    def results(
-        self, solver: str, golden: GoldenChain, file: ModelFile, tmp_path_factory: pytest.TempPathFactory
-    ) -> dict[str, NDArray[np.float64]]:
-        folder = tmp_path_factory.mktemp("graphs")
-        labels = [golden.label(segment) for segment in range(golden.segments)]
-        field = {
-            "noisy": _batch(golden, "noise"),
-            "previous": _batch(golden, "latent"),
-            "embedding": torch.from_numpy(file.tensors["embedding"][labels]),
-            "motion": torch.cat([golden.motion(segment) for segment in range(golden.segments)]),
-        }
-        jobs = {
-            "encoder": ("encoder", {"waveform": _batch(golden, "previous")}),
-            "decoder": ("decoder", {"latent": _batch(golden, "generated")}),
-            "level": ("level", {"motion": field["motion"]}),
-            **{f"field at {time}": ("published.field", field | self._moments(solver, time)) for time in TIMES},
-        }
-        if solver == "heun":
-            jobs["unguided"] = ("published.unguided", field | self._moments(solver, 0.5))
-        written = []
-        for graph, inputs in jobs.values():
-            (folder / graph).write_bytes(file.graphs[graph])
-            feeds = {name: {"dims": list(value.shape), "data": value.flatten().tolist()} for name, value in inputs.items()}
-            written.append({"graph": str(folder / graph), "inputs": feeds})
-        (folder / "jobs.json").write_text(json.dumps(written), encoding="utf-8")
-        command = ["node", str(RUN_GRAPHS), str(folder / "jobs.json")]
-        done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=ROOT)
-        assert done.returncode == 0, done.stderr
-        return {
-            name: np.array(result["data"]).reshape(result["dims"])
-            for name, result in zip(jobs, json.loads(done.stdout), strict=True)
-        }
-
-    @staticmethod
-    def _moments(solver: str, time: float) -> dict[str, torch.Tensor]:
-        """The graph's inputs at the checkpoint's time: the format's runs the other way, and the tier of "euler" looks
-        half an interval ahead."""
-        turned = torch.full((GoldenChain.segments, 1), 1.0 - time)
-        if solver == "heun":
-            return {"time": turned}
-        return {"time": turned - 0.0625, "interval": torch.full((GoldenChain.segments, 1), 0.125)}
-
-    def test_the_encoder_graph_makes_the_latent(self, results: Results, golden: GoldenChain) -> None:
-        assert_within_1e_4_of_its_rms(results["encoder"], _batch(golden, "latent"))
-
-    @pytest.mark.parametrize("time", TIMES)
-    def test_the_field_graph_is_the_velocity_with_time_turned_round(
-        self, results: Results, golden: GoldenChain, time: float
-    ) -> None:
-        assert_within_1e_4_of_its_rms(-results[f"field at {time}"], _batch(golden, f"velocity_t{time}"))
-
-    def test_the_unguided_graph_is_the_velocity_without_guidance(
-        self, results: Results, golden: GoldenChain, model: PublishedModel, solver: str
-    ) -> None:
-        if solver == "euler":
-            # Without guidance in training there is one graph.
-            assert "unguided" not in results
-            return
-        past, time = model.past_features(_batch(golden, "latent")), torch.full((golden.segments, 1), 0.5)
-        expected = model.velocity(_batch(golden, "noise"), time, _batch(golden, "cond"), past, 1.0)
-        assert_within_1e_4_of_its_rms(-results["unguided"], expected)
-
-    def test_the_decoder_graph_makes_the_segment(self, results: Results, golden: GoldenChain) -> None:
-        assert_within_1e_4_of_its_rms(results["decoder"], _batch(golden, "waveform"))
 
 
 def _generated(

@@ -14,7 +14,7 @@ from haptoflow_paper.rows.reference_conditions import Condition
 from haptoflow_paper.rows.reference_set import ReferencePair
 from haptoflow_paper.rows import untrained, workplace
 from haptoflow_paper.rows.accuracy import Yardstick, make_yardstick
-from haptoflow_paper.rows.row_plan import PlannedRow
+from haptoflow_paper.rows.row_plan import PlannedRow, load_plan
 from haptoflow_paper.rows.row_runner import made_from, measure_rows
 from haptoflow_paper.rows.workplace import Workplace, stored_row, train_models
 from haptoflow_paper.runs.trainer import EvaluatedTrainer
@@ -143,6 +143,27 @@ def test_a_row_without_its_model_here_is_timed_by_an_untrained_network_of_the_sa
     assert Path(codec.model.representation["checkpoint"]).is_relative_to(place.work), "the trained codec stays"
     _leave_as_trained(place)
     assert place.timed_file(_ROW) == place.model_file(_ROW, 1)
+
+
+PAPER = Path(__file__).parents[2] / "Training" / "haptoflow_paper"
+
+
+def test_every_published_row_was_measured_with_the_present_configuration_of_its_model() -> None:
+    place = Workplace(PAPER.parents[1], PAPER / "configs" / "rows.toml", Path("work"), Path("store"), PAPER / "results")
+    published = json.loads((place.results / "accuracy-time.json").read_text(encoding="utf-8"))
+    checked = 0
+    outdated = set()
+    for row in load_plan(place.plan):
+        for seed in place.seeds_of(row):
+            if not place.row_file(row, seed).exists():
+                assert row.name in published["not_measured"] or seed != row.seeds[0], f"{row.name}, seed {seed}"
+                continue
+            stored = json.loads(place.row_file(row, seed).read_text(encoding="utf-8"))["made_from"]
+            if stored["configuration_crc32"] != place.configuration_crc32(row, seed):
+                outdated.add(row.name)
+            checked += bool(stored["configuration_crc32"])
+    assert not outdated
+    assert checked >= 4
 
 
 def test_an_evaluated_run_with_no_key_of_its_own_has_the_weights_and_phases_of_the_product() -> None:

@@ -11,15 +11,12 @@ import onnx
 import pytest
 import scipy.signal
 import torch
-from dataset_samples import small_recording
 from test_export import PROVENANCE
 from paper_samples import field_config
 from test_trainer import ALONE, _config, ask_to_stop_after
-from training_fixtures import FakeStore, make_store, run_here, travelled_mm
+from training_fixtures import FakeStore, make_store, travelled_mm
 
 from haptoflow_paper.runs.trainer import EvaluatedTrainer
-from haptoflow_training.cli import main
-from haptoflow_training.commands import train_tiers
 from haptoflow_training.training.level_calibration import TierSource
 from haptoflow_training.training.closed_loop import SurfaceStatistics, run_closed_loop
 from haptoflow_training.errors import InputError
@@ -30,7 +27,6 @@ from haptoflow_training.export.trained_tier import load_tiers
 from haptoflow_training.models.haptoflow_model import SkeletonModel
 from haptoflow_training.models.label_embedding import path_of
 from haptoflow_training.models.skeleton import NOISE_BEFORE, SkeletonGains
-from haptoflow_training.recordings.dataset_writer import TextureEntry, write_recording, write_texture_list
 from haptoflow_training.training import losses as skeleton_losses
 from haptoflow_training.training.batches import SegmentBatch, SegmentBatches
 from haptoflow_training.training.config import BatchConfig, ModelConfig, RecipeConfig, TrainingConfig
@@ -505,35 +501,3 @@ steps = 0
 filter_steps = 0
 shares_base = true
 """
-
-
-def test_recordings_from_a_folder_become_a_model_of_the_shipped_kind(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
-    monkeypatch.setattr(train_tiers, "run_jobs", run_here)
-    recordings = tmp_path / "recordings"
-    for texture in (0, 66):
-        for direction in range(0, 360, 45):
-            write_recording(recordings, small_recording(f"{texture}_{direction}_50_500_0", seconds=2.0))
-    write_texture_list(recordings, [TextureEntry(0, "denim", {}), TextureEntry(66, "felt", {})])
-    labels = tmp_path / "labels.toml"
-    labels.write_text(
-        "".join(
-            f'[[label]]\nname = "{name}"\ncategory = "cloth"\nstiffness_newtons_per_metre = 250.0\n'
-            f'friction_coefficient = 0.4\ntextures = ["{name}"]\nwave_vectors_per_mm = []\n'
-            for name in ("denim", "felt")
-        )
-    )
-    configs = tmp_path / "configs"
-    configs.mkdir()
-    (configs / "base.toml").write_text(SMALL_BASE)
-    (configs / "standard.toml").write_text(SMALL_STANDARD)
-    model = tmp_path / "felt.haptoflow"
-    words = ["--configs", str(configs), "--out", str(tmp_path / "runs"), "--lanes", "2", "--export", str(model)]
-    assert main(["train-tiers", "--recordings", str(recordings), "--labels", str(labels), *words]) == 0
-    header = read_model_file(model).header
-    assert [(tier["name"], tier["kind"]) for tier in header["tiers"]] == [
-        ("sketch", "skeleton"), ("standard", "refine"),
-    ]  # fmt: skip
-    assert [label["name"] for label in header["labels"]] == ["denim", "felt"]
-    assert "synthetic" not in header["provenance"]["statement"]

@@ -166,6 +166,14 @@ def test_too_few_participants_are_refused_in_one_line(tmp_path: Path, capsys: py
     assert not (tmp_path / "r.html").exists()
 
 
+def test_faulty_logs_make_no_report(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    logs = latency_study(tmp_path / "logs")
+    change_field(log_of(logs, 2), 3, "answer", "maybe")
+    assert main(["study", "analyse", str(logs), "--out", str(tmp_path / "r.html")]) == 3
+    assert "row 3, column answer: 'maybe' is not yes or no" in capsys.readouterr().err
+    assert not (tmp_path / "r.html").exists()
+
+
 def test_results_are_not_written_among_the_logs(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     logs = latency_study(tmp_path / "logs")
     words = ["study", "analyse", str(logs), "--out", str(tmp_path / "r.html"), "--results", str(logs / "r.json")]
