@@ -103,22 +103,6 @@ test('a context whose output is unplugged runs without one, and takes the next; 
   });
 });
 
-test('an output that is listed but gone is not taken for one that is back', async () => {
-  const context = new MadeContext();
-  await watched(context, async (pass, states, watch) => {
-    context.ghosts = 1;
-    context.unplug();
-    await pass(2);
-    assert.deepEqual(states, ['lost']);
-    assert.equal(watch.hasLost, true);
-    assert.deepEqual(context.sinkId, { type: 'none' });
-    context.ghosts = 0;
-    context.outputs = 1;
-    await pass(1);
-    assert.deepEqual(states, ['lost', 'back']);
-  });
-});
-
 test('an output that is gone, but on which time passes for a while, is not taken for one that is back', async () => {
   const context = new MadeContext();
   await watched(context, async (pass, states, watch) => {

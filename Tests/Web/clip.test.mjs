@@ -70,23 +70,14 @@ test('full scale is 200 m/s^2 unless given', () => {
   assert.ok(Math.abs(createClip(core, { ...tone, samples: tone.samples.map((each) => each / 200), fullScaleMps2: undefined }).largestAmplitude - largestAmplitude) < 1e-3);
 });
 
-const written = createClip(core, tone).files;
 /** @type {[string, () => unknown, string, RegExp][]} */
 const refusals = [
   ['a wave of no samples', () => createClip(core, { ...tone, samples: new Float32Array(0) }), 'INVALID_ARGUMENT', /a clip of no samples/],
   ['a wave that is no array of floats', () => createClip(core, { ...tone, samples: [1, 2] }), 'invalid-argument', /expected a Float32Array/],
   ['a rate of nothing', () => createClip(core, { ...tone, rateHz: NaN }), 'invalid-argument', /rateHz is NaN; expected 8000/],
   ['a full scale of nothing', () => createClip(core, { ...tone, fullScaleMps2: 0 }), 'invalid-argument', /fullScaleMps2 is 0/],
-  ['more than ten minutes', () => createClip(core, { ...tone, samples: new Float32Array(8000 * 601), rateHz: 8000 }), 'INVALID_ARGUMENT', /601 s; the longest is 600 s/],
-  ['an empty text', () => readClip(core, ''), 'INVALID_ARGUMENT', /the clip/],
   ['no text', () => readClip(core, /** @type {any} */ (undefined)), 'invalid-argument', /expected the text/],
   ['another file', () => readClip(core, '{"no": "clip"}'), 'INVALID_ARGUMENT', /"signals".*"Pattern".*"perceptions"/],
-  ['a page in place of a clip', () => readClip(core, '<!doctype html>'), 'INVALID_ARGUMENT', /the clip/],
-  ['an amplitude beyond 1', () => readClip(core, haptic([[0, 0], [1, 7]])), 'INVALID_ARGUMENT', /amplitude/],
-  ['points that go back', () => readClip(core, haptic([[1, 0], [0, 0.5]])), 'INVALID_ARGUMENT', /time/],
-  ['a clip that lasts longer than ten minutes', () => readClip(core, haptic([[0, 0], [700, 0.5]])), 'INVALID_ARGUMENT', /700 s; the longest is 600 s/],
-  ['a text of more than 16 MiB', () => readClip(core, ' '.repeat(16777217)), 'INVALID_ARGUMENT', /larger than 16 MiB/],
-  ...clipFormats.map((format) => /** @type {any} */ ([`a .${format} cut short`, () => readClip(core, written[format].slice(0, -40)), 'INVALID_ARGUMENT', /the clip/])),
 ];
 for (const [name, action, code, message] of refusals) {
   test(`${name} is refused in words`, () => {

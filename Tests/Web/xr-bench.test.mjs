@@ -7,7 +7,7 @@ import { Bench, geometryOf } from '../../Web/page/xr/bench.mjs';
 import { boardTop, strokeOfPaint, swatches, withBoard } from '../../Web/page/xr/board.mjs';
 import { mirrorPosition } from '../../Web/page/xr/frames.mjs';
 import { wordsOfMaterial, wordsOfPanel } from '../../Web/page/xr/panel.mjs';
-import { Rate } from '../../Web/page/xr/rates.mjs';
+import { Rate } from '../../Web/page/xr/report.mjs';
 import { repository, sceneOpener } from './support/engine.mjs';
 
 const { open, labels } = await sceneOpener();

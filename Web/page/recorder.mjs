@@ -1,5 +1,3 @@
-import { strokeTable } from './stroke-table.mjs';
-
 /** A clip's longest, too. */
 export const longestSeconds = 600;
 
@@ -79,4 +77,63 @@ export class Recorder {
     const materials = [...new Set(this.#tips.flatMap(({ touched }) => [...touched]))];
     return { samples, rateHz, seconds: samples.length / rateHz, strokes, materials };
   }
+}
+
+/** @typedef {{timeSeconds: number, positionMetres: readonly number[], forceNewtons: number, orientation: readonly number[] | null}} StrokeRow */
+
+const number = (/** @type {number} */ value, /** @type {number} */ digits) => String(Number(value.toFixed(digits)));
+
+/**
+ * STROKE.csv of Documentation~/scene-and-stroke.md, with orientations if every row has one. A tip in the air has no measured force.
+ * @param {StrokeRow[]} rows
+ */
+export function strokeTable(rows) {
+  const isOriented = rows.length > 0 && rows.every(({ orientation }) => orientation !== null);
+  const lines = rows.map(({ timeSeconds, positionMetres, forceNewtons, orientation }) => [
+    number(timeSeconds, 6),
+    ...positionMetres.map((value) => number(value, 7)),
+    number(forceNewtons, 4),
+    ...(isOriented && orientation ? orientation.map((value) => number(value, 5)) : []),
+  ].join(','));
+  return `${['t,x,y,z,force', isOriented ? ',qx,qy,qz,qw' : '', '\n'].join('')}${lines.map((line) => `${line}\n`).join('')}`;
+}
+
+/** A pen's turn from upright, from its tilt towards x and y of the screen in degrees, as x, y, z, w in the scene's frame. */
+export function orientationOf(/** @type {number} */ tiltXDegrees, /** @type {number} */ tiltYDegrees) {
+  const towardsX = Math.tan((tiltXDegrees * Math.PI) / 180);
+  const towardsZ = -Math.tan((tiltYDegrees * Math.PI) / 180);
+  const lean = Math.hypot(towardsX, towardsZ);
+  if (lean < 1e-9) return [0, 0, 0, 1];
+  const half = Math.atan(lean) / 2;
+  // The axis is up x lean, in a left-handed frame: y towards x is a negative turn about z.
+  return [(Math.sin(half) * towardsZ) / lean, 0, (-Math.sin(half) * towardsX) / lean, Math.cos(half)];
+}
+
+/**
+ * A WAV file of one channel of 32-bit floats.
+ * @param {Float32Array} samples @param {number} rateHz @returns {Uint8Array}
+ */
+export function wavBytes(samples, rateHz) {
+  const bytes = new Uint8Array(58 + 4 * samples.length);
+  const view = new DataView(bytes.buffer);
+  const word = (/** @type {number} */ at, /** @type {string} */ text) => [...text].forEach((letter, index) => view.setUint8(at + index, letter.charCodeAt(0)));
+  word(0, 'RIFF');
+  view.setUint32(4, bytes.length - 8, true);
+  word(8, 'WAVEfmt ');
+  view.setUint32(16, 18, true);
+  view.setUint16(20, 3, true);
+  view.setUint16(22, 1, true);
+  view.setUint32(24, rateHz, true);
+  view.setUint32(28, 4 * rateHz, true);
+  view.setUint16(32, 4, true);
+  view.setUint16(34, 32, true);
+  view.setUint16(36, 0, true);
+  // Files of floats state their number of samples.
+  word(38, 'fact');
+  view.setUint32(42, 4, true);
+  view.setUint32(46, samples.length, true);
+  word(50, 'data');
+  view.setUint32(54, 4 * samples.length, true);
+  for (let index = 0; index < samples.length; index += 1) view.setFloat32(58 + 4 * index, samples[index], true);
+  return bytes;
 }

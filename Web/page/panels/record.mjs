@@ -1,7 +1,6 @@
 import { download, find } from '../dom.mjs';
 import { sentenceOf } from '../messages.mjs';
-import { longestSeconds } from '../recorder.mjs';
-import { wavBytes } from '../wav.mjs';
+import { longestSeconds, wavBytes } from '../recorder.mjs';
 
 const clipFormats = /** @type {const} */ (['haptic', 'ahap', 'hjif']);
 

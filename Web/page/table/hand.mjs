@@ -1,6 +1,6 @@
 import { Press, penForce } from './press.mjs';
 import { secondsOf, strokeAt } from './preset-strokes.mjs';
-import { orientationOf } from '../stroke-table.mjs';
+import { orientationOf } from '../recorder.mjs';
 
 // Who moves the tips: pointers, keys and preset strokes. Times are seconds on the page's clock since `epochMs`.
 

@@ -17,7 +17,7 @@ export class Tip {
   /** @type {TipPlace} */
   place = { timeSeconds: 0, x: 0, z: 0, forceNewtons: 0, orientation: null };
   isDown = false;
-  /** The stroke that is being recorded; null while none is. @type {import('../stroke-table.mjs').StrokeRow[] | null} */
+  /** The stroke that is being recorded; null while none is. @type {import('../recorder.mjs').StrokeRow[] | null} */
   rows = null;
   /** Materials that it has touched since somebody emptied this. @type {Set<string>} */
   touched = new Set();

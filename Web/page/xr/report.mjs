@@ -1,9 +1,24 @@
 import { wordsOfMaterial } from './panel.mjs';
-import { Rate } from './rates.mjs';
 
 // What the panel is told, a few times a second.
 
 const everyMs = 250;
+const windowMs = 1000;
+
+/** Turns a growing count into a rate, over the last second or so. */
+export class Rate {
+  #beganMs = -1;
+  #beganCount = 0;
+  perSecond = NaN;
+
+  /** @param {number} nowMs @param {number} count so far */
+  update(nowMs, count) {
+    if (this.#beganMs >= 0 && nowMs - this.#beganMs < windowMs) return;
+    if (this.#beganMs >= 0) this.perSecond = (1000 * (count - this.#beganCount)) / (nowMs - this.#beganMs);
+    this.#beganMs = nowMs;
+    this.#beganCount = count;
+  }
+}
 
 /** Counts frames and poses, and keeps the panel up to date. */
 export class Report {
