@@ -76,27 +76,6 @@ namespace HaptoFlow.EditorTests
                 Has.None.Contains("settings"));
         }
 
-        [Test]
-        public void MxInkVibrates()
-        {
-            OVRPlugin.Take(OVRPlugin.Hand.HandRight, OVRPlugin.MxInkProfile);
-            PlayWithAHeadset();
-            Assert.That(OVRPlugin.Pulses.Count, Is.GreaterThan(20));
-            Assert.That(Peak(0), Is.Zero);
-        }
-
-        [Test]
-        public void AChannelMakesTheRightChannelAloneVibrate()
-        {
-            MakeFirstScene();
-            EditorScreen.Enter("Channel", 1);
-            InspectorTests.Draw(All<HapticOutput>().Single());
-            EditorSession.Play();
-            PressOverThePlate();
-            Assert.That(Peak(1), Is.GreaterThan(Audible));
-            Assert.That(Peak(0), Is.Zero);
-        }
-
         [TestCase(false)]
         [TestCase(true)]
         public void APenAddedLaterIsFeltInTheHandAndWithAnAutoOutputHeardToo(bool withAutoOutput)
@@ -118,22 +97,6 @@ namespace HaptoFlow.EditorTests
                 PressOverThePlate();
                 Assert.That(Peak(0), Is.GreaterThan(Audible), "the mouse");
             }
-        }
-
-        [Test]
-        public void CheckSceneSaysWhatPlaysEachStylusBeforePlaying()
-        {
-            Settings();
-            MxInkSwitch.SwitchOn();
-            AddAPenLater();
-            Assert.That(StylusPlaces.Summary(new SceneContents()).Split('\n'), Is.EquivalentTo(new[]
-            {
-                "Mouse Pen plays on Haptic Output (all channels of the audio device).",
-                "XR Pen Right is felt through the device in the right hand; until one is connected it plays on Haptic " +
-                    "Output (all channels of the audio device).",
-            }));
-            Assert.That(SceneCheck.Run().Select(finding => finding.Text).Where(text => !text.Contains("DSP Buffer")),
-                Is.Empty);
         }
 
         private static void MakeFirstScene() => CreateMenu.CreateFirstScene(new MenuCommand(null));

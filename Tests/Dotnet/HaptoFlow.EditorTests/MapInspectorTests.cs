@@ -41,16 +41,6 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void ARuleChangedInPlayModeAppliesAtOnce()
-        {
-            HapticMaterialMap map = Map(HapticMaterialRule.ForTag("Finish", null));
-            int before = MaterialMaps.Version;
-            EditorScreen.Enter("Tag", "Respawn");
-            InspectorTests.Draw(map);
-            Assert.That(MaterialMaps.Version, Is.GreaterThan(before));
-        }
-
-        [Test]
         public void AMaskShowsTheFieldsOfItsChannelsAndAButtonBakesIt()
         {
             HapticMaskMap mask = ScriptableObject.CreateInstance<HapticMaskMap>();

@@ -168,8 +168,6 @@ namespace HaptoFlow.PreviewTests
         public double PixelsPerPoint { get; }
         public Box Whole { get; }
 
-        public int PixelWidth => bitmap.Width;
-
         public int PixelHeight => bitmap.Height;
 
         /// <summary>All texts drawn so far, and the box around the ink of each.</summary>
@@ -183,8 +181,6 @@ namespace HaptoFlow.PreviewTests
                 return new Colour(pixel.Red, pixel.Green, pixel.Blue, pixel.Alpha);
             }
         }
-
-        public byte[] Pixels => bitmap.Bytes;
 
         public void FillRectangle(Box box, Colour colour, double cornerRadius = 0.0)
         {

@@ -160,17 +160,6 @@ namespace HaptoFlow.RepositoryTests
             Assert.That(motor.Commands.Max(each => each.Amplitude), Is.LessThanOrEqualTo(0.7f));
         }
 
-        [Test]
-        public void FramesAllocateNothing()
-        {
-            var motor = new SimulatedMotor { Records = false };
-            AmplitudeQueue queue = QueueFor(motor, SimulatedWave.Sine(100.0));
-            double now = Play(motor, queue, 0.0, 2.0);
-            long before = GC.GetAllocatedBytesForCurrentThread();
-            Play(motor, queue, now, 10.0);
-            Assert.That(GC.GetAllocatedBytesForCurrentThread() - before, Is.Zero);
-        }
-
         private static AmplitudeQueue QueueFor(SimulatedMotor motor, SimulatedWave wave) =>
             new AmplitudeQueue(motor, wave);
 

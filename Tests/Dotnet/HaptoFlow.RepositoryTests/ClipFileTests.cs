@@ -1,7 +1,6 @@
 using System;
 using System.Linq;
 using System.Text;
-using HaptoFlow.Native;
 using NUnit.Framework;
 
 namespace HaptoFlow.RepositoryTests
@@ -83,20 +82,6 @@ namespace HaptoFlow.RepositoryTests
             Assert.That(Peak(engine, voice, 10), Is.Zero);
             EffectStatistics effect = voice.EffectStatistics(HapticEffect.Clip);
             Assert.That((effect.Events, effect.IsAskedFor), Is.EqualTo((1UL, false)));
-        }
-
-        [Test]
-        public void ALoopGoesOnUntilItIsEnded()
-        {
-            using HapticEngine engine = EngineWithoutWorker();
-            using HapticVoice voice = engine.OpenVoice(48000.0);
-            using HapticClipFile clip = Hum(0.1);
-            voice.PlayClip(clip, 0.5f, true);
-            Peak(engine, voice, 80);
-            Assert.That(Peak(engine, voice, 20), Is.GreaterThan(0.03f));
-            voice.PlayClip(null);
-            Peak(engine, voice, 4);
-            Assert.That(Peak(engine, voice, 20), Is.Zero);
         }
 
         [Test]

@@ -82,17 +82,6 @@ namespace HaptoFlow.RepositoryTests
         }
 
         [Test]
-        public void TheModelsHeaderLabelsAndEmbeddingsAreReadable()
-        {
-            Assert.That(OnnxRuntime.LibraryVersion(), Does.Match(@"^\d+\.\d+\.\d+$"));
-            Assert.That(model.HeaderJson(), Does.StartWith("{").And.EndsWith("}"));
-            Assert.That(model.Labels.Count, Is.GreaterThan(8));
-            Assert.That(model.Embedding(1), Has.Length.EqualTo(64));
-            Assert.That(model.Embedding(0), Is.Not.EqualTo(model.Embedding(1)));
-            Assert.That(model.Labels[0].StiffnessNewtonsPerMetre, Is.GreaterThan(0.0));
-        }
-
-        [Test]
         public void AGeneratorGeneratesTheSameSegmentFromTheSameNoise()
         {
             using var generator = new HapticGenerator(runtime, model);
@@ -238,6 +227,193 @@ namespace HaptoFlow.RepositoryTests
                 peak = Math.Max(peak, block.Max(sample => Math.Abs(sample)));
             }
             return peak;
+        }
+    }
+
+    /// <summary>Base class of tests with the real library and the shipped model, which is opened once.</summary>
+    public abstract class OpenModelTest
+    {
+        protected OnnxRuntime runtime = null!;
+        protected HapticModel model = null!;
+
+        [OneTimeSetUp]
+        public void Open()
+        {
+            runtime = OnnxRuntime.Open();
+            model = HapticModel.Open(RepositoryFiles.DefaultModel);
+        }
+
+        private protected HapticEngine EngineWithoutWorker(HapticCancellation? cancellation = null) => new HapticEngine(
+            runtime, model, new HapticEngineOptions
+            {
+                Quality = HapticQuality.Draft, WithoutWorker = true, FixedLeadMs = 8.0, Seed = 1,
+                Cancellation = cancellation,
+            });
+
+        private protected static ContactState Sliding(uint touch) => new ContactState
+        {
+            Touching = true,
+            TouchCounter = touch,
+            Material = LabelBlend.Of(1),
+            FirstVelocityMps = 0.05f,
+            ForceNewtons = 0.6f,
+        };
+
+        [OneTimeTearDown]
+        public void Close()
+        {
+            model.Dispose();
+            runtime.Dispose();
+        }
+    }
+
+    /// <summary>Reasons for silence, the health of the engine and cancelled loads, with the real library.</summary>
+    public sealed class NativeHealthTests : OpenModelTest
+    {
+        [Test]
+        public void AVoiceReportsWhyItIsSilent()
+        {
+            using HapticEngine engine = EngineWithoutWorker();
+            using HapticVoice voice = engine.OpenVoice(48000.0);
+            Assert.That(After(engine, voice, default, 48000.0).Silence, Is.EqualTo(HapticSilence.Rest));
+            Assert.That(After(engine, voice, Sliding(1), 48000.0).Silence, Is.EqualTo(HapticSilence.None));
+            voice.SetMuted(true);
+            Assert.That(After(engine, voice, Sliding(1), 48000.0).Silence, Is.EqualTo(HapticSilence.Muted));
+            voice.SetMuted(false);
+            VoiceStatistics again = After(engine, voice, Sliding(1), 48000.0);
+            Assert.That(again.Silence, Is.EqualTo(HapticSilence.None));
+            Assert.That(again.Resumptions, Is.EqualTo(1UL));
+            voice.Panic();
+            Assert.That(After(engine, voice, Sliding(1), 48000.0).Silence, Is.EqualTo(HapticSilence.Panic));
+            voice.SetPaused(true);
+            Assert.That(After(engine, voice, Sliding(2), 48000.0).Silence, Is.EqualTo(HapticSilence.Paused));
+        }
+
+        [TestCase(-1)]
+        [TestCase(3)]
+        [TestCase(5)]
+        public void ANumberThatIsNoQualityIsRefusedByTheEngineAndIsStandardInAnAsset(int number)
+        {
+            using HapticEngine engine = EngineWithoutWorker();
+            Assert.That(Assert.Throws<HaptoFlowException>(() => engine.SetQuality((HapticQuality)number))!.Message,
+                Does.Contain(FormattableString.Invariant(
+                    $"quality is {number}; expected 0 (auto), 1 (draft), 2 (standard) or 4 (sketch)")));
+            Assert.That(((HapticQuality)number).OrStandard(), Is.EqualTo(HapticQuality.Standard));
+        }
+
+        [Test]
+        public void EveryQualityThatThereIsStaysWhatItIs()
+        {
+            foreach (HapticQuality quality in (HapticQuality[])Enum.GetValues(typeof(HapticQuality)))
+            {
+                Assert.That(quality.OrStandard(), Is.EqualTo(quality));
+            }
+        }
+
+        [Test]
+        public void ACancelledLoadReturnsTheStatusCancelled()
+        {
+            using var cancellation = new HapticCancellation();
+            using (EngineWithoutWorker(cancellation))
+            {
+                // A cancellation that is not triggered changes nothing.
+            }
+            cancellation.Cancel();
+            cancellation.Cancel();
+            Assert.That(Assert.Throws<HaptoFlowException>(() => EngineWithoutWorker(cancellation))!.Status,
+                Is.EqualTo(HaptoFlowStatus.Cancelled));
+        }
+
+        [Test]
+        public void AClosedCancellationIsRefused()
+        {
+            var cancellation = new HapticCancellation();
+            cancellation.Dispose();
+            cancellation.Dispose();
+            Assert.That(Assert.Throws<HaptoFlowException>(() => cancellation.Cancel())!.Status,
+                Is.EqualTo(HaptoFlowStatus.InvalidArgument));
+        }
+
+        private static VoiceStatistics After(
+            HapticEngine engine, HapticVoice voice, in ContactState state, double rateHz)
+        {
+            var block = new float[512];
+            for (int count = 0; count < 10; ++count)
+            {
+                voice.Publish(state);
+                engine.Step();
+                voice.Render(block, 1, 0, rateHz);
+            }
+            return voice.Statistics();
+        }
+    }
+
+    /// <summary>Reliefs of the native library, as C# makes them and names them in contact states.</summary>
+    public sealed class ReliefMapTests : OpenModelTest
+    {
+        private static readonly (float, float) Size = (0.1f, 0.1f);
+
+        [Test]
+        public void ATipFollowsTheHeightsAlongItsWayInTheMap()
+        {
+            using HapticReliefMap ribs = Ribs();
+            double without = Level(0, (10.0, 0.0), 0.5f);
+            double across = Level(ribs.Number, (10.0, 0.0), 0.5f);
+            double along = Level(ribs.Number, (0.0, 10.0), 0.5f);
+            Assert.That(without, Is.Zero, "the relief is the only effect");
+            Assert.That(across, Is.GreaterThan(0.01));
+            Assert.That(along, Is.LessThan(0.1 * across));
+        }
+
+        [Test]
+        public void ADisposedReliefIsSilent()
+        {
+            HapticReliefMap ribs = Ribs();
+            uint number = ribs.Number;
+            ribs.Dispose();
+            ribs.Dispose();
+            Assert.That(number, Is.Not.Zero);
+            Assert.That(ribs.Number, Is.Zero);
+            Assert.That(Level(number, (10.0, 0.0), 0.5f), Is.Zero);
+        }
+
+        [Test]
+        public void ARefusalNamesTheNumber()
+        {
+            var refusal = Assert.Throws<HaptoFlowException>(
+                () => new HapticReliefMap(new float[4], 2, (0f, 1f), 0.001f, 0f, true));
+            Assert.That(refusal!.Message, Does.Contain("size"));
+            Assert.Throws<HaptoFlowException>(() => new HapticReliefMap(new float[4], 0, Size, 0.001f, 0f, true));
+            Assert.Throws<HaptoFlowException>(
+                () => new HapticReliefMap(Array.Empty<float>(), 2, Size, 0.001f, 0f, true));
+        }
+
+        /// <summary>A sine of 2 mm along the columns.</summary>
+        private static HapticReliefMap Ribs() => new HapticReliefMap(
+            Enumerable.Range(0, 800 * 2)
+                .Select(texel => 1e-4f * (1f + (float)Math.Sin(2.0 * Math.PI * texel / 16.0))).ToArray(),
+            800, Size, 0.0002f, 0.0005f, true);
+
+        /// <summary>The RMS level of a tip that slides at 0.1 m/s, of full scale.</summary>
+        private double Level(uint relief, (double Columns, double Rows) perMetre, float share)
+        {
+            using HapticEngine engine = EngineWithoutWorker();
+            using HapticVoice voice = engine.OpenVoice(48000.0);
+            ContactState state = Sliding(1);
+            (state.FirstVelocityMps, state.SecondVelocityMps) = (0.1f, 0f);
+            (state.Effects, state.Relief, state.ReliefShare) = (HapticEffects.Relief, relief, share);
+            var block = new float[512];
+            double squares = 0.0;
+            for (int count = 0; count < 60; ++count)
+            {
+                double metres = 0.1 * 512.0 / 48000.0 * count;
+                state.ReliefPlace = new MapPlace(perMetre.Columns * metres, perMetre.Rows * metres);
+                Assert.That(voice.Publish(state), Is.True);
+                engine.Step();
+                voice.Render(block, 1, 0, 48000.0);
+                squares += count < 20 ? 0.0 : block.Sum(sample => sample * sample);
+            }
+            return Math.Sqrt(squares / (40.0 * block.Length));
         }
     }
 }

@@ -26,10 +26,6 @@ namespace HaptoFlow.RepositoryTests
         public List<(double Seconds, float Amplitude, float Hertz, float Duration)> Commands { get; } =
             new List<(double, float, float, float)>();
 
-        public int Stops { get; private set; }
-
-        public bool Records { get; set; } = true;
-
         public float AmplitudeAt(double seconds) => seconds < endsSeconds ? amplitude : 0f;
 
         public bool TryGetCapabilities(out HapticSinkCapabilities capabilities)
@@ -46,18 +42,11 @@ namespace HaptoFlow.RepositoryTests
             }
             amplitude = newAmplitude;
             endsSeconds = Now + durationSeconds;
-            if (Records)
-            {
-                Commands.Add((Now, newAmplitude, frequencyHz, durationSeconds));
-            }
+            Commands.Add((Now, newAmplitude, frequencyHz, durationSeconds));
             return true;
         }
 
-        public void Stop()
-        {
-            ++Stops;
-            endsSeconds = Now;
-        }
+        public void Stop() => endsSeconds = Now;
     }
 
     /// <summary>A device that plays streams of points on its own clock, and checks the rules of its makers. A stream
@@ -233,8 +222,6 @@ namespace HaptoFlow.RepositoryTests
 
         public int Submissions { get; private set; }
 
-        public int Stops { get; private set; }
-
         public bool Records { get; set; } = true;
 
         public void AdvanceTo(double seconds)
@@ -281,11 +268,7 @@ namespace HaptoFlow.RepositoryTests
             return taken;
         }
 
-        public void Stop()
-        {
-            ++Stops;
-            waiting.Clear();
-        }
+        public void Stop() => waiting.Clear();
 
         private double Now { get; set; }
     }
@@ -300,29 +283,6 @@ namespace HaptoFlow.RepositoryTests
 
         public static SimulatedWave Sine(double hertz, double amplitude = 0.3) =>
             new SimulatedWave(seconds => amplitude * Math.Sin(2.0 * Math.PI * hertz * seconds));
-
-        /// <summary>Noise between two frequencies as a sum of sines, reproducible at every position.</summary>
-        public static SimulatedWave Noise(double lowHz, double highHz, double rms)
-        {
-            const int partials = 40;
-            var random = new Random(5);
-            var phases = new double[partials];
-            for (int index = 0; index < partials; ++index)
-            {
-                phases[index] = 2.0 * Math.PI * random.NextDouble();
-            }
-            double each = rms * Math.Sqrt(2.0 / partials);
-            return new SimulatedWave(seconds =>
-            {
-                double sum = 0.0;
-                for (int index = 0; index < partials; ++index)
-                {
-                    double hertz = lowHz + (highHz - lowHz) * (index + 0.37) / partials;
-                    sum += each * Math.Sin(2.0 * Math.PI * hertz * seconds + phases[index]);
-                }
-                return sum;
-            });
-        }
 
         public long Position { get; private set; }
 

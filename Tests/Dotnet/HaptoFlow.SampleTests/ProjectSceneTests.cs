@@ -1,4 +1,3 @@
-using System.IO;
 using System.Linq;
 using HaptoFlow.Project;
 using HaptoFlow.Tests.Support;
@@ -27,17 +26,6 @@ namespace HaptoFlow.SampleTests
             {
                 Object.DestroyImmediate(owner);
             }
-        }
-
-        [Test]
-        public void AStrokeOverTheDeskIsWoodAndIsHeard()
-        {
-            Open("Desk.unity");
-            HapticStylus stylus = All<MousePen>().Single().Stylus;
-            Draw(stylus, new Vector3(-0.1f, 0f, 0f), new Vector3(0.1f, 0f, 0f));
-            Assert.That(stylus.Contact.Material!.Label, Is.EqualTo("wood"));
-            Assert.That(Loudest(), Is.GreaterThan(Audible));
-            Assert.That(Board(), Does.StartWith("wood: "));
         }
 
         [TestCase("Desk.unity")]

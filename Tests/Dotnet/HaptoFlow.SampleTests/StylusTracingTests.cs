@@ -1,9 +1,8 @@
 using System;
-using System.Collections.Generic;
 using System.Linq;
-using HaptoFlow.Model;
 using HaptoFlow.SampleScenes;
 using HaptoFlow.Tests;
+using HaptoFlow.Tests.Support;
 using NUnit.Framework;
 using UnityEngine;
 using UnityShim;
@@ -21,16 +20,6 @@ namespace HaptoFlow.SampleTests
             FinishLoading();
             camera = CameraOf(new SceneFile("StylusTracing"));
             scene = Wake<TracingScene>(bootstrap => bootstrap.View = camera);
-        }
-
-        [Test]
-        public void TheSceneHasEightObjectsWithEightLabelsOfTheModel()
-        {
-            List<string> labels = Surfaces().Select(surface => surface.Material.Label).ToList();
-            Assert.That(labels, Has.Count.EqualTo(8));
-            Assert.That(labels, Is.Unique);
-            Assert.That(labels, Is.SubsetOf(HaptoFlowSettings.Active.Model!.Header.Labels.Select(label => label.Name)));
-            Assert.That(Surfaces().Select(surface => surface.Colliders.Count), Has.All.EqualTo(1));
         }
 
         [Test]
@@ -55,16 +44,6 @@ namespace HaptoFlow.SampleTests
                 string touched = Stroke(place);
                 Assert.That(touched, Is.EqualTo(exhibit.Label));
             }
-        }
-
-        [Test]
-        public void WithoutTheButtonThePenHoversAndRunsNoInference()
-        {
-            PointAt(camera, new Vector3(0.115f, 0.006f, -0.12f));
-            PlayFor(0.5);
-            Assert.That(scene.Pen.Stylus.IsTouching, Is.False);
-            Assert.That(scene.Pen.transform.position.y, Is.EqualTo(0.036f).Within(1e-3f));
-            Assert.That(InferencesOf(scene.Pen.Stylus), Is.Zero);
         }
 
         [Test]
@@ -142,10 +121,256 @@ namespace HaptoFlow.SampleTests
             return scene.Pen.Stylus.Contact.Material!.Label;
         }
 
-        private static IEnumerable<HapticSurface> Surfaces() => FindAll<HapticSurface>();
-
         private static T[] FindAll<T>()
             where T : UnityEngine.Object =>
             UnityEngine.Object.FindObjectsByType<T>(FindObjectsInactive.Exclude, FindObjectsSortMode.None);
+    }
+
+    /// <summary>Alignment of the tracing sample's table with a real one, which is 4 cm lower and rotated.</summary>
+    public sealed class AlignmentStepTests : SampleTest
+    {
+        private const string Right = "<XRController>{RightHand}/";
+        private static readonly Vector3[] Paper =
+        {
+            new Vector3(-0.1485f, 0f, -0.255f), new Vector3(0.1485f, 0f, -0.255f), new Vector3(-0.1485f, 0f, -0.045f),
+        };
+
+        private readonly Vector3 deskPosition = new Vector3(0.05f, -0.04f, 0.02f);
+        private readonly Quaternion deskRotation = Quaternion.AngleAxis(12f, Vector3.up);
+
+        [SetUp]
+        public void BuildScene()
+        {
+            FinishLoading();
+            Camera camera = CameraOf(new SceneFile("StylusTracing"));
+            Wake<TracingScene>(bootstrap =>
+                (bootstrap.View, bootstrap.SaveName) = (camera, "sample test " + Guid.NewGuid()));
+        }
+
+        [TearDown]
+        public void DeleteTheSavedPose() => Step().Alignment.ForgetSaved();
+
+        [Test]
+        public void ThreeTouchedCornersMoveTheTableToThePaperAndTheForceDecidesTouches()
+        {
+            Hover(0);
+            Press("<Keyboard>/a");
+            Assert.That(Step().Text, Does.Contain("near left"));
+            Assert.That(Marks().Count(mark => mark.activeSelf), Is.EqualTo(1));
+            for (int corner = 0; corner < 3; ++corner)
+            {
+                Rest(corner);
+            }
+            Assert.That(Step().Text, Does.StartWith("Aligned; 0."));
+            Assert.That(Marks().Count(mark => mark.activeSelf), Is.Zero);
+            Transform exhibits = Step().transform;
+            Assert.That(Vector3.Distance(exhibits.position, deskPosition), Is.LessThan(1e-3f));
+            Assert.That(Pen().TouchBy, Is.EqualTo(TouchDecision.MeasuredForce));
+            // The pen presses the desk while it is tracked 6 mm too high, and then is in the air at the same place.
+            Tip(new Vector3(0f, 0.006f, 0.02f), 0.5f);
+            PlayFor(0.2);
+            Assert.That(Pen().IsTouching, Is.True);
+            Assert.That(Pen().Contact.Material!.Label, Is.EqualTo("wood"));
+            Tip(new Vector3(0f, 0.006f, 0.02f), 0f);
+            PlayFor(0.1);
+            Assert.That(Pen().IsTouching, Is.False);
+        }
+
+        [Test]
+        public void UndoRemovesThePointsAndThenTheAlignment()
+        {
+            Hover(0);
+            Press("<XRController>{LeftHand}/primaryButton");
+            Rest(0);
+            Assert.That(Step().Alignment.PointsTaken, Is.EqualTo(1));
+            Press("<XRController>{LeftHand}/secondaryButton");
+            Assert.That(Step().Alignment.PointsTaken, Is.Zero);
+            for (int corner = 0; corner < 3; ++corner)
+            {
+                Rest(corner);
+            }
+            Press("<Keyboard>/u");
+            Assert.That(Step().transform.position.magnitude, Is.LessThan(1e-6f));
+            Assert.That(Pen().TouchBy, Is.EqualTo(TouchDecision.Geometry));
+        }
+
+        private void Hover(int corner)
+        {
+            Tip(Paper[corner] + new Vector3(0f, 0.05f, 0f), 0f);
+            PlayFor(0.1);
+        }
+
+        private void Rest(int corner)
+        {
+            Hover(corner);
+            Tip(Paper[corner] + new Vector3(0f, Pen().TipRadiusMetres, 0f), 0.5f);
+            PlayFor(0.6);
+            Hover(corner);
+        }
+
+        /// <summary>Moves the pen's tip to a place on the real desk.</summary>
+        private void Tip(Vector3 onDesk, float pressure)
+        {
+            SimulatedInput.SetControl(Right + "isTracked", 1f);
+            SimulatedInput.SetControl(Right + "tipPose/position", deskPosition + deskRotation * onDesk);
+            SimulatedInput.SetControl(Right + "tipPose/rotation", Quaternion.identity);
+            SimulatedInput.SetControl(Right + "tip", pressure);
+        }
+
+        private static void Press(string control)
+        {
+            SimulatedInput.SetControl(control, 1f);
+            World.Frames(2);
+            SimulatedInput.SetControl(control, 0f);
+            World.Frames(2);
+        }
+
+        private static AlignmentStep Step() => UnityEngine.Object
+            .FindObjectsByType<AlignmentStep>(FindObjectsInactive.Include, FindObjectsSortMode.None).Single();
+
+        private static HapticStylus Pen() => UnityEngine.Object
+            .FindObjectsByType<HapticStylus>(FindObjectsInactive.Exclude, FindObjectsSortMode.None)
+            .Single(pen => pen.Force != null);
+
+        private static GameObject[] Marks() => Enumerable.Range(0, Step().transform.childCount)
+            .Select(index => Step().transform.GetChild(index).gameObject)
+            .Where(child => child.name.StartsWith("Mark", StringComparison.Ordinal)).ToArray();
+    }
+
+    /// <summary>The stylus tracing sample on all outputs of the package, one after another in one scene.</summary>
+    public sealed class OutputStepTests : SampleTest
+    {
+        private const string Right = "<XRController>{RightHand}/";
+
+        [OneTimeSetUp]
+        public void LoadOptionalAssemblies() => OptionalAssemblies.Load();
+
+        [SetUp]
+        public void BuildScene()
+        {
+            ForgetDevices();
+            FinishLoading();
+            Camera camera = CameraOf(new SceneFile("StylusTracing"));
+            Wake<TracingScene>(bootstrap =>
+                (bootstrap.View, bootstrap.SaveName) = (camera, ""));
+        }
+
+        [TearDown]
+        public void ForgetDevices()
+        {
+            HeldDevices.Reset();
+        }
+
+        [Test]
+        public void EveryPressSwitchesToTheNextOutputOnly()
+        {
+            HeldDevices.TakeTouchController();
+            XrHand.Right.Take("A controller", true);
+            Assert.That(Step().Text, Does.StartWith("Auto Output (O:"));
+            Slide();
+            Assert.That(Felt(), Is.EqualTo("waveform"), "Auto takes the best that the controller has");
+            foreach ((string title, string felt) in new[]
+            {
+                ("Haptic Output: the audio device, as it is", "audio"),
+                ("Controller Waveform Output", "waveform"),
+                ("Controller Parametric Output, experimental at Meta", "parametric"),
+                ("Motor Output", "motor"),
+                ("Auto Output", "waveform"),
+            })
+            {
+                Press("<Keyboard>/o");
+                Assert.That(Step().Text, Does.StartWith(title));
+                Slide();
+                Forget();
+                Slide();
+                Assert.That(Felt(), Is.EqualTo(felt), title);
+            }
+        }
+
+        [Test]
+        public void EveryPressSwitchesToTheNextProcessingOnly()
+        {
+            Press("<Keyboard>/o");
+            foreach ((string title, HapticEffect? running) in new (string, HapticEffect?)[]
+            {
+                ("as it is", null),
+                ("compensated for a voice coil", HapticEffect.Compensation),
+                ("100 ms later", HapticEffect.Delay),
+                ("with the exposure guard", HapticEffect.ExposureGuard),
+                ("as it is", null),
+            })
+            {
+                Assert.That(Step().Text, Does.Contain(title));
+                // The previous processing fades out first.
+                Slide();
+                HapticEffect[] processors = { HapticEffect.Compensation, HapticEffect.Delay, HapticEffect.ExposureGuard };
+                ulong[] before = processors.Select(RunsOf).ToArray();
+                Slide();
+                for (int index = 0; index < processors.Length; ++index)
+                {
+                    bool ran = RunsOf(processors[index]) > before[index];
+                    // A guard that was switched off measures on, so that it remembers the day.
+                    bool expected = processors[index] == running ||
+                        (processors[index] == HapticEffect.ExposureGuard && before[index] > 0);
+                    Assert.That(ran, Is.EqualTo(expected), $"{title}: {processors[index]}");
+                }
+                Press("<Keyboard>/p");
+            }
+        }
+
+        private static string Felt()
+        {
+            var felt = new[]
+            {
+                (Name: "audio", Is: Loudest() > Audible),
+                (Name: "waveform", Is: OVRInput.Waves.Any(wave => wave.Samples.Any(sample => Math.Abs(sample) > 0.01f))),
+                (Name: "parametric", Is: OVRInput.Parametric.Count > 0),
+                (Name: "motor", Is: XrHand.Right.Impulses.Count > 0),
+            };
+            return string.Join(" and ", felt.Where(each => each.Is).Select(each => each.Name));
+        }
+
+        private static void Forget()
+        {
+            AudioDevice.Forget();
+            OVRInput.Waves.Clear();
+            OVRInput.Parametric.Clear();
+            XrHand.Right.Impulses.Clear();
+        }
+
+        /// <summary>Moves the right hand to and fro on the sample's jute.</summary>
+        private static void Slide()
+        {
+            for (int frame = 0; frame < 0.5 * World.FrameRateHz; ++frame)
+            {
+                float x = 0.34f + 0.02f * (float)Math.Sin(2.0 * Math.PI * 2.0 * frame / World.FrameRateHz);
+                SimulatedInput.SetControl(Right + "isTracked", 1f);
+                SimulatedInput.SetControl(Right + "pointerPosition", new Vector3(x, 0.013f, -0.12f));
+                SimulatedInput.SetControl(Right + "pointerRotation", Quaternion.identity);
+                World.Frame();
+            }
+            Assert.That(Pen().IsTouching, Is.True);
+        }
+
+        private static void Press(string control)
+        {
+            SimulatedInput.SetControl(control, 1f);
+            World.Frames(2);
+            SimulatedInput.SetControl(control, 0f);
+            World.Frames(2);
+        }
+
+        private static ulong RunsOf(HapticEffect effect)
+        {
+            Assert.That(Pen().TryGetEffectStatistics(effect, out EffectStatistics statistics), Is.True);
+            return statistics.Runs;
+        }
+
+        private static HapticStylus Pen() => UnityEngine.Object
+            .FindObjectsByType<XrPen>(FindObjectsInactive.Exclude, FindObjectsSortMode.None)
+            .Single(pen => pen.Hand == PenHand.Right).Stylus!;
+
+        private static OutputStep Step() => UnityEngine.Object
+            .FindObjectsByType<OutputStep>(FindObjectsInactive.Exclude, FindObjectsSortMode.None).Single();
     }
 }

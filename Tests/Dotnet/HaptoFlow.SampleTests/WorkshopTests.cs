@@ -1,7 +1,9 @@
 using System;
+using System.Collections.Generic;
 using System.IO;
 using System.Linq;
-using System.Text.RegularExpressions;
+using System.Text;
+using System.Threading;
 using HaptoFlow.SampleScenes;
 using HaptoFlow.Tests.Support;
 using NUnit.Framework;
@@ -61,17 +63,6 @@ namespace HaptoFlow.SampleTests
         }
 
         [Test]
-        public void ANewMaterialOfTheSpecimenIsFeltInTheNextStroke()
-        {
-            FinishLoading();
-            WorkshopScene scene = Open();
-            Press(0.27f, -0.16f);
-            scene.SpecimenMaterial.Description.Label = "leather";
-            PlayFor(0.05);
-            Assert.That(scene.Pen.Stylus.Contact.Material!.Label, Is.EqualTo("leather"));
-        }
-
-        [Test]
         public void EveryColliderMatchesARuleAndEveryRuleMatchesACollider()
         {
             WorkshopScene scene = Open();
@@ -104,5 +95,184 @@ namespace HaptoFlow.SampleTests
         }
 
         private WorkshopScene Open() => Wake<WorkshopScene>(bootstrap => bootstrap.View = camera);
+    }
+
+    /// <summary>The panel of the Workshop, which learns a material while the scene runs.</summary>
+    public sealed class AddMaterialPanelTests : SampleTest
+    {
+        private const double PatienceSeconds = 120.0;
+
+        private Camera camera = null!;
+
+        [SetUp]
+        public void MakeCamera() => camera = CameraOf(new SceneFile("Workshop"));
+
+        private static TextAsset Asset(string name) => new TextAsset(
+            File.ReadAllBytes(Path.Combine(MadeRecordings.DoormatFolder, name)))
+        {
+            name = Path.GetFileNameWithoutExtension(name),
+        };
+
+        private WorkshopScene Open(out AddMaterialPanel panel)
+        {
+            WorkshopScene scene = Wake<WorkshopScene>(bootstrap => bootstrap.View = camera);
+            panel = scene.gameObject.AddComponent<AddMaterialPanel>();
+            World.Frame();
+            panel.SetRecording(Asset("doormat.wav.bytes"), Asset("doormat.json"), Asset("doormat.motion.csv"));
+            return scene;
+        }
+
+        private static void WaitFor(AddMaterialPanel panel)
+        {
+            DateTime end = DateTime.UtcNow.AddSeconds(PatienceSeconds);
+            while (panel.IsLearning && DateTime.UtcNow < end)
+            {
+                World.Frame();
+                Thread.Sleep(1);
+            }
+            Assert.That(panel.IsLearning, Is.False, panel.Text);
+        }
+
+        private void Press(AddMaterialPanel panel)
+        {
+            PointAt(camera, panel.Button!.transform.position);
+            SimulatedInput.MouseButton = true;
+            PlayFor(0.4);
+        }
+
+        [Test]
+        public void TouchingTheButtonLearnsTheRecordingForTheSpecimen()
+        {
+            FinishLoading();
+            WorkshopScene scene = Open(out AddMaterialPanel panel);
+            Assert.That(panel.Text, Is.EqualTo("Touch to learn doormat"));
+            Press(panel);
+            Assert.That(panel.IsLearning, Is.True, panel.Text);
+            SimulatedInput.MouseButton = false;
+            WaitFor(panel);
+            Assert.That(panel.Text, Does.StartWith("The specimen now feels like doormat; the nearest label is "));
+            Assert.That(scene.SpecimenMaterial.IsLearnt, Is.True);
+            HapticSession.Current.FinishRegistrations();
+            PointAt(camera, new Vector3(0.27f, 0.005f, -0.16f));
+            SimulatedInput.MouseButton = true;
+            PlayFor(0.4);
+            Assert.That(scene.Pen.Stylus.Contact.Material, Is.SameAs(scene.SpecimenMaterial.Description));
+            Assert.That(scene.Pen.Stylus.Contact.Labels.Label(0), Is.GreaterThanOrEqualTo(Haptics.Labels.Count));
+            Assert.That(Haptics.LearntMaterials, Is.EqualTo(1));
+        }
+
+        [Test]
+        public void ASecondPressCancelsAndTheSpecimenKeepsItsMaterial()
+        {
+            WorkshopScene scene = Open(out AddMaterialPanel panel);
+            panel.Press();
+            panel.Press();
+            WaitFor(panel);
+            Assert.That(panel.Text, Is.EqualTo("Cancelled"));
+            Assert.That((scene.SpecimenMaterial.IsLearnt, scene.SpecimenMaterial.Description.Label), Is.EqualTo((false, "cardboard")));
+        }
+
+        [TestCase("", "is empty")]
+        [TestCase("time_s,acceleration_mps2\n0,1\n0.001,2\n0.002,1\n0.003,3\n", "no motion in it or beside it")]
+        [TestCase("time_s,acceleration\n0,1\n", "expected acceleration")]
+        public void AnInvalidRecordingIsReportedAndTheSceneContinues(string text, string message)
+        {
+            Open(out AddMaterialPanel panel);
+            panel.SetRecording(new TextAsset(Encoding.UTF8.GetBytes(text)) { name = "mine.csv" });
+            panel.Press();
+            WaitFor(panel);
+            Assert.That(panel.Text, Does.StartWith("Nothing was learnt: mine.csv: ").And.Contain(message));
+            panel.Press();
+            WaitFor(panel);
+            Assert.That(panel.Text, Does.Contain(message), "it can be tried again");
+        }
+
+        [Test]
+        public void EndingTheSceneEndsTheLearning()
+        {
+            WorkshopScene scene = Open(out AddMaterialPanel panel);
+            panel.Press();
+            World.Frames(3);
+            UnityEngine.Object.DestroyImmediate(scene.gameObject);
+            World.Frames(3);
+            HapticLearning.EndAll();
+            Assert.That(panel == null, Is.True);
+        }
+    }
+
+    public sealed class TextureGalleryTests : SampleTest
+    {
+        private Camera camera = null!;
+
+        [SetUp]
+        public void MakeCamera() =>
+            camera = CameraOf(new SceneFile("TextureGallery"));
+
+        [Test]
+        public void TilesAndBoardAreInTheCamerasViewAndDoNotOverlap()
+        {
+            GalleryScene gallery = Open();
+            List<Transform> places = gallery.Tiles.Append(gallery.Board).Select(surface => surface.transform).ToList();
+            foreach (Transform place in places)
+            {
+                foreach (float side in new[] { -0.5f, 0.5f })
+                {
+                    Vector3 pixels = camera.WorldToScreenPoint(place.position + side * place.localScale);
+                    Assert.That(pixels.x, Is.InRange(0f, camera.pixelWidth), place.name);
+                    Assert.That(pixels.y, Is.InRange(0f, camera.pixelHeight), place.name);
+                }
+                foreach (Transform other in places.Where(other => other != place))
+                {
+                    Vector3 apart = other.position - place.position;
+                    Vector3 reach = 0.5f * (other.localScale + place.localScale);
+                    bool touching = Math.Abs(apart.x) < reach.x && Math.Abs(apart.y) < reach.y;
+                    Assert.That(touching, Is.False, $"{place.name} and {other.name}");
+                }
+            }
+        }
+
+        [Test]
+        public void PressingATilePicksItsLabelForTheBoard()
+        {
+            FinishLoading();
+            GalleryScene gallery = Open();
+            HapticSurface fur = gallery.Tiles.Single(tile => tile.Material.Label == "fur");
+            Assert.That(gallery.Board.Material.Label, Is.Not.EqualTo("fur"));
+            PointAt(camera, fur.transform.position);
+            SimulatedInput.MouseButton = true;
+            PlayFor(0.3);
+            Assert.That(gallery.Pen.Stylus.Contact.Surface, Is.SameAs(fur));
+            Assert.That(gallery.Board.Material.Label, Is.EqualTo("fur"));
+
+            SimulatedInput.MouseButton = false;
+            PlayFor(0.2);
+            AudioDevice.Forget();
+            SimulatedInput.MouseButton = true;
+            for (int frame = 0; frame < 0.8 * World.FrameRateHz; ++frame)
+            {
+                float x = 0.1f * (float)Math.Sin(2.0 * Math.PI * frame / World.FrameRateHz);
+                PointAt(camera, gallery.Board.transform.position + new Vector3(x, 0f, 0f));
+                World.Frame();
+            }
+            Assert.That(gallery.Pen.Stylus.Contact.Surface, Is.SameAs(gallery.Board));
+            Assert.That(gallery.Board.Material.Label, Is.EqualTo("fur"));
+            Assert.That(InferencesOf(gallery.Pen.Stylus), Is.GreaterThan(0UL));
+            Assert.That(Loudest(), Is.GreaterThan(Audible));
+        }
+
+        [Test]
+        public void WithoutAModelTheWallIsEmptyAndTheBoardShowsTheReason()
+        {
+            HapticSession.ShutDown();
+            HaptoFlowSettings.Active.Model = null;
+            GalleryScene gallery = Open();
+            PlayFor(0.5);
+            Assert.That(gallery.Tiles, Is.Empty);
+            StatusBoard[] boards = UnityEngine.Object.FindObjectsByType<StatusBoard>(
+                FindObjectsInactive.Exclude, FindObjectsSortMode.None);
+            Assert.That(boards.Single().Text, Does.Contain("no model is chosen"));
+        }
+
+        private GalleryScene Open() => Wake<GalleryScene>(bootstrap => bootstrap.View = camera);
     }
 }

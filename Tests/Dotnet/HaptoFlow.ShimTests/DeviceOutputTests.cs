@@ -3,12 +3,10 @@ using System.Globalization;
 using System.IO;
 using System.Linq;
 using System.Runtime.CompilerServices;
-using HaptoFlow.Outputs;
 using HaptoFlow.Tests;
 using HaptoFlow.Tests.Support;
 using NUnit.Framework;
 using UnityEngine;
-using UnityEngine.InputSystem.XR;
 using UnityEngine.XR.OpenXR.Input;
 using UnityShim;
 using Object = UnityEngine.Object;
@@ -66,21 +64,6 @@ namespace HaptoFlow.ShimTests
             // Aligning with the clock sends the buffered samples again, about twice a second.
             Assert.That(OVRInput.Waves.Count(wave => !wave.Append), Is.InRange(2, 8));
             Assert.That(OVRInput.Waves.Sum(wave => wave.Samples.Length), Is.EqualTo(4000).Within(330));
-        }
-
-        [Test]
-        public void AnAudioOutputWithAChannelAddedLaterReplacesAutoOutput()
-        {
-            OVRPlugin.Connected = OVRPlugin.Controller.RTouch;
-            World.Frames(40);
-            AudioTap tap = Output(out HapticOutput output);
-            output.Channel = 0;
-            World.Frames(2);
-            int before = OVRInput.Waves.Count;
-            World.Frames(40);
-            Assert.That(OVRInput.Waves.Count, Is.EqualTo(before));
-            Assert.That(tap.Peak(), Is.GreaterThan(0.001f));
-            Assert.That(All<AutoOutput>(), Is.Empty);
         }
 
         [Test]
@@ -218,34 +201,6 @@ namespace HaptoFlow.ShimTests
             World.Frames(72);
             Assert.That(OVRInput.Waves[^1].RateHz, Is.EqualTo(500f));
             Assert.That(OVRInput.FailedCalls, Is.Zero);
-        }
-
-        [Test]
-        public void AFrameOf200MillisecondsIsAGap()
-        {
-            OVRPlugin.Connected = OVRPlugin.Controller.RTouch;
-            ControllerWaveformOutput output = Add<ControllerWaveformOutput>();
-            World.Frames(72);
-            float[] last = OVRInput.Waves[^1].Samples;
-            Assert.That(last.Length / 2000.0, Is.LessThan(0.03));
-            Assert.That(last[^1], Is.Zero, "every stretch ends with a fade");
-            World.Frame(0.2);
-            World.Frames(10);
-            Assert.That(output.Statistics.Gaps, Is.EqualTo(1));
-            Assert.That(output.Statistics.LatencyMilliseconds, Is.LessThan(40.0));
-        }
-
-        [Test]
-        public void ALiftedStylusSendsNothingAndRunsNoInference()
-        {
-            OVRPlugin.Connected = OVRPlugin.Controller.RTouch;
-            Add<ControllerWaveformOutput>();
-            Pen.GetComponent<PathMover>().Path = _ => new Vector3(0f, 0.3f, 0f);
-            World.Frames(72);
-            Assert.That(OVRInput.Waves, Is.Empty);
-            Assert.That(Pen.TryGetStatistics(out VoiceStatistics statistics), Is.True);
-            Assert.That(statistics.Inferences, Is.Zero);
-            Assert.That(statistics.RenderedFrames, Is.GreaterThan(6000UL), "8000 a second");
         }
 
         /// <summary>Runs only when selected: <c>dotnet test Tests/Dotnet/HaptoFlow.ShimTests --filter
@@ -420,5 +375,52 @@ namespace HaptoFlow.ShimTests
             int windows = samples.Length / window;
             return Array.ConvertAll(energies, energy => 10.0 * Math.Log10(energy / windows + 1e-12));
         }
+    }
+
+    /// <summary>A stylus in the right hand that circles on a wooden board, at 72 frames a second.</summary>
+    public abstract class HeldDeviceTest : SceneTest
+    {
+        protected HapticStylus Pen { get; set; } = null!;
+
+        /// <summary>Loads the optional assemblies, which .NET loads on first use only, unlike Unity.</summary>
+        [OneTimeSetUp]
+        public void LoadOptionalAssemblies() => OptionalAssemblies.Load();
+
+        [SetUp]
+        public void CreateAStylusInTheRightHand()
+        {
+            ForgetDevices();
+            SetFrameRate(72.0);
+            FinishLoading();
+            Board();
+            Pen = Circling();
+            Pen.Hand = HapticHand.Right;
+        }
+
+        [TearDown]
+        public void ForgetDevices()
+        {
+            HeldDevices.Reset();
+            SimulatedInput.Reset();
+        }
+
+        internal TOutput Add<TOutput>(Action<TOutput>? prepare = null)
+            where TOutput : DeviceOutput
+        {
+            GameObject owner = Make(typeof(TOutput).Name);
+            owner.SetActive(false);
+            var output = owner.AddComponent<TOutput>();
+            output.Stylus = Pen;
+            prepare?.Invoke(output);
+            owner.SetActive(true);
+            return output;
+        }
+
+        internal static void Pause(DeviceOutput output, bool paused) =>
+            output.SendMessage("OnApplicationPause", paused);
+
+        internal static TComponent[] All<TComponent>()
+            where TComponent : Object => Object.FindObjectsByType<TComponent>(
+            FindObjectsInactive.Include, FindObjectsSortMode.None);
     }
 }

@@ -99,22 +99,6 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void AStylusThatIsEnabledAgainAsksAtOnce()
-        {
-            FinishLoading();
-            Board();
-            Output(out _);
-            List<HapticStylus> styluses = Enumerable.Range(0, 65).Select(_ => Circling()).ToList();
-            World.Frames(3);
-            HapticStylus refused = styluses.Single(each => !each.TryGetStatistics(out _));
-            styluses.First(each => each != refused).enabled = false;
-            refused.enabled = false;
-            refused.enabled = true;
-            World.Frame();
-            Assert.That(refused.TryGetStatistics(out _), Is.True);
-        }
-
-        [Test]
         public void ADeviceOfAnotherRateIsServedAtOnceAfterOneThatCouldNotBe()
         {
             FinishLoading();
@@ -194,22 +178,6 @@ namespace HaptoFlow.ShimTests
                 }
             }
             Assert.That(stylus.IsTouching, Is.True);
-        }
-
-        [Test]
-        public void TheVoiceOfThePreviousModelIsClosedAfterItsFade()
-        {
-            FinishLoading();
-            using HapticLoadedModel second = Loaded(EditedModel.WithLabelsReversed());
-            HapticEngine before = HapticSession.Current.Engine!;
-            Board();
-            Output(out HapticOutput output);
-            Circling();
-            World.Frames(30);
-            output.GetComponentInChildren<AudioSource>(true).Stop();
-            second.Use();
-            World.Frames(20);
-            Assert.That(before.Statistics().Voices, Is.Zero);
         }
 
         private static HapticLoadedModel Loaded(HapticModelAsset asset)

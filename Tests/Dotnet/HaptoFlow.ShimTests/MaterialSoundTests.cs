@@ -66,24 +66,14 @@ namespace HaptoFlow.ShimTests
 
         /// <summary>Strokes a wide board across its grain at a constant speed.</summary>
         /// <returns>The power of the output at a frequency in hertz.</returns>
-        private Func<double, double> Stroke(Action<MaterialDescription> describe, bool byRule = false)
+        private Func<double, double> Stroke(Action<MaterialDescription> describe)
         {
             FinishLoading();
             GameObject board = Make("Board");
             var box = board.AddComponent<BoxCollider>();
             box.size = new Vector3(2f, 0.02f, 2f);
             box.center = new Vector3(0f, -0.01f, 0f);
-            if (byRule)
-            {
-                HapticMaterialMap map = ScriptableObject.CreateInstance<HapticMaterialMap>();
-                map.DefaultMaterial = ScriptableObject.CreateInstance<HapticMaterial>();
-                describe(map.DefaultMaterial.Description);
-                HaptoFlowSettings.Active.MaterialMap = map;
-            }
-            else
-            {
-                describe(board.AddComponent<HapticSurface>().Material);
-            }
+            describe(board.AddComponent<HapticSurface>().Material);
             return PowerSpectrum();
         }
 

@@ -118,14 +118,6 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void UnderAScaledRigMetresAreThoseOfTheWorld()
-        {
-            Board().Relief = Keep(Ribs());
-            ContactState state = Touch(new Vector3(0.03f, 0.001f, -0.05f), 4.0);
-            Expect(state, 0.5f + 0.3f, 0.5f - 0.25f);
-        }
-
-        [Test]
         public void ATerrainHasTheMapInMetresFromItsCorner()
         {
             HapticSurface ground = Tagged<TerrainCollider>("stone",
@@ -133,17 +125,6 @@ namespace HaptoFlow.ShimTests
             ground.transform.position = new Vector3(-0.5f, 0f, -0.5f);
             ground.Relief = Keep(Ribs());
             Expect(Touch(new Vector3(0.03f, 0.001f, -0.05f)), 5.3f, 2.25f);
-        }
-
-        [Test]
-        public void OnATerrainTheOffsetShiftsTheMapInItsLengths()
-        {
-            HapticSurface ground = Tagged<TerrainCollider>("stone",
-                terrain => terrain.terrainData = new TerrainData { heightmapResolution = 5 });
-            ground.transform.position = new Vector3(-0.5f, 0f, -0.5f);
-            ground.Relief = Keep(Ribs());
-            ground.Relief.Offset = new Vector2(0.25f, -0.5f);
-            Expect(Touch(new Vector3(0.03f, 0.001f, -0.05f)), 5.55f, 1.75f);
         }
 
         [Test]

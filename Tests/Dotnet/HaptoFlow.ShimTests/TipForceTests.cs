@@ -1,4 +1,3 @@
-using System.Linq;
 using HaptoFlow.Tests;
 using NUnit.Framework;
 using UnityEngine;
@@ -138,16 +137,6 @@ namespace HaptoFlow.ShimTests
             World.Frames(2);
             Assert.That(source.TryRead(out _), Is.True);
             Assert.That(Log.Count("", LogType.Error), Is.EqualTo(1));
-        }
-
-        [Test]
-        public void AConnectingPenIsQueriedAgain()
-        {
-            World.Frames(10);
-            OVRPlugin.Tip = 0.4f;
-            OVRPlugin.Connected = OVRPlugin.Controller.LTouch | OVRPlugin.Controller.RTouch;
-            World.Frames(2);
-            Assert.That(source.TryRead(out _), Is.True);
         }
 
         [Test]

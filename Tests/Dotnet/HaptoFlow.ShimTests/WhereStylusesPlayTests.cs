@@ -1,4 +1,3 @@
-using System;
 using System.Linq;
 using System.Reflection;
 using HaptoFlow.Tests;
@@ -38,43 +37,6 @@ namespace HaptoFlow.ShimTests
             Assert.That(OVRInput.Waves, Is.Empty);
             Assert.That(Messages("Stylus plays on Output and not through the device in its right hand").Single(),
                 Does.Contain("Add an Auto Output to the stylus to feel it there too"));
-        }
-
-        [Test]
-        public void ANamedOutputTakesAStylusInAHand()
-        {
-            AudioTap tap = Output(out HapticOutput output);
-            Pen.Output = output;
-            World.Frames(72);
-            Assert.That(tap.Peak(), Is.GreaterThan(Audible));
-            Assert.That(OVRInput.Waves, Is.Empty);
-            Pen.Output = null;
-            World.Frames(72);
-            Assert.That(OVRInput.Waves.Count, Is.GreaterThan(60));
-        }
-
-        [TestCase(true)]
-        [TestCase(false)]
-        public void AnAutoOutputOnTheStylusPlaysInTheHandBesideAnAudioOutput(bool isNamed)
-        {
-            AudioTap tap = Output(out HapticOutput output);
-            Pen.Output = isNamed ? output : null;
-            Pen.gameObject.AddComponent<AutoOutput>();
-            World.Frames(72);
-            Assert.That(tap.Peak(), Is.GreaterThan(Audible));
-            Assert.That(OVRInput.Waves.Count, Is.GreaterThan(60));
-            Assert.That(All<AutoOutput>(), Has.Length.EqualTo(1), "none is made beside it");
-        }
-
-        [Test]
-        public void ASwitchedOffOutputWithAChannelMeansSilence()
-        {
-            Output(out HapticOutput output);
-            output.Channel = 0;
-            output.enabled = false;
-            World.Frames(72);
-            Assert.That(OVRInput.Waves, Is.Empty);
-            Assert.That(Pen.TryGetStatistics(out _), Is.False);
         }
 
         [TestCase(0)]

@@ -6,6 +6,7 @@ using System.Text;
 using System.Text.RegularExpressions;
 using HaptoFlow.Editor;
 using HaptoFlow.Model;
+using HaptoFlow.Tests;
 using NUnit.Framework;
 using UnityEditor;
 using UnityEditor.AssetImporters;

@@ -7,10 +7,8 @@ using System.Text;
 using HaptoFlow.Editor;
 using HaptoFlow.Model;
 using HaptoFlow.Preview;
-using HaptoFlow.Recordings;
 using NUnit.Framework;
 using UnityEditor;
-using UnityEngine;
 using Object = UnityEngine.Object;
 
 namespace HaptoFlow.PreviewTests
@@ -97,20 +95,6 @@ namespace HaptoFlow.PreviewTests
             Assert.That(NewMaterialControls.Describe(Window.Session.Recording!),
                 Is.EqualTo("Denim: 4.0 s, one axis at 2000 Hz, speed from the file, force from the file."));
             Assert.That(Obstacle(), Is.Null);
-        }
-
-        [Test]
-        public void SpeedAndForceMustBeEnteredIfTheFileHasNone()
-        {
-            Window.Take(Table("a.csv", ""));
-            Window.Finish();
-            Assert.That(Obstacle(), Does.StartWith("Enter the speed and the force"));
-            State.Change("Speed", changed => changed.SpeedMps = 0.08f);
-            State.Change("Force", changed => changed.ForceNewtons = 1.5f);
-            Window.Finish();
-            Assert.That(Obstacle(), Is.Null);
-            Assert.That(Window.Session!.Recording!.VelocityAt(100).X, Is.EqualTo(0.08).Within(1e-7));
-            Assert.That(Window.Session.Recording.ForceAt(100), Is.EqualTo(1.5));
         }
 
         [Test]

@@ -3,6 +3,7 @@ using System;
 using System.Collections.Generic;
 using System.Linq;
 using HaptoFlow.Editor;
+using HaptoFlow.Tests;
 using NUnit.Framework;
 using UnityEditor;
 using UnityEngine;
@@ -246,15 +247,6 @@ namespace HaptoFlow.EditorTests
             InHand<MotorOutput>();
             Assert.That(Summary(), Is.EqualTo("Stylus plays on Motor Output on Stylus (right hand)."));
             Assert.That(Texts(), Is.Empty);
-        }
-
-        [Test]
-        public void AnOutputWithAChannelIsTakenBeforeOneOnAllChannels()
-        {
-            HapticOutput coil = Output();
-            coil.Channel = 0;
-            Assert.That(Texts(), Is.Empty);
-            Assert.That(Places(ScenesStylus).Audio, Is.EqualTo(coil));
         }
 
         [Test]

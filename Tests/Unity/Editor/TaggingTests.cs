@@ -2,6 +2,7 @@
 using System.Linq;
 using HaptoFlow.Editor;
 using HaptoFlow.Model;
+using HaptoFlow.Tests;
 using NUnit.Framework;
 using UnityEditor;
 using UnityEngine;

@@ -79,17 +79,6 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator WithoutAForceSourceGeometryDecides()
-        {
-            Board();
-            HapticStylus stylus = StylusAlong(_ => new Vector3(0f, 0.001f, 0f));
-            stylus.TouchBy = TouchDecision.MeasuredForce;
-            yield return Frames(3);
-            Assert.That(stylus.IsTouching, Is.True);
-            Assert.That(stylus.Contact.PenetrationMetres, Is.EqualTo(0.001f).Within(1e-5f));
-        }
-
-        [UnityTest]
         public IEnumerator ChangedThresholdsApplyAtOnceAndInvalidOnesAreCorrected()
         {
             Board();

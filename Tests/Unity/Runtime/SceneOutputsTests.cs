@@ -1,12 +1,10 @@
 #nullable enable
-using System;
 using System.Collections;
 using System.Linq;
 using System.Text.RegularExpressions;
 using NUnit.Framework;
 using UnityEngine;
 using UnityEngine.TestTools;
-using Object = UnityEngine.Object;
 
 namespace HaptoFlow.Tests
 {
@@ -63,23 +61,6 @@ namespace HaptoFlow.Tests
             tap.Restart();
             yield return Frames(40);
             Assert.That(tap.Peak(), Is.GreaterThan(Audible));
-        }
-
-        [UnityTest]
-        public IEnumerator AnOutputOnAnInactiveObjectIsSilentUntilItIsActive()
-        {
-            FinishLoading();
-            Board();
-            GameObject owner = Make("Sleeping");
-            owner.SetActive(false);
-            var output = owner.AddComponent<HapticOutput>();
-            HapticStylus stylus = Circling();
-            yield return Frames(5);
-            Assert.That(Outputs(), Is.EqualTo(new[] { output }));
-            Assert.That(stylus.TryGetStatistics(out _), Is.False);
-            owner.SetActive(true);
-            yield return Frames(5);
-            Assert.That(stylus.TryGetStatistics(out _), Is.True);
         }
 
         [UnityTest]

@@ -1,5 +1,6 @@
 #nullable enable
 using System;
+using System.IO;
 using System.Linq;
 using HaptoFlow.Alignment;
 using HaptoFlow.Numerics;
@@ -114,5 +115,154 @@ namespace HaptoFlow.Tests
         private static Double3 Anywhere(Random random, double reach) => new Double3(
             reach * (2.0 * random.NextDouble() - 1.0), reach * (2.0 * random.NextDouble() - 1.0),
             reach * (2.0 * random.NextDouble() - 1.0));
+    }
+
+    public sealed class TouchedPointTests
+    {
+        private TouchedPoint point = null!;
+        private double now;
+
+        [SetUp]
+        public void TakeAPen()
+        {
+            point = new TouchedPoint();
+            now = 0.0;
+        }
+
+        [Test]
+        public void ARestingPenGivesItsMeanPositionOncePerRest()
+        {
+            int taken = 0;
+            Double3 found = default;
+            for (int frame = 0; frame < 90; ++frame)
+            {
+                var place = new Double3(1.0 + 0.001 * (frame % 2 == 0 ? 1.0 : -1.0), 2.0, 3.0);
+                if (point.Update(now += 1.0 / 90.0, place, true, out Double3 mean))
+                {
+                    ++taken;
+                    found = mean;
+                }
+            }
+            Assert.That(taken, Is.EqualTo(1));
+            Assert.That(Double3.Distance(found, new Double3(1.0, 2.0, 3.0)), Is.LessThan(1e-4));
+            Assert.That(Rest(new Double3(1.0, 2.0, 3.0)), Is.False, "the pen was not lifted");
+            point.Update(now += 0.01, default, false, out _);
+            Assert.That(Rest(new Double3(1.0, 2.0, 3.0)), Is.True);
+        }
+
+        [Test]
+        public void APenThatMovesOrHoversTakesNoPoint()
+        {
+            for (int frame = 0; frame < 180; ++frame)
+            {
+                var moving = new Double3(0.05 * now, 0.0, 0.0);
+                Assert.That(point.Update(now += 1.0 / 90.0, moving, true, out _), Is.False);
+            }
+            for (int frame = 0; frame < 180; ++frame)
+            {
+                Assert.That(point.Update(now += 1.0 / 90.0, Double3.Zero, false, out _), Is.False);
+            }
+        }
+
+        [Test]
+        public void AnInvalidSampleRestartsTheRest()
+        {
+            for (int frame = 0; frame < 20; ++frame)
+            {
+                point.Update(now += 1.0 / 90.0, Double3.Zero, true, out _);
+            }
+            point.Update(now, new Double3(double.NaN, 0.0, 0.0), true, out _);
+            Assert.That(point.Update(now += 0.2, Double3.Zero, true, out _), Is.False);
+        }
+
+        [Test]
+        public void APressBeforeTheFirstLiftTakesNoPoint()
+        {
+            point.AwaitLift();
+            Assert.That(Rest(Double3.Zero), Is.False);
+        }
+
+        private bool Rest(Double3 place)
+        {
+            bool taken = false;
+            for (int frame = 0; frame < 60; ++frame)
+            {
+                taken |= point.Update(now += 1.0 / 90.0, place, true, out _);
+            }
+            return taken;
+        }
+    }
+
+    /// <summary>A saved pose is read back unchanged, and a damaged file is refused.</summary>
+    public sealed class SavedPoseTests
+    {
+        private string folder = "";
+        private string path = "";
+
+        [SetUp]
+        public void MakeAFolder()
+        {
+            folder = Path.Combine(Path.GetTempPath(), "haptoflow-pose-" + Path.GetRandomFileName());
+            path = Path.Combine(folder, "deep", "desk.json");
+        }
+
+        [TearDown]
+        public void RemoveIt()
+        {
+            if (Directory.Exists(folder))
+            {
+                Directory.Delete(folder, true);
+            }
+        }
+
+        [Test]
+        public void ASavedPoseIsReadBackExactlyAlsoAfterOverwriting()
+        {
+            SavedPose.Write(path, RigidPose.Identity);
+            var pose = new RigidPose(new Double3(0.1, -1.0 / 3.0, 1e-9), new Rotation(0.1, 0.2, -0.3, 0.9).Unit);
+            SavedPose.Write(path, pose);
+            Assert.That(SavedPose.TryRead(path, out RigidPose read, out string? problem), Is.True);
+            Assert.That(problem, Is.Null);
+            Assert.That(read.PositionMetres, Is.EqualTo(pose.PositionMetres));
+            Assert.That(read.Rotation.W, Is.EqualTo(pose.Rotation.W).Within(1e-15));
+            Assert.That(Directory.GetFiles(Path.GetDirectoryName(path)!), Has.Length.EqualTo(1), "no temporary file " +
+                "remains");
+        }
+
+        [Test]
+        public void AMissingFileIsNotAnError()
+        {
+            Assert.That(SavedPose.TryRead(path, out _, out string? problem), Is.False);
+            Assert.That(problem, Is.Null);
+        }
+
+        [TestCase("")]
+        [TestCase("{}")]
+        [TestCase("{\"format\": \"haptoflow pose\", \"version\": 2, \"position_m\": [0, 0, 0], " +
+            "\"rotation_xyzw\": [0, 0, 0, 1]}")]
+        [TestCase("{\"format\": \"haptoflow pose\", \"version\": 1, \"position_m\": [0, 0], " +
+            "\"rotation_xyzw\": [0, 0, 0, 1]}")]
+        [TestCase("{\"format\": \"haptoflow pose\", \"version\": 1, \"position_m\": [0, 1e9, 0], " +
+            "\"rotation_xyzw\": [0, 0, 0, 1]}")]
+        [TestCase("{\"format\": \"haptoflow pose\", \"version\": 1, \"position_m\": [0, 0, 0], " +
+            "\"rotation_xyzw\": [0, 0, 0, 0]}")]
+        [TestCase("{\"format\": \"haptoflow pose\", \"version\": 1, \"position_m\": [0, 0, 0], " +
+            "\"rotation_xyzw\": [0, 0, 0, 1]")]
+        public void ADamagedFileIsRefusedWithItsNameAndTheRemedy(string text)
+        {
+            Directory.CreateDirectory(Path.GetDirectoryName(path)!);
+            File.WriteAllText(path, text);
+            Assert.That(SavedPose.TryRead(path, out _, out string? problem), Is.False);
+            Assert.That(problem, Does.StartWith(path).And.EndWith("align again"));
+        }
+
+        [Test]
+        public void ATooLongFileIsNotRead()
+        {
+            Directory.CreateDirectory(Path.GetDirectoryName(path)!);
+            File.WriteAllText(path, new string(' ', 5000));
+            Assert.That(SavedPose.TryRead(path, out _, out string? problem), Is.False);
+            Assert.That(problem, Does.Contain("longer"));
+        }
     }
 }

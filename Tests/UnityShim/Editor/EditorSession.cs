@@ -157,12 +157,6 @@ namespace UnityEditor
         public static event Action? projectChanged;
         public static event Action<PlayModeStateChange>? playModeStateChanged;
 
-        public static bool isPlaying
-        {
-            get => World.IsPlaying;
-            set => throw new NotSupportedException("tests call EditorSession.Play and EditorSession.Stop");
-        }
-
         public static bool isPlayingOrWillChangePlaymode => World.IsPlaying || EditorSession.StartsPlaying;
 
         internal static void AnnounceQuit() => quitting?.Invoke();

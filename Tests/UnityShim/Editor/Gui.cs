@@ -13,15 +13,11 @@ namespace UnityEngine
         public static bool changed { get; set; }
         public static Color color { get; set; } = Color.white;
         public static Color contentColor { get; set; } = Color.white;
-        public static Color backgroundColor { get; set; } = Color.white;
 
         public static void Label(Rect position, string text) => EditorScreen.Add(DrawnKind.Label, text);
-        public static void Label(Rect position, string text, GUIStyle style) => Label(position, text);
         public static void Label(Rect position, GUIContent content, GUIStyle style) =>
             EditorScreen.Add(DrawnKind.Label, content.text, "", content.tooltip);
         public static bool Button(Rect position, string text) => EditorScreen.Button(new GUIContent(text));
-        public static bool Button(Rect position, GUIContent content) => EditorScreen.Button(content);
-        public static bool Button(Rect position, GUIContent content, GUIStyle style) => EditorScreen.Button(content);
 
         public abstract class Scope : IDisposable
         {
@@ -67,14 +63,8 @@ namespace UnityEngine
 
     public partial class GUILayout
     {
-        public static void Label(string text, params GUILayoutOption[] options) =>
-            EditorScreen.Add(DrawnKind.Label, text);
-        public static void Label(GUIContent content, params GUILayoutOption[] options) =>
-            EditorScreen.Add(DrawnKind.Label, content.text, "", content.tooltip);
         public static void Label(string text, GUIStyle style, params GUILayoutOption[] options) =>
             EditorScreen.Add(DrawnKind.Label, text);
-        public static void Label(GUIContent content, GUIStyle style, params GUILayoutOption[] options) =>
-            EditorScreen.Add(DrawnKind.Label, content.text, "", content.tooltip);
 
         public static bool Button(string text, params GUILayoutOption[] options) =>
             EditorScreen.Button(new GUIContent(text));
@@ -84,10 +74,6 @@ namespace UnityEngine
             EditorScreen.Button(new GUIContent(text));
         public static bool Button(GUIContent content, GUIStyle style, params GUILayoutOption[] options) =>
             EditorScreen.Button(content);
-
-        public static void Space(float pixels)
-        {
-        }
 
         public static void FlexibleSpace()
         {
@@ -155,9 +141,6 @@ namespace UnityEditor
 
         public static int IntField(GUIContent label, int value, params GUILayoutOption[] options) =>
             EditorScreen.Field(label, value);
-
-        public static void LabelField(string label, params GUILayoutOption[] options) =>
-            EditorScreen.Add(DrawnKind.Label, label);
         public static void LabelField(string label, GUIStyle style, params GUILayoutOption[] options) =>
             EditorScreen.Add(DrawnKind.Label, label);
         public static void LabelField(string label, string label2, params GUILayoutOption[] options) =>
@@ -304,8 +287,6 @@ namespace UnityEditor.IMGUI.Controls
 
         /// <summary>The list that was shown last. Tests choose an entry from it.</summary>
         internal static AdvancedDropdown? Shown { get; private set; }
-
-        internal IReadOnlyList<string> Names => BuildRoot().children.Select(item => item.name).ToList();
 
         protected Vector2 minimumSize { get; set; }
 

@@ -114,8 +114,6 @@ namespace UnityEditor
         public SerializedObject serializedObject { get; }
         public string propertyPath { get; }
 
-        public string name => field.Name;
-
         public string displayName => Nicified(field.Name);
 
         public string tooltip => field.GetCustomAttribute<TooltipAttribute>()?.tooltip ?? "";

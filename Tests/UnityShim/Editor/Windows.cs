@@ -158,8 +158,6 @@ namespace UnityEditor
 
         public SerializedObject serializedObject => serialized ??= new SerializedObject(inspected);
 
-        public static Editor CreateEditor(Object targetObject) => CreateEditor(new[] { targetObject });
-
         public static Editor CreateEditor(Object[] targetObjects)
         {
             Type type = EditorTypes.All.FirstOrDefault(candidate => candidate.GetCustomAttributes<CustomEditor>()

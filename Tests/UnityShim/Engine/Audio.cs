@@ -1,4 +1,3 @@
-using System;
 using UnityShim;
 
 namespace UnityEngine
@@ -84,7 +83,6 @@ namespace UnityEngine
         public int timeSamples { get; set; }
         public float panStereo { get; set; }
         public float volume { get; set; } = 1f;
-        public float pitch { get; set; } = 1f;
         public float spatialBlend { get; set; }
         public int priority { get; set; } = 128;
         public bool loop { get; set; }

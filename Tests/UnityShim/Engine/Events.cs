@@ -2,34 +2,11 @@ using System.Collections.Generic;
 
 namespace UnityEngine.Events
 {
-    public delegate void UnityAction();
-
     public delegate void UnityAction<T0>(T0 arg0);
 
     public abstract class UnityEventBase
     {
-        public void RemoveAllListeners() => Clear();
-
         internal abstract void Clear();
-    }
-
-    public class UnityEvent : UnityEventBase
-    {
-        private readonly List<UnityAction> calls = new List<UnityAction>();
-
-        public void AddListener(UnityAction call) => calls.Add(call);
-
-        public void RemoveListener(UnityAction call) => calls.Remove(call);
-
-        internal override void Clear() => calls.Clear();
-
-        public void Invoke()
-        {
-            for (int index = 0; index < calls.Count; ++index)
-            {
-                calls[index]();
-            }
-        }
     }
 
     public class UnityEvent<T0> : UnityEventBase
@@ -37,8 +14,6 @@ namespace UnityEngine.Events
         private readonly List<UnityAction<T0>> calls = new List<UnityAction<T0>>();
 
         public void AddListener(UnityAction<T0> call) => calls.Add(call);
-
-        public void RemoveListener(UnityAction<T0> call) => calls.Remove(call);
 
         internal override void Clear() => calls.Clear();
 

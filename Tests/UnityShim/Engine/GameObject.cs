@@ -189,7 +189,6 @@ namespace UnityEngine
 
         public T GetComponentInParent<T>(bool includeInactive) => owner.GetComponentInParent<T>(includeInactive);
         public T GetComponentInChildren<T>(bool includeInactive) => owner.GetComponentInChildren<T>(includeInactive);
-        public bool CompareTag(string tag) => owner.CompareTag(tag);
 
         public void SendMessage(string methodName, object value) => Messages.SendByName(owner, methodName, value);
 

@@ -68,8 +68,6 @@ namespace UnityEngine
                 m.Add(shown);
             }
         }
-
-        public bool enabled { get; set; } = true;
     }
 
     public partial class SkinnedMeshRenderer : Renderer

@@ -148,7 +148,6 @@ namespace UnityEngine
 
     public class Time
     {
-        public static float time => (float)Clock.Seconds;
         public static double timeAsDouble => Clock.Seconds;
         public static double unscaledTimeAsDouble => Clock.UnscaledSeconds;
         public static double realtimeSinceStartupAsDouble => Clock.UnscaledSeconds;

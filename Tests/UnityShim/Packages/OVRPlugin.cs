@@ -273,8 +273,6 @@ public static class OVRInput
         connectedControllers = (Controller)OVRPlugin.GetConnectedControllers();
     }
 
-    public static Controller GetConnectedControllers() => connectedControllers;
-
     public static float GetControllerSampleRateHz(Controller controllerMask = Controller.Active)
     {
         bool runs = Answers(controllerMask) && SampleRateHz > 0f;

@@ -2,7 +2,6 @@ using System;
 using System.Collections.Generic;
 using System.Linq;
 using UnityEditor;
-using UnityEditor.XR.OpenXR.Features;
 using UnityEngine.InputSystem;
 using UnityEngine.InputSystem.Controls;
 using UnityEngine.InputSystem.Layouts;
@@ -214,7 +213,6 @@ namespace UnityEngine.XR.OpenXR.Features
         {
             public string? interactionProfileName;
             public string? interactionPath;
-            public List<string>? userPaths;
         }
 
         [Serializable]

@@ -75,8 +75,6 @@ namespace UnityEngine.TestTools
         /// <summary>Whether unexpected errors are ignored in the current test.</summary>
         public static bool ignoreFailingMessages { get; set; }
 
-        public static void Expect(LogType type, string message) => Expect(type, new Regex("^" + Regex.Escape(message) + "$"));
-
         public static void Expect(LogType type, Regex message) => Expected.Add((type, message));
 
         internal static void Begin()

@@ -23,7 +23,6 @@ namespace HaptoFlow.Numerics
         public double Length => Math.Sqrt(Dot(this, this));
         public Double3 Absolute => new Double3(Math.Abs(X), Math.Abs(Y), Math.Abs(Z));
         public double Largest => Math.Max(X, Math.Max(Y, Z));
-        public double Smallest => Math.Min(X, Math.Min(Y, Z));
 
         public double this[int axis] => axis == 0 ? X : axis == 1 ? Y : Z;
 

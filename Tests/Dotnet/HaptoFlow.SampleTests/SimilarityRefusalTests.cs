@@ -2,14 +2,11 @@ using System;
 using System.Collections.Generic;
 using System.IO;
 using System.Linq;
-using System.Reflection;
-using System.Text.RegularExpressions;
 using System.Threading.Tasks;
 using HaptoFlow.Model;
 using HaptoFlow.Samples.SimilarityStudy;
 using HaptoFlow.Studies;
 using HaptoFlow.Tests;
-using HaptoFlow.Tests.Support;
 using NUnit.Framework;
 using UnityEngine;
 using UnityShim;
@@ -115,33 +112,6 @@ namespace HaptoFlow.SampleTests
         }
 
         [Test]
-        public void AFinishedParticipantIsRefusedAndAnotherCanBegin()
-        {
-            SimilarityStudySettings settings = Settings(1, 1);
-            Begin(settings);
-            TakePart();
-            Crash();
-            Open(settings);
-            Prepare();
-            scene.Begin(7);
-            Assert.That(scene.Problem, Does.Contain("participant 7 has finished this study"));
-            scene.Begin(8);
-            Assert.That((scene.Problem, scene.Session!.Plan.Participant), Is.EqualTo(((string?)null, 8)));
-        }
-
-        [Test]
-        public void WithoutUnitysAudioTheStudyIsRefusedWithTheReason()
-        {
-            AudioDevice.IsSwitchedOff = true;
-            Open(Settings(1, 2));
-            Prepare();
-            scene.Begin(7);
-            Assert.That(scene.Problem, Does.Contain("Disable Unity Audio"));
-            Assert.That(scene.Session, Is.Null);
-            Assert.That(Directory.Exists(folder), Is.False, "nothing was begun");
-        }
-
-        [Test]
         public void AResumedSessionKeepsItsDelay()
         {
             SimilarityStudySettings settings = Settings(1, 2);
@@ -200,42 +170,5 @@ namespace HaptoFlow.SampleTests
             Assert.That(scene.Operator.Lines, Has.Some.StartsWith("STOPPED: "));
             Assert.That(Directory.Exists(folder), Is.False, "nothing was begun");
         }
-    }
-
-    /// <summary>The scene file and the settings asset of the sample.</summary>
-    public sealed class SimilarityAssetTests : SimilarityTest
-    {
-        private static string Asset => File.ReadAllText(SampleFiles.In("SimilarityStudy", "SimilarityStudySettings.asset"));
-
-        [Test]
-        public void TheSettingsAssetContainsEveryFieldExactlyOnce()
-        {
-            IEnumerable<string> keys = Regex.Matches(Asset, @"^  ([a-z]\w*):", RegexOptions.Multiline)
-                .Select(match => match.Groups[1].Value).Where(key => !key.StartsWith("m_"));
-            Assert.That(keys, Is.EquivalentTo(FieldsOf<SimilarityStudySettings>().Concat(FieldsOf<StudySettings>())));
-            Assert.That(KeysOfEntries("materials"), Is.EquivalentTo(FieldsOf<StudyMaterial>()));
-            Assert.That(KeysOfEntries("methods"), Is.EquivalentTo(FieldsOf<StudyMethod>()));
-        }
-
-        [TestCase("SimilarityStudyScene.cs")]
-        [TestCase("SimilarityStudySettings.asset")]
-        public void TheSceneFileRefersToItsScriptAndItsSettings(string name)
-        {
-            string meta = File.ReadAllText(SampleFiles.In("SimilarityStudy", name + ".meta"));
-            string guid = Regex.Match(meta, "guid: (\\w{32})").Groups[1].Value;
-            Assert.That(File.ReadAllText(SampleFiles.In("SimilarityStudy", "SimilarityStudy.unity")), Does.Contain(guid));
-        }
-
-        private static IEnumerable<string> KeysOfEntries(string list)
-        {
-            string text = Regex.Match(
-                Asset, $@"^  {list}:\n((?:  [- ] .*\n)+)", RegexOptions.Multiline).Groups[1].Value;
-            return Regex.Matches(text, @"^  [- ] (\w+):", RegexOptions.Multiline)
-                .Select(match => match.Groups[1].Value).Distinct();
-        }
-
-        private static IEnumerable<string> FieldsOf<T>() => typeof(T)
-            .GetFields(BindingFlags.Instance | BindingFlags.DeclaredOnly | BindingFlags.Public | BindingFlags.NonPublic)
-            .Where(field => field.IsPublic || field.GetCustomAttribute<SerializeField>() != null).Select(field => field.Name);
     }
 }

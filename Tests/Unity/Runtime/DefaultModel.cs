@@ -1,7 +1,5 @@
 #nullable enable
 using System;
-using System.Buffers.Binary;
-using System.Text;
 using UnityEngine;
 
 namespace HaptoFlow.Tests
@@ -25,8 +23,6 @@ namespace HaptoFlow.Tests
     /// <summary>The package's model with a modified header of the same length and valid checksums.</summary>
     internal static class EditedModel
     {
-        private const int HeaderStart = 32;
-
         /// <summary>A model in which every label has another label's sound.</summary>
         public static HapticModelAsset WithLabelsReversed() => With(header =>
         {
@@ -44,28 +40,14 @@ namespace HaptoFlow.Tests
         public static HapticModelAsset OfAnotherSpace() => With(header => header.Replace("\"draft\"", "\"rough\"").Replace("\"draft.", "\"rough."));
 
         /// <summary>A model whose parts do not match their checksums.</summary>
-        public static HapticModelAsset Damaged()
-        {
-            byte[] file = (byte[])DefaultModel.Asset().File.Clone();
-            file[100] ^= 1;
-            return HapticModelAsset.Create(file);
-        }
+        public static HapticModelAsset Damaged() =>
+            HapticModelAsset.Create(ModelBytes.Flipped(DefaultModel.Asset().File, 100));
 
-        private static HapticModelAsset With(Func<string, string> change)
-        {
-            byte[] file = (byte[])DefaultModel.Asset().File.Clone();
-            int length = BinaryPrimitives.ReadInt32LittleEndian(file.AsSpan(12));
-            string before = Encoding.UTF8.GetString(file, HeaderStart, length);
-            string after = change(before.TrimEnd(' '));
-            byte[] text = Encoding.UTF8.GetBytes(after.PadRight(length));
-            if (text.Length != length || after == before.TrimEnd(' '))
+        private static HapticModelAsset With(Func<string, string> change) =>
+            HapticModelAsset.Create(ModelBytes.WithHeader(DefaultModel.Asset().File, header =>
             {
-                throw new InvalidOperationException("the header must change and keep its length");
-            }
-            text.CopyTo(file, HeaderStart);
-            BinaryPrimitives.WriteUInt32LittleEndian(file.AsSpan(24), Crc32.Of(text));
-            BinaryPrimitives.WriteUInt32LittleEndian(file.AsSpan(28), Crc32.Of(file.AsSpan(0, 28)));
-            return HapticModelAsset.Create(file);
-        }
+                string after = change(header);
+                return after != header ? after : throw new InvalidOperationException("the header must change");
+            }));
     }
 }

@@ -118,17 +118,6 @@ namespace HaptoFlow.SampleTests
             Assert.That(noise.Problem, Is.Null);
         }
 
-        [Test]
-        public void DisabledNoiseIsSilent()
-        {
-            World.Frames(30);
-            noise.enabled = false;
-            World.Frames(1);
-            AudioDevice.Forget();
-            World.Frames(30);
-            Assert.That(Channel(0), Has.All.Zero);
-        }
-
         private float[] Stroke(AudioSpeakerMode mode, bool withNoise)
         {
             AudioDevice.ChangeDevice(48000, 512, mode);

@@ -3,14 +3,14 @@ using System;
 using System.Buffers.Binary;
 using System.Text;
 using System.Text.RegularExpressions;
-using HaptoFlow.Tests;
 
-namespace HaptoFlow.EditorTests
+namespace HaptoFlow.Tests
 {
     /// <summary>Changed copies of a model file.</summary>
-    internal static class ModelBytes
+    public static class ModelBytes
     {
         private const int HeaderStart = 32;
+        private static readonly uint[] CrcTable = MakeCrcTable();
 
         public static byte[] Truncated(byte[] file, int length) => file.AsSpan(0, length).ToArray();
 
@@ -22,9 +22,6 @@ namespace HaptoFlow.EditorTests
             return copy;
         }
 
-        /// <summary>The offset of the first part.</summary>
-        public static int PartsStart(byte[] file) => HeaderStart + HeaderLength(file);
-
         /// <summary>A copy with other measured figures, the same for all tiers, and a matching checksum.</summary>
         public static byte[] WithFigures(byte[] file, string accuracyJson, string costJson) => WithHeader(file, header =>
             Regex.Replace(Regex.Replace(header, "\"accuracy\":\\s*\\{[^}]*\\}", "\"accuracy\":" + accuracyJson),
@@ -33,7 +30,7 @@ namespace HaptoFlow.EditorTests
         /// <summary>A copy with a changed header and matching checksums.</summary>
         public static byte[] WithHeader(byte[] file, Func<string, string> change)
         {
-            int length = HeaderLength(file);
+            int length = BinaryPrimitives.ReadInt32LittleEndian(file.AsSpan(12));
             string header = Encoding.UTF8.GetString(file, HeaderStart, length);
             // The header has to keep its length, so fields that no test reads are shortened.
             string shortened = Regex.Replace(header, "\"commit\":\\s*\"[^\"]*\"", "\"commit\":\"\"");
@@ -46,11 +43,35 @@ namespace HaptoFlow.EditorTests
             }
             byte[] copy = (byte[])file.Clone();
             text.CopyTo(copy, HeaderStart);
-            BinaryPrimitives.WriteUInt32LittleEndian(copy.AsSpan(24), Crc32.Of(text));
-            BinaryPrimitives.WriteUInt32LittleEndian(copy.AsSpan(28), Crc32.Of(copy.AsSpan(0, 28)));
+            BinaryPrimitives.WriteUInt32LittleEndian(copy.AsSpan(24), Crc(text));
+            BinaryPrimitives.WriteUInt32LittleEndian(copy.AsSpan(28), Crc(copy.AsSpan(0, 28)));
             return copy;
         }
 
-        private static int HeaderLength(byte[] file) => BinaryPrimitives.ReadInt32LittleEndian(file.AsSpan(12));
+        // CRC-32 as in zlib and PNG. System.IO.Hashing is not part of Unity's class libraries.
+        private static uint Crc(ReadOnlySpan<byte> bytes)
+        {
+            uint crc = 0xffffffffu;
+            foreach (byte value in bytes)
+            {
+                crc = CrcTable[(crc ^ value) & 0xff] ^ (crc >> 8);
+            }
+            return ~crc;
+        }
+
+        private static uint[] MakeCrcTable()
+        {
+            var table = new uint[256];
+            for (uint index = 0; index < table.Length; ++index)
+            {
+                uint entry = index;
+                for (int bit = 0; bit < 8; ++bit)
+                {
+                    entry = (entry & 1) != 0 ? 0xedb88320u ^ (entry >> 1) : entry >> 1;
+                }
+                table[index] = entry;
+            }
+            return table;
+        }
     }
 }
