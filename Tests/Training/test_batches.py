@@ -76,17 +76,6 @@ def test_the_machine_share_holds_where_both_protocols_exist() -> None:
     assert np.isin(chosen, machine).mean() == pytest.approx(0.8, abs=0.05)
 
 
-def test_a_restored_generator_draws_the_same_pairs() -> None:
-    store = make_store()
-    first = SegmentBatches(store, "train", BatchConfig(), 6)
-    first.draw(4)
-    state = first.state()
-    expected = first.draw(4)
-    second = SegmentBatches(store, "train", BatchConfig(), 99)
-    second.restore(state)
-    torch.testing.assert_close(second.draw(4).segment, expected.segment)
-
-
 def test_a_pair_states_the_specimen_of_its_recording_and_minus_one_where_none_is_known() -> None:
     store = make_store()
     told = [dataclasses.replace(each, specimen=None if each.label_index else number % 2)

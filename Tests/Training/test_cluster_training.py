@@ -19,7 +19,7 @@ from haptoflow_training.commands import train_tiers
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.recordings.cluster_dataset import labels_of_textures
-from haptoflow_training.recordings.dataset_writer import TextureEntry, write_recording, write_texture_list
+from haptoflow_training.recordings.dataset_layout import TextureEntry, write_recording, write_texture_list
 from haptoflow_training.recordings.labels import LabelDefinition, LabelMap, load_labels
 from haptoflow_training.recordings.recording import Recording, RecordingIdentity
 from haptoflow_training.recordings.synthetic import load_materials, record_machine_condition

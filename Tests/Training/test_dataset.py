@@ -17,8 +17,9 @@ from haptoflow_training.recordings.dataset_inspection import inspect_dataset, pl
 from haptoflow_training.recordings.cluster_dataset import open_dataset, read_texture_list
 from haptoflow_training.recordings.cluster_dataset_files import DatasetFileError
 from haptoflow_training.recordings.dataset import Dataset
-from haptoflow_training.recordings.dataset_layout import published_name
-from haptoflow_training.recordings.dataset_writer import TextureEntry, write_recording, write_texture_list
+from haptoflow_training.recordings.dataset_layout import (
+    TextureEntry, published_name, write_recording, write_texture_list
+)
 from haptoflow_training.recordings.labels import load_labels
 from haptoflow_training.recordings.recording import Recording, RecordingIdentity
 from haptoflow_training.recordings.synthetic import load_materials, record_machine_condition

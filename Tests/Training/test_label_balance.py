@@ -274,11 +274,3 @@ def test_self_forcing_uses_every_second_batch_after_the_energy_distance_and_ever
     recipe = RecipeConfig(energy_steps=energy_steps, energy_batch_size=8, self_forcing_steps=6)
     Trainer(dataclasses.replace(_config(steps=2), recipe=recipe), make_store(), tmp_path, ALONE).run()
     assert drawn == [8] * chains
-
-
-def test_pairs_of_held_out_bands_are_not_drawn() -> None:
-    config = BatchConfig(held_out_speed_mps=(0.05, 0.1))
-    batch = SegmentBatches(make_store(recordings_per_split=6), "train", config, 6).draw(2000)
-    speed = batch.motion_path[:, 0, :2].square().sum(dim=1).sqrt()
-    share = ((speed >= 0.05) & (speed < 0.1)).float().mean().item()
-    assert share < 0.002, "a fifth of all pairs lies there otherwise"

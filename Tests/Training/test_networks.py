@@ -9,7 +9,6 @@ from pathlib import Path
 import onnx
 import pytest
 import torch
-from torch import nn
 
 from haptoflow_paper.codec.representation import CodecRepresentation, build_representation
 from haptoflow_paper.codec.small_codec import SmallCodec, SmallCodecShape

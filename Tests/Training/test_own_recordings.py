@@ -16,7 +16,7 @@ from haptoflow_training.commands.train import configuration, report_left_out
 from haptoflow_training.errors import InputError
 from haptoflow_training.preprocessing.preparation import prepare_store
 from haptoflow_training.recordings.cluster_dataset import open_dataset
-from haptoflow_training.recordings.dataset_writer import TextureEntry, write_recording, write_texture_list
+from haptoflow_training.recordings.dataset_layout import TextureEntry, write_recording, write_texture_list
 from haptoflow_training.training.config import DataConfig
 from haptoflow_training.training.recordings_source import Source, open_source
 

@@ -21,8 +21,7 @@ from haptoflow_training.errors import InputError
 from haptoflow_training.recordings import cluster_dataset_files as parquet_files
 from haptoflow_training.recordings.cluster_dataset import open_dataset
 from haptoflow_training.recordings.cluster_dataset_files import DatasetFileError, read_parquet, read_sensor
-from haptoflow_training.recordings.dataset_layout import ACCELERATION, FORCE
-from haptoflow_training.recordings.dataset_writer import write_recording
+from haptoflow_training.recordings.dataset_layout import ACCELERATION, FORCE, write_recording
 from haptoflow_training.recordings.own_files import read_own
 from haptoflow_training.recordings.recording import Recording
 

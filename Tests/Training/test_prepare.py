@@ -19,7 +19,7 @@ from haptoflow_training.preprocessing.preparation import prepare_store
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.preprocessing.split import SPLITS, split_of, time_parts
 from haptoflow_training.preprocessing.store import SegmentStore
-from haptoflow_training.recordings.dataset_writer import (
+from haptoflow_training.recordings.dataset_layout import (
     TextureEntry, write_provenance, write_recording, write_texture_list
 )
 from haptoflow_training.recordings.own_files import open_own_dataset

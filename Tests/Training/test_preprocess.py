@@ -7,9 +7,8 @@ import pytest
 from dataset_samples import small_recording
 
 from haptoflow_training.errors import InputError
-from haptoflow_training.preprocessing import filters, motion
-from haptoflow_training.preprocessing.padding import pad_recording
-from haptoflow_training.preprocessing.pipeline import PreparedRecording, preprocess_recording
+from haptoflow_training.preprocessing import signals
+from haptoflow_training.preprocessing.pipeline import PreparedRecording, pad_recording, preprocess_recording
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.recordings.recording import STANDARD_GRAVITY_MPS2, Recording
 
@@ -54,7 +53,7 @@ def test_decimation_is_flat_to_950_hz_6_db_down_at_nyquist_and_60_db_above_1050_
     time = np.arange(16000) / 8000.0
 
     def gain_db(hertz: float) -> float:
-        out = filters.decimate(np.sin(2 * np.pi * hertz * time), 8000, 2000)
+        out = signals.decimate(np.sin(2 * np.pi * hertz * time), 8000, 2000)
         assert len(out) == 4000
         return float(20 * np.log10(np.sqrt(2 * np.mean(out[400:-400] ** 2)) + 1e-12))
 
@@ -75,7 +74,7 @@ def test_velocity_follows_a_hand_at_3_hertz_within_2_percent() -> None:
     time = np.arange(400) / 100.0
     position = np.column_stack([60.0 * np.sin(2 * np.pi * 3 * time), np.zeros(400)])
     grid = np.arange(1000, 7000) / 2000.0
-    found = motion.velocity_mps(time, position, grid, 0.09)[:, 0]
+    found = signals.velocity_mps(time, position, grid, 0.09)[:, 0]
     true = 0.06 * 2 * np.pi * 3 * np.cos(2 * np.pi * 3 * grid)
     assert np.abs(found - true).max() < 0.02 * true.max()
 
@@ -84,9 +83,9 @@ def test_force_steps_of_a_load_cell_are_smoothed_without_delay_and_never_negativ
     time = np.arange(6000) / 6000.0
     held = np.floor(time * 80) / 80
     grid = np.arange(2000) / 2000.0
-    found = motion.force_newtons(time, held, grid, 50.0)
+    found = signals.force_newtons(time, held, grid, 50.0)
     np.testing.assert_allclose(found[200:-200], grid[200:-200] - 0.5 / 80, atol=0.002)
-    assert motion.force_newtons(time, -held, grid, 50.0).min() >= 0.0
+    assert signals.force_newtons(time, -held, grid, 50.0).min() >= 0.0
 
 
 def _broken(recording: Recording, how: str) -> Recording:

@@ -15,7 +15,7 @@ import numpy as np
 import pandas
 from parquet_samples import COLUMNS, GOLDEN, HUB_FILES, HUB_NAMES, column_table, hub_recording, hub_tables
 
-from haptoflow_training.recordings.dataset_writer import TextureEntry, write_texture_list
+from haptoflow_training.recordings.dataset_layout import TextureEntry, write_texture_list
 
 ROWS, GROUP_ROWS, FEW_ROWS = 3000, 700, 200
 CODECS = ("Uncompressed", "Snappy", "Gzip", "Brotli", "Zstd", "Lz4Hadoop")

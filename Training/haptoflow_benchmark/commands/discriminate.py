@@ -8,7 +8,7 @@ from pathlib import Path
 
 from tqdm import tqdm
 
-from haptoflow_benchmark.commands.own_parts import ENGINE, add_recording_options, own_parts, require_engine
+from haptoflow_benchmark.commands.evaluate import ENGINE, add_recording_options, own_parts, require_engine
 from haptoflow_benchmark.label_discrimination import (
     DiscriminationReport, discriminate, discriminate_parts, train_classifier, write_report
 )

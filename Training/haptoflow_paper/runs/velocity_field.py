@@ -26,7 +26,7 @@ from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
 TAPS = 129
 _REACH = TAPS // 2
-# The skirt that decimation to 2 kHz leaves of a flat spectrum: Hz and dB (preprocessing/filters.py).
+# The skirt that decimation to 2 kHz leaves of a flat spectrum: Hz and dB (preprocessing/signals.py).
 _SKIRT_HZ = (0.0, 950.0, 970.0, 985.0, 1000.0)
 _SKIRT_DB = (0.0, 0.0, -0.8, -2.7, -6.0)
 

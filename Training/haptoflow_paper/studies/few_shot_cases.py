@@ -12,7 +12,7 @@ from scipy.signal import lfilter
 
 from haptoflow_paper.studies.unseen_materials import RIDE_SECONDS, make_rides, unseen_materials
 from haptoflow_paper.report.temporal_metrics import rib_rates_hz
-from haptoflow_training.preprocessing.filters import zero_phase_high_pass
+from haptoflow_training.preprocessing.signals import zero_phase_high_pass
 from haptoflow_training.preprocessing.pipeline import preprocess_recording
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.recordings.material_recording import MaterialRecording

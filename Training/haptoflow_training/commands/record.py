@@ -11,9 +11,8 @@ from pathlib import Path
 from tqdm import tqdm
 
 from haptoflow_training.errors import InputError
-from haptoflow_training.recordings.dataset_layout import SENSOR_FOLDER
-from haptoflow_training.recordings.dataset_writer import (
-    TextureEntry, write_provenance, write_recording, write_texture_list
+from haptoflow_training.recordings.dataset_layout import (
+    SENSOR_FOLDER, TextureEntry, write_provenance, write_recording, write_texture_list
 )
 from haptoflow_training.recordings.recording import RecordingIdentity
 from haptoflow_training.recordings.synthetic import (

@@ -1,21 +1,23 @@
-"""Turns one recording into one axis of vibration at 2 kHz, with the motion of every sample."""
+"""Turns one recording into one axis of vibration at 2 kHz, with the motion of every sample; adds silence before and
+after it, so that a network learns what happens without vibration."""
 
 from __future__ import annotations
 
 import dataclasses
+import hashlib
 from dataclasses import dataclass
+from typing import Literal, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
 from haptoflow_training.errors import InputError
-from haptoflow_training.preprocessing import filters, motion
-from haptoflow_training.preprocessing.dft321 import dft321
+from haptoflow_training.preprocessing import signals
 from haptoflow_training.preprocessing.plausibility import implausible
-from haptoflow_training.recordings.native_recording import NO_NOISE, SensorNoise, remove_sensor_noise
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
-from haptoflow_training.recordings.recording import STANDARD_GRAVITY_MPS2, Recording
+from haptoflow_training.recordings.native_recording import NO_NOISE, SensorNoise, remove_sensor_noise
+from haptoflow_training.recordings.recording import Recording, STANDARD_GRAVITY_MPS2
 
 # A cubic spline through the samples needs this many.
 _MINIMUM_SAMPLES = 4
@@ -124,7 +126,7 @@ def _generated(recording: Recording) -> PreparedRecording:
         (recording.acceleration_g[:, 0] * STANDARD_GRAVITY_MPS2).astype(np.float32),
         np.column_stack([recording.velocity_mps, recording.force_newtons]).astype(np.float32),
         recording.position_mm.astype(np.float32),
-        motion.wander_turns_on_grid(None, recording.position_time_seconds),
+        signals.wander_turns_on_grid(None, recording.position_time_seconds),
     )
 
 
@@ -171,22 +173,22 @@ def _prepared(recording: Recording, settings: PreprocessingSettings) -> _Untrimm
     grid = grid[grid <= stop]
     waveform = _waveform(recording, origin, len(grid), settings)
     if recording.velocity_mps is None:
-        velocity = motion.velocity_mps(
+        velocity = signals.velocity_mps(
             recording.position_time_seconds, recording.position_mm, grid, settings.velocity_window_seconds
         )
     else:
-        velocity = motion.smooth_velocity_mps(
+        velocity = signals.smooth_velocity_mps(
             recording.position_time_seconds, recording.velocity_mps, grid, settings.velocity_window_seconds
         )
-    position = motion.position_mm_on_grid(recording.position_time_seconds, recording.position_mm, grid)
-    force = motion.force_newtons(
+    position = signals.position_mm_on_grid(recording.position_time_seconds, recording.position_mm, grid)
+    force = signals.force_newtons(
         recording.force_time_seconds, recording.force_newtons, grid, settings.force_low_pass_hz
     )
     whole = PreparedRecording(
         waveform.astype(np.float32),
         np.column_stack([velocity, force]).astype(np.float32),
         position.astype(np.float32),
-        motion.wander_turns_on_grid(recording.wander, grid),
+        signals.wander_turns_on_grid(recording.wander, grid),
     )
     return _Untrimmed(whole, slice(lead, lead + kept))
 
@@ -206,11 +208,14 @@ def _waveform(
     # The time stamps are irregular, at more than six times the band: a cubic spline through them is band-limited
     # enough.
     uniform = CubicSpline(time[first:last], axes, axis=0)(clamped)
-    uniform = filters.zero_phase_high_pass(uniform, settings.high_pass_hz, settings.high_rate_hz)
+    uniform = signals.zero_phase_high_pass(uniform, settings.high_pass_hz, settings.high_rate_hz)
     one_axis = uniform.shape[1] == 1
-    combined = uniform[:, 0] if one_axis else dft321(uniform, settings.high_rate_hz, settings.dft321_frame_seconds)
-    combined = filters.zero_phase_low_pass(combined, settings.low_pass_hz, settings.high_rate_hz)
-    return filters.decimate(combined, settings.high_rate_hz, settings.sample_rate_hz)
+    combined = (
+        uniform[:, 0] if one_axis
+        else signals.dft321(uniform, settings.high_rate_hz, settings.dft321_frame_seconds)
+    )
+    combined = signals.zero_phase_low_pass(combined, settings.low_pass_hz, settings.high_rate_hz)
+    return signals.decimate(combined, settings.high_rate_hz, settings.sample_rate_hz)
 
 
 def _common_span(recording: Recording) -> tuple[float, float]:
@@ -271,3 +276,83 @@ def _require_usable(recording: Recording) -> None:
                 f"recording {name}: {sensor} time stops rising after sample {int(np.argmin(steps > 0))}; "
                 "expected every time stamp to be later than the one before"
             )
+
+
+# Three states without vibration: `rest` touches without moving, at the recording's force; `contact` touches down or lifts
+# off without moving, its force rising from or falling to zero; `air` has neither velocity nor force.
+PaddingState = Literal["rest", "contact", "air"]
+_Float = TypeVar("_Float", np.float32, np.float64)
+PADDING_STATES: tuple[PaddingState, ...] = ("rest", "contact", "air")
+# Largest share of a recording's length at each end, so that silence does not outweigh the recording.
+_MAXIMUM_SHARE = 1.0 / 3.0
+
+
+@dataclass(frozen=True)
+class PaddedRecording:
+    """`prepared` with silence at its ends; padding_before and padding_after count samples of it."""
+
+    prepared: PreparedRecording
+    padding_before: int
+    padding_after: int
+
+
+def pad_recording(
+    prepared: PreparedRecording, name: str, settings: PreprocessingSettings, seed: int
+) -> PaddedRecording:
+    """Each end is padded with `padding_probability`; the draw depends on `seed` and `name` only, and the padding at
+    an end is at most a third of the recording's length."""
+    digest = hashlib.blake2b(f"padding/{seed}/{name}".encode(), digest_size=8).digest()
+    generator = np.random.default_rng(int.from_bytes(digest, "little"))
+    longest = int(_MAXIMUM_SHARE * len(prepared.waveform_mps2))
+    before = _draw(generator, settings, longest)
+    after = _draw(generator, settings, longest)
+    if before is not None:
+        prepared = _pad_front(prepared, *before, settings)
+    if after is not None:
+        prepared = _reversed(_pad_front(_reversed(prepared), *after, settings))
+    return PaddedRecording(prepared, before[1] if before else 0, after[1] if after else 0)
+
+
+def _draw(
+    generator: np.random.Generator, settings: PreprocessingSettings, longest: int
+) -> tuple[PaddingState, int] | None:
+    wanted = generator.random() < settings.padding_probability
+    state = PADDING_STATES[int(generator.integers(len(PADDING_STATES)))]
+    segments = int(generator.integers(1, settings.padding_segments_max + 1))
+    return (state, min(segments * settings.segment_samples, longest)) if wanted else None
+
+
+def _pad_front(
+    prepared: PreparedRecording, state: PaddingState, samples: int, settings: PreprocessingSettings
+) -> PreparedRecording:
+    fade = min(round(settings.padding_fade_seconds * settings.sample_rate_hz), len(prepared.waveform_mps2))
+    gain = (0.5 - 0.5 * np.cos(np.pi * (np.arange(fade) + 0.5) / max(fade, 1))).astype(np.float32)
+    waveform = prepared.waveform_mps2.copy()
+    waveform[:fade] *= gain
+    motion = prepared.motion.copy()
+    motion[:fade, :2] *= gain[:, None]
+    force = float(motion[0, 2])
+    silence = np.zeros((samples, 3), dtype=np.float32)
+    if state == "rest":
+        silence[:, 2] = force
+    elif state == "contact":
+        silence[:, 2] = force * np.linspace(0.0, 1.0, samples, dtype=np.float32)
+    else:
+        motion[:fade, 2] *= gain
+    return PreparedRecording(
+        np.concatenate([np.zeros(samples, dtype=np.float32), waveform]),
+        np.concatenate([silence, motion]),
+        _held_before(prepared.position_mm, samples),
+        _held_before(prepared.wander_turns, samples),
+    )
+
+
+def _held_before(values: NDArray[_Float], samples: int) -> NDArray[_Float]:
+    return np.concatenate([np.repeat(values[:1], samples, axis=0), values])
+
+
+def _reversed(prepared: PreparedRecording) -> PreparedRecording:
+    waveform: NDArray[np.float32] = prepared.waveform_mps2[::-1]
+    return PreparedRecording(
+        waveform, prepared.motion[::-1], prepared.position_mm[::-1], prepared.wander_turns[::-1]
+    )

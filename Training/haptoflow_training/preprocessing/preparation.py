@@ -23,8 +23,9 @@ from tqdm import tqdm
 
 from haptoflow_training.errors import InputError
 from haptoflow_training.preprocessing import store as store_module
-from haptoflow_training.preprocessing.padding import PaddedRecording, pad_recording
-from haptoflow_training.preprocessing.pipeline import PreparedRecording, preprocess_parts
+from haptoflow_training.preprocessing.pipeline import (
+    PaddedRecording, PreparedRecording, pad_recording, preprocess_parts
+)
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.preprocessing.split import (
     SPLITS,
