@@ -285,23 +285,6 @@ TEST(ArgumentTest, NullPointersAreRefusedByEveryFunction) {
     EXPECT_EQ(haptoflow_device_wave_close(&deviceWave), HAPTOFLOW_OK);
 }
 
-TEST(ArgumentTest, ClosingANullHandleIsFine) {
-    haptoflow_runtime* runtime = nullptr;
-    haptoflow_model* model = nullptr;
-    haptoflow_generator* generator = nullptr;
-    haptoflow_engine* engine = nullptr;
-    haptoflow_cancellation* cancellation = nullptr;
-    haptoflow_voice voice = 0;
-    EXPECT_EQ(haptoflow_cancellation_close(&cancellation), HAPTOFLOW_OK);
-    EXPECT_EQ(haptoflow_runtime_close(&runtime), HAPTOFLOW_OK);
-    EXPECT_EQ(haptoflow_model_close(&model), HAPTOFLOW_OK);
-    haptoflow_material* material = nullptr;
-    EXPECT_EQ(haptoflow_material_close(&material), HAPTOFLOW_OK);
-    EXPECT_EQ(haptoflow_generator_close(&generator), HAPTOFLOW_OK);
-    EXPECT_EQ(haptoflow_engine_close(&engine), HAPTOFLOW_OK);
-    EXPECT_EQ(haptoflow_voice_destroy(&voice), HAPTOFLOW_OK);
-}
-
 class HandleTest : public WithTinyModel {};
 
 TEST_F(HandleTest, InvalidHandlesAreDetectedAndNotDereferenced) {

@@ -1,4 +1,3 @@
-#include "c11_user.h"
 #include "inference/rebuilt_model.hpp"
 #include "inference/rib_graph.hpp"
 #include "open_engine.hpp"
@@ -192,13 +191,6 @@ TEST(RuntimeApiTest, TheErrorForAMissingLibraryNamesIt) {
     EXPECT_EQ(runtime, nullptr);
 }
 
-TEST(CUserTest, AC11ProgramGeneratesASegment) {
-    std::array<float, samples> segment{};
-    ASSERT_EQ(generateOneSegmentFromC(HAPTOFLOW_TEST_ONNXRUNTIME, tinyModelPath.c_str(), segment.data()), HAPTOFLOW_OK)
-        << message();
-    EXPECT_TRUE(std::any_of(segment.begin(), segment.end(), [](float value) { return std::fabs(value) > 0.1F; }));
-}
-
 }  // namespace
 }  // namespace haptoflow::capi::testing
 
@@ -305,16 +297,6 @@ TEST_F(SkeletonApiTest, ARefinedTierWithoutOnnxRuntimeIsRefused) {
     EXPECT_EQ(createEngine(HAPTOFLOW_QUALITY_STANDARD), HAPTOFLOW_INVALID_ARGUMENT);
     EXPECT_THAT(message(), HasSubstr("not an open runtime handle"));
     EXPECT_THAT(message(), HasSubstr("\"standard\" needs ONNX Runtime"));
-}
-
-TEST_F(SkeletonApiTest, ARefinedTierPlays) {
-    haptoflow_runtime* runtime = openRuntime();
-    ASSERT_EQ(createEngine(HAPTOFLOW_QUALITY_STANDARD, false, runtime), HAPTOFLOW_OK) << message();
-    const std::vector<float> sound = slide(1);
-    EXPECT_TRUE(allFinite(sound));
-    EXPECT_GT(peak(sound), 1e-4F);
-    EXPECT_EQ(haptoflow_engine_close(&engine_), HAPTOFLOW_OK);
-    EXPECT_EQ(haptoflow_runtime_close(&runtime), HAPTOFLOW_OK);
 }
 
 TEST_F(SkeletonApiTest, AGeneratorOfTheSketchReadsThePhasesOfABatch) {

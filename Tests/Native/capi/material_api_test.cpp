@@ -134,14 +134,8 @@ TEST_F(MaterialApiTest, AnInvalidMaterialIsRefusedWithItsKeyAndTheIndexStaysUnch
     const std::string valid = material();
     EXPECT_EQ(haptoflow_engine_register_material(open_.engine, valid.data(), UINT64_MAX, &index),
               HAPTOFLOW_MATERIAL_INVALID);
-    EXPECT_EQ(haptoflow_engine_register_material(open_.engine, nullptr, 10, &index), HAPTOFLOW_INVALID_ARGUMENT);
-    EXPECT_EQ(haptoflow_engine_register_material(open_.engine, valid.data(), valid.size(), nullptr),
-              HAPTOFLOW_INVALID_ARGUMENT);
     EXPECT_EQ(index, 77U);
     EXPECT_EQ(count(), 0U);
-    EXPECT_STREQ(haptoflow_status_name(HAPTOFLOW_MATERIAL_MISMATCH), "HAPTOFLOW_MATERIAL_MISMATCH");
-    EXPECT_STREQ(haptoflow_status_name(HAPTOFLOW_MATERIAL_INVALID), "HAPTOFLOW_MATERIAL_INVALID");
-    EXPECT_STREQ(haptoflow_status_name(HAPTOFLOW_RECORDING_UNUSABLE), "HAPTOFLOW_RECORDING_UNUSABLE");
 }
 
 TEST_F(MaterialApiTest, AReplacementSoundsWithTheNextStateAndARefusedOneLeavesTheMaterialUnchanged) {
@@ -169,16 +163,6 @@ TEST_F(MaterialApiTest, AReplacementSoundsWithTheNextStateAndARefusedOneLeavesTh
                   HAPTOFLOW_INVALID_ARGUMENT);
         EXPECT_EQ(haptoflow_engine_material(open_.engine, none, &info), HAPTOFLOW_INVALID_ARGUMENT);
     }
-}
-
-TEST_F(MaterialApiTest, SixtyFourMaterialsAreAcceptedAndOneMoreIsRefused) {
-    uint32_t index = 0;
-    for (uint32_t made = 0; made < HAPTOFLOW_MAXIMUM_MATERIALS; ++made) {
-        ASSERT_EQ(add(material(), &index), HAPTOFLOW_OK) << message();
-        EXPECT_EQ(index, labels() + made);
-    }
-    EXPECT_EQ(add(material(), &index), HAPTOFLOW_INVALID_ARGUMENT);
-    EXPECT_THAT(message(), HasSubstr("64"));
 }
 
 }  // namespace

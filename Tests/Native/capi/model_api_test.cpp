@@ -57,13 +57,6 @@ TEST(ModelApiTest, EachKindOfInvalidFileHasItsOwnStatus) {
     EXPECT_EQ(model, nullptr);
 }
 
-TEST(ModelApiTest, TheErrorForAnUnreadablePathNamesIt) {
-    const haptoflow_model_options options{sizeof(options), nullptr, 0, "/nowhere/a.haptoflow"};
-    haptoflow_model* model = nullptr;
-    EXPECT_EQ(haptoflow_model_open(&options, &model), HAPTOFLOW_MODEL_UNREADABLE);
-    EXPECT_THAT(message(), ::testing::StartsWith("/nowhere/a.haptoflow"));
-}
-
 TEST(ModelApiTest, EitherBytesOrAPathMustBeGiven) {
     const auto bytes = tinyModelBytes();
     haptoflow_model* model = nullptr;
@@ -282,25 +275,6 @@ TEST_F(LoadingApiTest, ARunningLoadEndsWhenItIsCancelled) {
     });
     expectRefused(options, HAPTOFLOW_CANCELLED, "the load was cancelled");
     canceller.join();
-}
-
-TEST_F(LoadingApiTest, ACancellationAlsoEndsLaterLoads) {
-    ASSERT_EQ(haptoflow_cancellation_create(&cancellation_), HAPTOFLOW_OK);
-    haptoflow_engine_options options = engineOptions(HAPTOFLOW_QUALITY_DRAFT);
-    options.cancellation = cancellation_;
-    haptoflow_engine* engine = open(options);
-    ASSERT_EQ(haptoflow_cancellation_cancel(cancellation_), HAPTOFLOW_OK);
-    expectRefused(options, HAPTOFLOW_CANCELLED, "cancelled");
-    haptoflow_generator_options generatorOptions{};
-    generatorOptions.struct_size = sizeof(generatorOptions);
-    generatorOptions.runtime = runtime_;
-    generatorOptions.model = model_;
-    generatorOptions.cancellation = cancellation_;
-    haptoflow_generator* generator = nullptr;
-    EXPECT_EQ(haptoflow_generator_create(&generatorOptions, &generator), HAPTOFLOW_CANCELLED);
-    EXPECT_EQ(haptoflow_engine_set_quality(engine, HAPTOFLOW_QUALITY_STANDARD), HAPTOFLOW_OK)
-        << "the cancellation was for the creation only: " << message();
-    EXPECT_EQ(haptoflow_cancellation_cancel(cancellation_), HAPTOFLOW_OK);
 }
 
 TEST_F(LoadingApiTest, AClosedCancellationIsRefused) {

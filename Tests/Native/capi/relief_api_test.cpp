@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -180,9 +179,6 @@ TEST_F(ReliefApiTest, OptionsOutOfRangeAreRefusedByName) {
     EXPECT_NE(refusal([](auto& o) { o.size_metres[0] = std::nanf(""); }).find("size"), std::string::npos);
     EXPECT_NE(refusal([](auto& o) { o.tip_radius_metres = 1.0F; }).find("radius"), std::string::npos);
     EXPECT_NE(refusal([](auto& o) { o.struct_size = 3; }).find("struct_size"), std::string::npos);
-    EXPECT_EQ(haptoflow_relief_create(&rough.options, nullptr), HAPTOFLOW_INVALID_ARGUMENT);
-    haptoflow_relief none = 0;
-    EXPECT_EQ(haptoflow_relief_destroy(&none), HAPTOFLOW_OK);
 }
 
 TEST_F(ReliefApiTest, NormalsBecomeHeightsAndWrongSizesAreRefused) {
@@ -199,8 +195,6 @@ TEST_F(ReliefApiTest, NormalsBecomeHeightsAndWrongSizesAreRefused) {
     // The integral of a sine, whose amplitude is the wavelength over 2 pi, at the middles of texels.
     EXPECT_NEAR(peak(heights), 2.0 * 0.008 / (2.0 * std::numbers::pi) * std::cos(std::numbers::pi / 8.0), 1e-5);
     EXPECT_EQ(haptoflow_relief_heights_of_normals(normals.data(), 0, 8, sizeMetres.data(), 1, heights.data()),
-              HAPTOFLOW_INVALID_ARGUMENT);
-    EXPECT_EQ(haptoflow_relief_heights_of_normals(nullptr, 8, 8, sizeMetres.data(), 1, heights.data()),
               HAPTOFLOW_INVALID_ARGUMENT);
 }
 

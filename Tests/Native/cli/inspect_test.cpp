@@ -1,5 +1,6 @@
 #include "command_line.hpp"
 #include "messages.hpp"
+#include "model/material_builder.hpp"
 #include "option_values.hpp"
 
 #include <gmock/gmock.h>
@@ -9,6 +10,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <optional>
 #include <string>
@@ -145,6 +147,157 @@ TEST(ModelLocationTest, TheErrorForAMissingRuntimeNamesThePlacesAndTheRemedy) {
 TEST(ModelLocationTest, ARuntimeThatIsNotALibraryIsAnInputError) {
     const Environment runtime("HAPTOFLOW_ONNXRUNTIME", HAPTOFLOW_TEST_GOLDEN_DIR "/model/tiny.haptoflow");
     EXPECT_THAT(refusalOf([] { return openRuntime(); }), HasSubstr("tiny.haptoflow: cannot be loaded"));
+}
+
+// Material files in scenes, with --material, and in inspect.
+
+using nlohmann::json;
+using ::testing::AllOf;
+
+class MaterialCommandTest : public testing::CommandLineTest {
+protected:
+    void SetUp() override {
+        CommandLineTest::SetUp();
+        const json golden = json::parse(readFile(HAPTOFLOW_TEST_GOLDEN_DIR "/material/expected.json"));
+        space_ = golden.at("spaces").at("default").get<std::string>();
+        writeMaterial("denim.haptomaterial");
+    }
+    static std::string readFile(const std::string& path) {
+        std::ifstream file(path, std::ios::binary);
+        return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    }
+    void writeMaterial(const std::string& name, const std::function<void(json&)>& change = {}) const {
+        json material = model::testing::validMaterial(space_);
+        if (change) {
+            change(material);
+        }
+        write(name, material.dump());
+    }
+    void writeScene(const json& material, const json& more = json::object(),
+                    const std::string& name = "scene.json") const {
+        json surface = {{"name", "floor"}, {"shape", {{"plane", json::object()}}}, {"material", material}};
+        surface.update(more);
+        write(name, json({{"surfaces", {surface}}}).dump());
+    }
+    /// The report of a render that must succeed.
+    [[nodiscard]] json rendered(const std::string& words = "") const {
+        const Finished run = render("-o felt.wav --report felt.json " + words);
+        EXPECT_EQ(run.exitCode, 0) << run.errors;
+        return run.exitCode == 0 ? json::parse(read("felt.json")) : json::object();
+    }
+    void expectRefused(const std::string& words, int exitCode, const std::string& message) const {
+        const Finished run = render("-o felt.wav " + words);
+        EXPECT_EQ(run.exitCode, exitCode) << run.errors;
+        EXPECT_THAT(run.errors, HasSubstr(message));
+        EXPECT_FALSE(exists("felt.wav"));
+    }
+
+    std::string space_;
+};
+
+TEST_F(MaterialCommandTest, AMaterialsNameIsFoundInEveryCaseAndFormOfItsAccents) {
+    json material = json::parse(read("denim.haptomaterial"));
+    material["name"] = "\xC3\xA4hre";
+    write("own.haptomaterial", material.dump());
+    writeScene("A\xCC\x88HRE");
+    EXPECT_EQ(rendered("--material own.haptomaterial").at("labels"), json({"\xC3\xA4hre"}));
+    material["name"] = "a\xCC\x88hre";
+    write("same.haptomaterial", material.dump());
+    std::filesystem::remove(at("felt.wav"));
+    expectRefused("--material own.haptomaterial --material same.haptomaterial", 3, "which is already that of a label");
+    writeScene("ahre");
+    expectRefused("--material own.haptomaterial", 3, "which the model does not know");
+}
+
+TEST_F(MaterialCommandTest, AMaterialPathInASceneIsRelativeToTheScene) {
+    writeScene("denim.haptomaterial");
+    const json report = rendered();
+    EXPECT_GT(report.at("rms_mps2").get<double>(), 0.01);
+    EXPECT_EQ(report.at("labels"), json({"denim.haptomaterial"}));
+    EXPECT_GT(report.at("effects").at("tone").at("samples").get<int>(), 100) << "its tone was applied";
+    std::filesystem::create_directories(at("deeper/materials"));
+    std::filesystem::rename(at("denim.haptomaterial"), at("deeper/materials/denim.haptomaterial"));
+    writeScene("materials/denim.haptomaterial", json::object(), "deeper/scene.json");
+    const Finished run = this->run("render deeper/scene.json --stroke stroke.csv -o again.wav");
+    EXPECT_EQ(run.exitCode, 0) << run.errors;
+    EXPECT_EQ(read("again.wav"), read("felt.wav"));
+}
+
+TEST_F(MaterialCommandTest, AMaterialFileCanBeAKeyOfABlend) {
+    writeScene({{"denim.haptomaterial", 0.5}, {"wood", 0.5}});
+    EXPECT_GT(rendered().at("rms_mps2").get<double>(), 0.01);
+}
+
+TEST_F(MaterialCommandTest, TheNameOfAMaterialOnTheCommandLineCountsAsALabel) {
+    writeMaterial("second.haptomaterial", [](json& material) { material["name"] = "canvas"; });
+    writeScene("denim");
+    (void)rendered("--material second.haptomaterial --material denim.haptomaterial");
+    const std::string byName = read("felt.wav");
+    writeScene("denim.haptomaterial");
+    (void)rendered();
+    EXPECT_EQ(read("felt.wav"), byName) << "the same material by each name";
+    const Finished contact = run("contact scene.json --stroke stroke.csv --material denim.haptomaterial");
+    EXPECT_EQ(contact.exitCode, 0) << contact.errors;
+}
+
+TEST_F(MaterialCommandTest, TheStiffnessOfAMaterialIsThatOfItsSurface) {
+    const auto forces = [this] { return run("contact scene.json --stroke stroke.csv").output; };
+    writeScene("denim.haptomaterial");
+    const std::string soft = forces();
+    writeMaterial("denim.haptomaterial", [](json& material) { material["stiffness_newtons_per_metre"] = 3000.0; });
+    EXPECT_NE(forces(), soft);
+}
+
+TEST_F(MaterialCommandTest, AnUnusableMaterialIsRefusedWithSceneSurfaceFileAndKey) {
+    writeScene("corduroi.haptomaterial");
+    expectRefused("", 3, "scene.json: surface 'floor': corduroi.haptomaterial: there is no such file");
+    writeMaterial("broken.haptomaterial", [](json& material) { material["tone"]["gains_db"].erase(0); });
+    writeScene("broken.haptomaterial");
+    expectRefused("", 3, "broken.haptomaterial: material key \"tone.gains_db\": expected one row for each of the 2");
+    writeMaterial("foreign.haptomaterial", [](json& material) { material["space"] = "00000000"; });
+    writeScene("foreign.haptomaterial");
+    expectRefused("", 3, "foreign.haptomaterial: material \"denim\" was learnt for the space 00000000");
+    writeScene("denym");
+    expectRefused("--material denim.haptomaterial", 3, "did you mean 'denim'");
+    writeMaterial("wood.haptomaterial", [](json& material) { material["name"] = "wood"; });
+    writeScene("wood");
+    expectRefused("--material wood.haptomaterial", 3,
+                  "its name is \"wood\", which is already that of a label of the model");
+    expectRefused("--material nowhere.haptomaterial", 3, "nowhere.haptomaterial: there is no such file");
+}
+
+TEST_F(MaterialCommandTest, SpatialScaleAndToneOfASurfaceAreRenderedAndTheirRangesAreNamed) {
+    writeScene("corduroy");
+    (void)rendered();
+    const std::string plain = read("felt.wav");
+    writeScene("corduroy", {{"spatial_scale", 1.0}, {"tone_db_per_octave", 0.0}});
+    (void)rendered();
+    EXPECT_EQ(read("felt.wav"), plain) << "a scale of 1 and no tilt change nothing";
+    writeScene("corduroy", {{"spatial_scale", 2.0}});
+    (void)rendered();
+    EXPECT_NE(read("felt.wav"), plain);
+    writeScene("corduroy", {{"tone_db_per_octave", 3.0}});
+    EXPECT_TRUE(rendered().at("effects").contains("tone"));
+    std::filesystem::remove(at("felt.wav"));
+    writeScene("corduroy", {{"spatial_scale", 5.0}});
+    expectRefused("", 3, "surfaces[0].spatial_scale: expected a factor from 0.25 to 4, found 5.0");
+    writeScene("corduroy", {{"tone_db_per_octave", "bright"}});
+    expectRefused("", 3, "surfaces[0].tone_db_per_octave: expected dB from -12 to 12");
+}
+
+TEST_F(MaterialCommandTest, InspectShowsAMaterialFile) {
+    const Finished shown = run("inspect denim.haptomaterial");
+    EXPECT_EQ(shown.exitCode, 0) << shown.errors;
+    EXPECT_THAT(shown.output, AllOf(HasSubstr("denim"), HasSubstr(space_), HasSubstr("10.5 s"),
+                                    HasSubstr("its own, at 3 speeds from 0.05 to 0.2 m/s, 3 dB added"),
+                                    HasSubstr("2 frequencies at 2 speeds"), HasSubstr("unknown")));
+    const Finished asJson = run("inspect denim.haptomaterial --json");
+    EXPECT_EQ(json::parse(asJson.output).at("material").at("name"), "denim");
+    write("broken.haptomaterial", "{}");
+    const Finished broken = run("inspect broken.haptomaterial");
+    EXPECT_EQ(broken.exitCode, 3);
+    EXPECT_THAT(broken.errors, HasSubstr("broken.haptomaterial: material: expected a member \"format\""));
+    EXPECT_THAT(run("inspect '" HAPTOFLOW_TEST_DEFAULT_MODEL "'").output, HasSubstr(space_));
 }
 
 }  // namespace

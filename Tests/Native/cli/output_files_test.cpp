@@ -23,7 +23,7 @@ using testing::Finished;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-constexpr double rateHz = 4000.0;
+constexpr double recordingHz = 4000.0;
 constexpr const char* profile = R"({"format_version": 1, "name": "a", "approximate": false, "provenance": "made",
     "rated_level_mps2": null, "frequency_hz": [20, 1200], "magnitude_db": [0, 0], "resonances_hz": []})";
 
@@ -32,7 +32,7 @@ std::string recordingTable() {
     std::ostringstream text;
     text << "time_s,acceleration_mps2\n";
     for (std::size_t i = 0; i < made.acceleration.size(); ++i) {
-        text << static_cast<double>(i) / rateHz << ',' << made.acceleration[i] << '\n';
+        text << static_cast<double>(i) / recordingHz << ',' << made.acceleration[i] << '\n';
     }
     return text.str();
 }

@@ -184,7 +184,7 @@ TEST_F(SignalTest, TheSignalEndsWithin2MsWithoutAStepAndIsThenIdle) {
     EXPECT_TRUE(std::ranges::all_of(after, [](float sample) { return sample == 0.0F; }));
     samples.insert(samples.end(), after.begin(), after.end());
     const double steepest = 2.0 * std::numbers::pi * (200.0 + 0.25 / 0.002) / rateHz;
-    EXPECT_LT(static_cast<double>(testing::largestStep(samples)), steepest);
+    EXPECT_LT(static_cast<double>(haptoflow::testing::largestStep(samples)), steepest);
 }
 
 TEST_F(SignalTest, ASignalThatRestartsWhileItEndsContinuesInPhase) {
@@ -213,8 +213,8 @@ TEST_F(SignalTest, ChangesOfFrequencyAndAmplitudeMakeNoStep) {
         samples.insert(samples.end(), part.begin(), part.end());
     }
     const double steepest = 2.0 * std::numbers::pi * (500.0 + 0.25 / 0.002) / rateHz + 1.0 / 480.0;
-    EXPECT_LT(static_cast<double>(testing::largestStep(samples)), steepest);
-    EXPECT_NEAR(testing::peak(samples), 1.0F, 0.05F);
+    EXPECT_LT(static_cast<double>(haptoflow::testing::largestStep(samples)), steepest);
+    EXPECT_NEAR(haptoflow::testing::peak(samples), 1.0F, 0.05F);
 }
 
 TEST_F(SignalTest, UnsetSettingsDoNotChangeASoundingSignal) {

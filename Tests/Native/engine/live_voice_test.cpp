@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <cstring>
 #include <numbers>
-#include <random>
 #include <vector>
 
 namespace haptoflow::engine {
@@ -39,18 +38,6 @@ TEST_F(LiveVoiceTest, EveryFieldOfAContactStateReachesTheCallbackAndTheWorker) {
     ASSERT_TRUE(channels.toWorker.fetch());
     EXPECT_EQ(std::memcmp(&channels.toAudio.current().contact.state, &state, sizeof(state)), 0);
     EXPECT_EQ(std::memcmp(&channels.toWorker.current().contact.state, &state, sizeof(state)), 0);
-}
-
-TEST_F(LiveVoiceTest, TheStreamSoundsInTheFirstBlockAfterTouchDown) {
-    testing::SoundingModel sounding;
-    SimulatedDevice device(sounding.model, sounding.generator);
-    device.renderBlock();
-    EXPECT_EQ(testing::peak(device.output), 0.0F);
-    device.publish(testing::sliding());
-    const std::size_t before = device.output.size();
-    device.renderBlock();
-    EXPECT_GT(testing::peak(from(device, before)), silence);
-    EXPECT_EQ(device.counters().onsets, 1U);
 }
 
 TEST_F(LiveVoiceTest, WithoutASkeletonTheSeedSoundsUntilTheFirstSegment) {
@@ -387,16 +374,6 @@ TEST_F(LiveVoiceTest, EveryTouchingStateGetsASegmentOrIsCountedAsSkipped) {
     EXPECT_LE(device.counters().skipped, 30U);
 }
 
-TEST_F(LiveVoiceTest, AStoppedDeviceEndsInference) {
-    SimulatedDevice device(model_, tone_);
-    device.run(0.3, slide);
-    const std::uint64_t inferences = device.counters().inferences;
-    for (int update = 0; update < 200; ++update) {
-        device.publish(testing::sliding());
-    }
-    EXPECT_LE(device.counters().inferences, inferences + 1);
-}
-
 TEST_F(LiveVoiceTest, DuringALongBlockEveryStateGetsASegmentAndTheNewestSounds) {
     // Pairs of blocks every 43 ms, states every 14 ms. The network outputs the requested speed.
     FakeGenerator speed([](const inference::SegmentRequest& request, std::span<float> segment) {
@@ -417,27 +394,6 @@ TEST_F(LiveVoiceTest, DuringALongBlockEveryStateGetsASegmentAndTheNewestSounds) 
     }
     device.run(0.12, [](double) { return testing::sliding(0.2F); });
     EXPECT_FLOAT_EQ(device.waveform.samples.back(), 2.0F);
-}
-
-TEST_F(LiveVoiceTest, AChangeOfTheOutputRateCausesOnlyAFade) {
-    SimulatedDevice device(model_, tone_);
-    device.run(0.5, slide);
-    const std::uint64_t onsets = device.counters().onsets;
-    const float ordinaryStep = testing::largestStep(device.output);
-    device.setRate(24000.0);
-    const std::size_t begin = device.output.size();
-    device.run(0.5, slide);
-    EXPECT_EQ(device.counters().rateChanges, 1U);
-    EXPECT_EQ(device.counters().onsets, onsets) << "the touch continues";
-    EXPECT_LE(testing::largestStep(from(device, begin - 1)), 3.0F * ordinaryStep);
-    const auto settled = from(device, begin + 2400);
-    EXPECT_GT(testing::peak(settled), 0.9F / 60.0F);
-    int crossings = 0;
-    for (std::size_t i = 1; i < settled.size(); ++i) {
-        crossings += (settled[i - 1] < 0.0F) != (settled[i] < 0.0F) ? 1 : 0;
-    }
-    const double seconds = static_cast<double>(settled.size()) / 24000.0;
-    EXPECT_NEAR(crossings / seconds, 2.0 * testing::toneHz, 10.0) << "the tone keeps its pitch";
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 #include "model/material_builder.hpp"
 #include "small_library.hpp"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -76,23 +75,6 @@ TEST(MaterialLibraryTest, OnlyAMaterialWithoutItsOwnLevelUsesTheLevelGraph) {
     (void)small.library.add(materialOf(small.model), []() -> inference::LevelEstimator& {
         throw std::logic_error("the level graph must not be used");
     });
-}
-
-TEST(MaterialLibraryTest, AnOwnLevelIsInterpolatedExtrapolatedAndOffset) {
-    SmallLibrary small;
-    (void)small.library.add(materialOf(small.model), small.levels());
-    const auto levelAt = [&](float speedMps, float newtons) {
-        return std::log(static_cast<double>(small.ingredients({{2, 1.0F}}).levelMps2({speedMps, 0.0F, newtons})));
-    };
-    const double offset = 3.0 * std::numbers::ln10 / 20.0;
-    EXPECT_NEAR(levelAt(0.1F, 1.0F), 1.0 + offset, 1e-6);
-    EXPECT_NEAR(levelAt(0.1F, 4.0F), 1.0 + offset + 0.5 * std::log(4.0), 1e-6);
-    EXPECT_NEAR(levelAt(0.1F, 0.0F), 1.0 + offset + 0.5 * std::log(0.02), 1e-6) << "the force has a minimum";
-    const double middle = std::sqrt(0.0505 * 0.1005) - 0.0005;
-    EXPECT_NEAR(levelAt(static_cast<float>(middle), 1.0F), 0.5 + offset, 1e-5);
-    EXPECT_NEAR(levelAt(0.4F, 1.0F), 1.5 + offset + 0.5 * std::log(0.4005 / 0.2005), 1e-6);
-    EXPECT_NEAR(levelAt(0.01F, 1.0F), 0.0 + offset + 0.5 * std::log(0.0105 / 0.0505), 1e-6);
-    EXPECT_TRUE(std::isfinite(levelAt(0.0F, 0.0F)));
 }
 
 TEST(MaterialLibraryTest, ABlendsLevelIsTheMeanOfItsMaterialsInDecibels) {

@@ -1,8 +1,8 @@
-// A label with its own level and tone is added to the shipped model.
-
 #include "engine/material.hpp"
 
 #include "engine/offline_renderer.hpp"
+#include "engine/range_law.hpp"
+#include "engine/test_model.hpp"
 #include "model/material_builder.hpp"
 #include "model/model_builder.hpp"
 #include "model/model_file.hpp"
@@ -16,9 +16,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <span>
-#include <string>
-#include <vector>
 
 namespace haptoflow::engine {
 namespace {
@@ -135,68 +132,59 @@ TEST(SeedRetrievalTest, AMaterialWithoutSeedsGivesNull) {
     EXPECT_EQ(retrieveSeed({}, {0.1F, 0.0F, 1.0F}), nullptr);
 }
 
-/// The shipped model with one more label, which has a slightly changed embedding of wood and its own level and tone.
-model::ModelFile withDenim(const model::ModelFile& shipped) {
-    model::testing::ModelBuilder builder;
-    builder.header = nlohmann::json::parse(shipped.headerText());
-    builder.header.erase("blobs");
-    builder.blobs.clear();
-    for (const model::Blob& blob : shipped.header().blobs) {
-        const auto bytes = shipped.blob(blob.name);
-        model::testing::BlobContent content{blob.name, blob.type == model::BlobType::onnx ? "onnx" : "float32",
-                                            blob.shape, model::testing::Bytes(bytes.begin(), bytes.end())};
-        if (blob.name == "embedding") {
-            std::vector<float> row(shipped.embedding(0).begin(), shipped.embedding(0).end());
-            row[0] += 0.1F;
-            const model::testing::Bytes added = model::testing::bytesOf(row);
-            content.bytes.insert(content.bytes.end(), added.begin(), added.end());
-            ++content.shape[0];
-        }
-        if (blob.name == "pieces") {
-            content.bytes.resize(content.bytes.size() + bytes.size() / static_cast<std::size_t>(content.shape[0]));
-            ++content.shape[0];
-        }
-        builder.blobs.push_back(content);
-    }
-    nlohmann::json denim = model::testing::validMaterial("00000000");
-    denim["embedding_row"] = shipped.header().labels.size();
-    builder.header["labels"].push_back(denim);
-    return model::ModelFile::parse(builder.build());
+Material material(double speed, double force, double frequency) {
+    Material result;
+    result.speedLevelExponent = speed;
+    result.forceLevelExponent = force;
+    result.frequencyExponent = frequency;
+    return result;
 }
 
-class AddedLabelTest : public ::testing::Test {
-protected:
-    static std::vector<float> rendered(const model::ModelFile& model, std::uint32_t first, std::uint32_t second) {
-        const auto generator = haptoflow::testing::generatorOf(model, 4, "draft");
-        const auto states = testing::statesOf(1.0, [&](double seconds) {
-            ContactState state = testing::sliding();
-            state.velocityMps = {0.1F, 0.05F};
-            state.material = testing::blendOf({{seconds < 0.5 ? first : second, 1.0F}});
-            return state;
-        });
-        return renderOffline(model, *generator, states, {}).samples;
-    }
-
-    model::ModelFile shipped_ = model::ModelFile::read(HAPTOFLOW_TEST_DEFAULT_MODEL);
-    model::ModelFile added_ = withDenim(shipped_);
-};
-
-TEST_F(AddedLabelTest, AnAddedLabelDoesNotChangeTheOutputOfOtherLabels) {
-    EXPECT_EQ(model::spaceOf(added_.header()), model::spaceOf(shipped_.header()));
-    for (const std::uint32_t label : {0U, 8U, 13U}) {
-        const std::vector<float> before = rendered(shipped_, label, label + 1);
-        EXPECT_GT(haptoflow::testing::peak(before), 0.0F);
-        EXPECT_EQ(rendered(added_, label, label + 1), before) << label;
-    }
+TEST(RangeLawTest, InsideTheRangeNothingChanges) {
+    const model::ModelFile model = testing::smallModel();
+    const RangedMotion ranged = applyRangeLaw(model.header(), material(1.0, 0.5, 1.0), {0.3F, -0.2F}, 2.0F);
+    EXPECT_FLOAT_EQ(ranged.motion[0], 0.3F);
+    EXPECT_FLOAT_EQ(ranged.motion[1], -0.2F);
+    EXPECT_FLOAT_EQ(ranged.motion[2], 2.0F);
+    EXPECT_EQ(ranged.levelGain, 1.0);
+    EXPECT_EQ(ranged.readingRate, 1.0);
 }
 
-TEST_F(AddedLabelTest, AnAddedLabelSoundsAtItsOwnLevel) {
-    const auto denim = static_cast<std::uint32_t>(shipped_.header().labels.size());
-    const std::vector<float> own = rendered(added_, denim, denim);
-    // At 0.112 m/s and 1 N, the level is e^1.08 m/s^2 plus 3 dB; the tone adds 1 to 9 dB.
-    const double decibels = haptoflow::testing::levelDecibels(std::span(own).first(48000)) + 20.0 * std::log10(200.0);
-    EXPECT_GT(decibels, 20.0 * std::log10(std::exp(1.08)) + 3.0 - 4.0);
-    EXPECT_LT(decibels, 20.0 * std::log10(std::exp(1.08)) + 3.0 + 9.0);
+TEST(RangeLawTest, BeyondTheRangeTheMotionIsClampedInItsDirection) {
+    const model::ModelFile model = testing::smallModel();
+    const RangedMotion ranged = applyRangeLaw(model.header(), material(0.0, 0.0, 0.0), {1.2F, 1.6F}, 8.0F);
+    EXPECT_NEAR(std::hypot(ranged.motion[0], ranged.motion[1]), 0.4, 1e-6);
+    EXPECT_NEAR(ranged.motion[1] / ranged.motion[0], 4.0 / 3.0, 1e-5);
+    EXPECT_FLOAT_EQ(ranged.motion[2], 4.0F);
+}
+
+TEST(RangeLawTest, LevelAndReadingRateFollowTheLabelsExponents) {
+    const model::ModelFile model = testing::smallModel();
+    const RangedMotion ranged = applyRangeLaw(model.header(), material(1.0, 0.5, 0.5), {0.8F, 0.0F}, 16.0F);
+    EXPECT_NEAR(ranged.levelGain, 2.0 * 2.0, 1e-6);
+    EXPECT_NEAR(ranged.readingRate, std::sqrt(2.0), 1e-6);
+}
+
+TEST(RangeLawTest, LevelAndReadingRateAreLimited) {
+    const model::ModelFile model = testing::smallModel();
+    const RangedMotion ranged = applyRangeLaw(model.header(), material(2.0, 1.0, 1.0), {20.0F, 0.0F}, 1000.0F);
+    EXPECT_EQ(ranged.levelGain, 16.0);
+    EXPECT_EQ(ranged.readingRate, 4.0);
+}
+
+TEST(RangeLawTest, ASlowSweepAcrossTheEdgeOfTheRangeHasNoStep) {
+    const model::ModelFile model = testing::smallModel();
+    const Material mesh = material(0.97, 0.21, 1.0);
+    RangedMotion last = applyRangeLaw(model.header(), mesh, {0.0F, 0.0F}, 0.0F);
+    for (int i = 1; i <= 20000; ++i) {
+        const float share = static_cast<float>(i) / 20000.0F;
+        const RangedMotion ranged = applyRangeLaw(model.header(), mesh, {2.0F * share, 0.0F}, 10.0F * share);
+        ASSERT_LE(std::abs(ranged.levelGain - last.levelGain), 1e-3);
+        ASSERT_LE(std::abs(ranged.readingRate - last.readingRate), 1e-3);
+        ASSERT_LE(std::abs(ranged.motion[0] - last.motion[0]), 1e-3F);
+        ASSERT_LE(std::abs(ranged.motion[2] - last.motion[2]), 1e-3F);
+        last = ranged;
+    }
 }
 
 }  // namespace

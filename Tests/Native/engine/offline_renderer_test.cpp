@@ -11,9 +11,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
-#include <functional>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <span>
 #include <vector>
@@ -78,59 +76,6 @@ TEST_F(OfflineRendererTest, AStreamedRenderArrivesPerUpdateAndHasTheSameStatisti
     EXPECT_EQ(streamed.peak, whole.peak);
     EXPECT_EQ(streamed.segments, states.size());
     EXPECT_EQ(streamed.seamStatistics.jumpRatio, whole.seamStatistics.jumpRatio);
-}
-
-TEST_F(OfflineRendererTest, EverySegmentContinuesTheCommittedSamples) {
-    const OfflineRender render = renderOffline(model_, tone_, statesOfSlide(2.0), {});
-    ASSERT_GT(render.waveformMps2.size(), 3500U);
-    const double factor = 2.0 * std::cos(2.0 * std::numbers::pi * 100.0 / 2000.0);
-    for (std::size_t i = 100; i < 3500; ++i) {
-        const double expected = factor * render.waveformMps2[i - 1] - render.waveformMps2[i - 2];
-        ASSERT_NEAR(render.waveformMps2[i], expected, 1e-2) << "sample " << i;
-    }
-    EXPECT_EQ(render.underruns, 0U);
-}
-
-TEST_F(OfflineRendererTest, WithoutTouchNothingIsGeneratedAndTheOutputIsZero) {
-    std::vector<TimedContactState> states = statesOfSlide(1.0);
-    for (ContactState& state : states) {
-        state.touching = false;
-        state.touchCounter = 0;
-    }
-    const OfflineRender render = renderOffline(model_, noise_, states, {});
-    EXPECT_EQ(noise_.generated, 0);
-    EXPECT_EQ(render.peak, 0.0);
-    EXPECT_TRUE(render.waveformMps2.empty());
-}
-
-TEST_F(OfflineRendererTest, AfterAFailedRunTheOutputFadesAndTheFailureIsCounted) {
-    int calls = 0;
-    FakeGenerator generator([&calls](const inference::SegmentRequest& request, std::span<float> segment) {
-        if (++calls > 20 && calls <= 40) {
-            throw inference::InferenceError("refused by the test");
-        }
-        testing::continueTone(request, segment);
-    });
-    const OfflineRender render = renderOffline(model_, generator, statesOfSlide(1.0), {});
-    EXPECT_EQ(render.failures, 20U);
-    EXPECT_GT(render.underruns, 0U);
-    EXPECT_EQ(render.nonFinite, 0U);
-}
-
-TEST_F(OfflineRendererTest, MissingUpdatesSilenceTheVoiceUntilSlidingResumes) {
-    std::vector<TimedContactState> states = statesOfSlide(1.0);
-    for (std::size_t i = 36; i < states.size(); ++i) {
-        states[i].timeSeconds += 0.5;
-    }
-    const OfflineRender render = renderOffline(model_, tone_, states, {});
-    const auto quietFrom = static_cast<std::size_t>((states[35].timeSeconds + 0.1055) * 48000.0);
-    const auto quietTo = static_cast<std::size_t>(states[36].timeSeconds * 48000.0);
-    ASSERT_LT(quietFrom, quietTo);
-    for (std::size_t i = quietFrom; i < quietTo; ++i) {
-        ASSERT_EQ(render.samples[i], 0.0F) << "sample " << i;
-    }
-    EXPECT_EQ(render.onsets, 1U) << "the resumed slide belongs to the same touch";
-    EXPECT_NE(render.samples[quietTo + 480], 0.0F);
 }
 
 TEST_F(OfflineRendererTest, InvalidStatesAreSanitisedAndCountedAndTheOutputIsFinite) {

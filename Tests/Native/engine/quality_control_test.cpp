@@ -317,25 +317,12 @@ TEST_F(OnsetLevelsTest, TheTableIsWithinHalfADecibelOfTheGraph) {
     }
 }
 
-TEST_F(OnsetLevelsTest, ABlendLiesBetweenItsLabelsInDecibels) {
-    const std::array<float, 3> motion{0.1F, 0.0F, 1.0F};
-    const float first = levelOf({{.label = 0, .weight = 1.0F}}, motion);
-    const float second = levelOf({{.label = 1, .weight = 1.0F}}, motion);
-    const float mixed = levelOf({{.label = 0, .weight = 0.25F}, {.label = 1, .weight = 0.25F}}, motion);
-    EXPECT_NEAR(mixed, std::sqrt(first * second), 1e-4F);
-}
-
 TEST_F(OnsetLevelsTest, BeyondTheRangeAndAtRestTheLevelIsThatOfTheEdge) {
     const auto oak = [this](const std::array<float, 3>& motion) {
         return levelOf({{.label = 0, .weight = 1.0F}}, motion);
     };
     EXPECT_EQ(oak({0.4F, 0.0F, 4.0F}), oak({4.0F, 0.0F, 400.0F}));
     EXPECT_EQ(oak({0.01F, 0.0F, 0.1F}), oak({0.0F, 0.0F, 0.0F}));
-}
-
-TEST(OnsetLevelsCostTest, TheGraphIsEvaluatedAt640PointsForEachEmbedding) {
-    EXPECT_EQ(levelsAskedFor(2, 2), 2U * 640U);
-    EXPECT_EQ(levelsAskedFor(1000, 1000), 1000U * 640U);
 }
 
 TEST(OnsetLevelsCostTest, LabelsWithTheSameEmbeddingNeedNoFurtherEvaluations) {

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -101,25 +99,6 @@ TEST_F(SignalVoiceTest, ASignalReplacesTextureImpactEdgeAndToneWithoutInference)
     EXPECT_EQ(of(device_, EffectKind::signal).prepared, 1U);
     EXPECT_EQ(of(device_, EffectKind::signal).events, 7U);
     EXPECT_GT(of(device_, EffectKind::signal).samples, 7U * 4800U / 2U);
-}
-
-TEST_F(SignalVoiceTest, TheSignalBeginsAndEndsWithin2MsOfItsBlockWithoutAStep) {
-    setSignal(tone200);
-    device_.publish(lifted(0));
-    device_.renderBlock();
-    const std::size_t start = device_.output.size();
-    device_.publish(sliding(0.15F));
-    device_.renderBlock();
-    const std::span<const float> begun = std::span<const float>(device_.output).subspan(start);
-    EXPECT_GT(testing::peak(begun.first(20)), 0.0F);
-    EXPECT_TRUE(isTone(begun.subspan(96), 200.0, 6.0 / fullScaleMps2));
-    device_.publish(lifted());
-    device_.renderBlock();
-    const std::span<const float> ended = std::span<const float>(device_.output).subspan(start + 256);
-    EXPECT_GT(testing::peak(ended.first(40)), 0.0F);
-    EXPECT_EQ(testing::peak(ended.subspan(96)), 0.0F);
-    const double steepest = 0.1 * 2.0 * std::numbers::pi * (200.0 + 0.25 / 0.002) / 48000.0;
-    EXPECT_LT(static_cast<double>(testing::largestStep(device_.output)), steepest);
 }
 
 TEST_F(SignalVoiceTest, MutePausePanicAndMissingStatesInterruptTheSignal) {

@@ -1,8 +1,8 @@
 #include "engine/offline_renderer.hpp"
 #include "inference/load_limits.hpp"
 #include "inference/skeleton_generator.hpp"
+#include "inference/skeleton_model.hpp"
 #include "simulated_device.hpp"
-#include "skeleton/skeleton_model.hpp"
 #include "small_library.hpp"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,6 @@
 #include <limits>
 #include <random>
 #include <span>
-#include <utility>
 #include <vector>
 
 // A voice of a model with a skeleton: it sounds at once and goes on by itself, and the network only corrects it.
@@ -254,13 +253,6 @@ protected:
         state.material = blend;
         return state;
     }
-    static std::vector<float> rendered(const model::ModelFile& model, std::uint32_t label) {
-        inference::SkeletonGenerator generator(skeleton::readNativeParts(model), 4);
-        const auto states = testing::statesOf(0.5, [label](double) {
-            return slidingOver(testing::blendOf({{label, 1.0F}}));
-        });
-        return renderOffline(model, generator, states, {}).samples;
-    }
 };
 
 TEST_F(ImpulseGainTest, ABlendHasTheMeanByWeight) {
@@ -287,14 +279,6 @@ TEST_F(ImpulseGainTest, TheCallbacksStreamHasItToo) {
     for (std::size_t index = 0; index < plain.size(); ++index) {
         EXPECT_FLOAT_EQ(louder[index], 2.5F * plain[index]) << index;
     }
-}
-
-TEST_F(ImpulseGainTest, AFactorChangesItsOwnLabelAloneAndOneChangesNothing) {
-    auto builder = skeleton::testing::skeletonModel({.seed = 5, .strength = 0.3F});
-    const model::ModelFile without = skeleton::testing::read(builder);
-    EXPECT_EQ(rendered(modelWith(1.0F, 1.0F), 0), rendered(without, 0));
-    EXPECT_NE(rendered(modelWith(3.0F, 1.0F), 0), rendered(without, 0));
-    EXPECT_EQ(rendered(modelWith(3.0F, 1.0F), 1), rendered(without, 1));
 }
 
 }  // namespace

@@ -1,9 +1,9 @@
 #pragma once
 
+#include "inference/skeleton_model.hpp"
 #include "model/model_builder.hpp"
 #include "model/model_file.hpp"
 #include "skeleton/skeleton_layout.hpp"
-#include "skeleton/skeleton_model.hpp"
 
 #include <algorithm>
 #include <cstddef>

@@ -8,13 +8,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
-#include <optional>
 #include <span>
-#include <vector>
 
 // Tone in the callback: the filter of a material and a surface on the generated waveform.
 
@@ -93,21 +89,6 @@ TEST_F(ToneVoiceTest, AMaterialsToneAppliesFromTheSeedsFirstSampleAndNotToThePas
     EXPECT_NE(toned.counters().requestedEffects & effects::maskOf(EffectKind::tone), 0U);
 }
 
-TEST_F(ToneVoiceTest, ATiltChangesTheGainAtTheSoundingFrequency) {
-    SimulatedDevice plain(model_, tone_);
-    SimulatedDevice dark(model_, tone_);
-    plain.run(1.0, [](double) { return sliding(); });
-    dark.run(1.0, [](double) {
-        ContactState state = sliding();
-        state.toneDbPerOctave = 6.0F;
-        return state;
-    });
-    const double octaves = std::log2(testing::toneHz / 150.0);
-    const std::span<const float> played(plain.waveform.samples);
-    const std::span<const float> tilted(dark.waveform.samples);
-    EXPECT_NEAR(20.0 * std::log10(rms(tilted.last(1000)) / rms(played.last(1000))), 6.0 * octaves, 0.5);
-}
-
 TEST_F(ToneVoiceTest, ANewTouchDoesNotUseTheToneOfTheTouchBefore) {
     SimulatedDevice once(model_, tone_);
     SimulatedDevice twice(model_, tone_);
@@ -165,61 +146,6 @@ TEST(SpatialScaleLawTest, TheNetworkUsesTheScaledSpeedAndTheLevelTheActualSpeed)
     const RangedMotion fast = applyRangeLaw(header, oak, {0.8F, 0.0F}, 1.0F, 2.0F);
     EXPECT_NEAR(fast.readingRate, 1.0, 1e-6) << "half the speed is within the range";
     EXPECT_NEAR(fast.levelGain, std::sqrt(2.0), 1e-6);
-}
-
-class SpatialScaleTest : public ::testing::Test {
-protected:
-    /// A model with ribs of 0.2 cycles per millimetre along the first axis.
-    static model::ModelFile ruledModel() {
-        model::testing::ModelBuilder builder;
-        std::vector<float> embedding(2 * model::embeddingSize, 0.5F);
-        for (std::size_t row = 0; row < 2; ++row) {
-            const std::array<float, 4> vectors{0.2F, 0.0F, 0.0F, 0.0F};
-            std::ranges::copy(vectors, embedding.begin() + static_cast<std::ptrdiff_t>(row * 64 + 60));
-        }
-        builder.blobs[0].bytes = model::testing::bytesOf(embedding);
-        return model::ModelFile::parse(builder.build());
-    }
-    static ContactState scaled(float scale) {
-        ContactState state = sliding();
-        state.spatialScale = scale;
-        return state;
-    }
-    struct Asked {
-        float phase = 0.0F;
-        std::array<float, 3> motion{};
-        std::array<float, 3> levelMotion{};
-    };
-
-    /// Turns of the rib phase per sample between two segments.
-    [[nodiscard]] double cyclesPerSample(const SimulatedDevice& device, std::size_t segment) const {
-        const double cycles =
-            static_cast<double>(requested_[segment].phase) - static_cast<double>(requested_[segment - 1].phase);
-        const auto hop = static_cast<double>(device.waveform.seams[segment] - device.waveform.seams[segment - 1]);
-        return (cycles - std::floor(cycles)) / hop;
-    }
-
-    model::ModelFile model_ = ruledModel();
-    std::vector<Asked> requested_;
-    FakeGenerator generator_{[this](const inference::SegmentRequest& request, std::span<float> segment) {
-        requested_.push_back({request.phases[0], request.motion, request.levelMotion.value_or(request.motion)});
-        std::ranges::copy(request.noise, segment.begin());
-    }};
-};
-
-TEST_F(SpatialScaleTest, TheRibPitchIsDividedByTheScale) {
-    // At 0.1 m/s and 0.2 cycles per millimetre, the tip crosses 20 ribs per second, 0.01 per sample.
-    for (const auto& [scale, cycles] : {std::pair{1.0F, 0.01}, {2.0F, 0.005}, {0.5F, 0.02}, {4.0F, 0.0025}}) {
-        requested_.clear();
-        SimulatedDevice device(model_, generator_);
-        device.run(0.5, [scale = scale](double) { return scaled(scale); });
-        ASSERT_GT(device.waveform.seams.size(), 10U);
-        for (std::size_t segment = 5; segment < device.waveform.seams.size(); ++segment) {
-            EXPECT_NEAR(cyclesPerSample(device, segment), cycles, 1e-6) << "scale " << scale;
-        }
-        EXPECT_FLOAT_EQ(requested_.back().motion[0], 0.1F / scale);
-        EXPECT_FLOAT_EQ(requested_.back().levelMotion[0], 0.1F);
-    }
 }
 
 }  // namespace

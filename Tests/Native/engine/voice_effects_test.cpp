@@ -10,7 +10,6 @@
 #include <memory>
 #include <optional>
 #include <random>
-#include <vector>
 
 namespace haptoflow::engine {
 namespace {
@@ -81,48 +80,6 @@ TEST_F(VoiceEffectsTest, ATextureCanBeSwitchedOffAndOnWhileSliding) {
     device.run(0.3, with(texture));
     EXPECT_GT(testing::peak(from(device, on)), 0.2F / 60.0F);
     EXPECT_LT(testing::largestStep(device.output), 0.02F);
-}
-
-TEST_F(VoiceEffectsTest, AnImpactWhileSlidingAddsToTheTexture) {
-    const auto play = [this](float approachSpeedMps) {
-        testing::DeviceSettings settings;
-        settings.fixedLeadSamples = 16;
-        SimulatedDevice device(model_, tone_, settings);
-        device.run(0.4, [approachSpeedMps](double seconds) {
-            ContactState state = testing::sliding();
-            state.effects = texture | impact;
-            state.touchCounter = seconds < 0.2 ? 1U : 2U;
-            state.approachSpeedMps = seconds < 0.2 ? 0.0F : approachSpeedMps;
-            return state;
-        });
-        return device.output;
-    };
-    const std::vector<float> without = play(0.0F);
-    const std::vector<float> with = play(0.05F);
-    std::vector<float> event(with.size());
-    std::ranges::transform(with, without, event.begin(), std::minus<>());
-    EXPECT_EQ(testing::peak(std::span<const float>(event).first(9000)), 0.0F);
-    const double peak = 60.0 * static_cast<double>(testing::peak(event));
-    const double expected =
-        0.05 * static_cast<double>(impactResponse(model_.header().labels[0]).modes[0].gainPerSecond);
-    EXPECT_GT(peak, 0.6 * expected);
-    EXPECT_LT(peak, 1.01 * expected);
-}
-
-TEST_F(VoiceEffectsTest, APanicSilencesAnImpactAndTheNextTouchSounds) {
-    SimulatedDevice device(model_, tone_);
-    device.publish(landing(0.5F, impact, 1));
-    device.renderBlock();
-    EXPECT_GT(testing::peak(device.output), 0.01F);
-    device.voice().channels.panic();
-    device.renderBlock();
-    const std::size_t after = device.output.size();
-    device.publish(landing(0.5F, impact, 1));
-    renderBlocks(device, 10);
-    EXPECT_EQ(testing::peak(from(device, after)), 0.0F);
-    device.publish(landing(0.5F, impact, 2));
-    renderBlocks(device, 2);
-    EXPECT_GT(testing::peak(from(device, after)), 0.01F);
 }
 
 /// A state that alternates between two labels every 100 ms.
@@ -246,58 +203,7 @@ TEST_F(VoiceEffectsTest, OnARoundedRimTheEdgeUsesTheSpeedBeforeIt) {
     }
 }
 
-/// Inverts the signal and counts its instances.
-class Inverter final : public effects::Effect {
-public:
-    explicit Inverter(int& alive, float gain = -1.0F) : alive_(alive), gain_(gain) { ++alive_; }
-    ~Inverter() override { --alive_; }
-    void process(std::span<float> samples) noexcept override {
-        std::ranges::transform(samples, samples.begin(), [this](float sample) { return gain_ * sample; });
-    }
-    void reset() noexcept override {}
-    [[nodiscard]] bool isIdle() const noexcept override { return true; }
-
-private:
-    int& alive_;
-    float gain_;
-};
-
-class ProcessorsTest : public VoiceEffectsTest {
-protected:
-    void offer(SimulatedDevice& device, float gain, double rateHz = 48000.0) {
-        auto fresh = std::make_unique<Processors>();
-        fresh->version = ++version_;
-        fresh->rateHz = rateHz;
-        if (gain != 0.0F) {
-            fresh->compensation = std::make_unique<Inverter>(alive_, gain);
-        }
-        device.voice().channels.processors.offer(std::move(fresh));
-    }
-    static void collect(SimulatedDevice& device) { device.voice().channels.processors.collect(); }
-
-    int alive_ = 0;
-    std::uint64_t version_ = 0;
-};
-
-TEST_F(ProcessorsTest, ProcessorsAreSwitchedOnAndOffWithoutAClick) {
-    SimulatedDevice device(model_, tone_);
-    device.run(0.3, slide);
-    const float tone = testing::largestStep(device.output);
-    for (const float gain : {-1.0F, 0.5F, -1.0F, 0.0F}) {
-        offer(device, gain);
-        device.run(0.1, slide);
-        collect(device);
-        device.run(0.1, slide);
-        collect(device);
-    }
-    EXPECT_LT(testing::largestStep(device.output), 1.3F * tone);
-    EXPECT_EQ(alive_, 0);
-    EXPECT_EQ(of(device, EffectKind::compensation).prepared, 3U);
-    const std::uint64_t runs = of(device, EffectKind::compensation).runs;
-    EXPECT_GT(runs, 100U);
-    device.run(0.3, slide);
-    EXPECT_EQ(of(device, EffectKind::compensation).runs, runs) << "a processor that is switched off must not run";
-}
+using ProcessorsTest = VoiceEffectsTest;
 
 /// Changes the processors like LiveEngine::changeProcessors.
 void ask(SimulatedDevice& device, const std::function<void(ProcessorSettings&)>& change) {
@@ -424,21 +330,7 @@ TEST_F(ProcessorsTest, AGuardSwitchedOffAndOnRemembersTheDay) {
     }
 }
 
-TEST_F(ProcessorsTest, AfterARateChangeTheProcessorsApplyFromTheFirstSound) {
-    SimulatedDevice device(model_, tone_);
-    ask(device, [](ProcessorSettings& settings) { settings.hasExposureGuard = true; });
-    device.run(0.5, slide);
-    const double before = device.voice().channels.exposureDailyMps2;
-    EXPECT_GT(before, 0.0);
-    device.setRate(24000.0);
-    device.run(0.3, slide);
-    EXPECT_GE(device.voice().channels.exposureDailyMps2, before) << "the exposure of the same hand continues";
-    const std::uint64_t runs = of(device, EffectKind::exposureGuard).runs;
-    device.run(0.1, slide);
-    EXPECT_GT(of(device, EffectKind::exposureGuard).runs, runs);
-}
-
-TEST_F(ProcessorsTest, LiftOffActsBeforeTheDelayAndPanicAfterIt) {
+TEST_F(ProcessorsTest, LiftOffActsBeforeTheDelay) {
     SimulatedDevice device(model_, tone_);
     device.controls().delaySeconds = 0.2;
     ask(device, [](ProcessorSettings& settings) { settings.hasDelay = true; });
@@ -447,14 +339,6 @@ TEST_F(ProcessorsTest, LiftOffActsBeforeTheDelayAndPanicAfterIt) {
     device.run(0.3, [](double) { return testing::lifted(1); });
     EXPECT_GT(testing::peak(from(device, lifted + 9000)), 0.5F / 60.0F) << "the delayed texture must still sound";
     EXPECT_LT(testing::peak(from(device, lifted + 9600 + 240 + 512)), silence);
-    ContactState again = testing::sliding();
-    again.touchCounter = 2;
-    device.run(0.4, [&again](double) { return again; });
-    device.voice().channels.panic();
-    device.renderBlock();
-    const std::size_t panicked = device.output.size();
-    device.run(0.4, [&again](double) { return again; });
-    EXPECT_EQ(testing::peak(from(device, panicked)), 0.0F);
 }
 
 }  // namespace

@@ -61,33 +61,6 @@ TEST(VoiceTest, WithoutTouchTheVoiceWritesZerosAndItsClockStandsStill) {
     EXPECT_TRUE(voice.isSilent());
 }
 
-TEST(VoiceTest, ATouchSoundsAtOnceWithAConstantDelay) {
-    Voice voice(playedRateHz, 60.0F, unreadFigures);
-    beginTone(voice, 6.0F);
-    const std::vector<float> output = renderSamples(voice, 1440);
-    // After the ramp of 2 ms, the output is the tone, behind the samples that the resampler read ahead.
-    double best = 0.0;
-    std::size_t bestDelay = 0;
-    for (std::size_t delay = 0; delay < 240; ++delay) {
-        double product = 0.0;
-        for (std::size_t i = 300; i < 1200; ++i) {
-            const double t = (static_cast<double>(i) - static_cast<double>(delay)) / playedRateHz;
-            product += static_cast<double>(output[i]) * std::sin(2.0 * std::numbers::pi * 120.0 * t);
-        }
-        if (product > best) {
-            best = product;
-            bestDelay = delay;
-        }
-    }
-    // Two samples at 2 kHz, and less than half a millisecond.
-    EXPECT_LE(bestDelay, 48U + 24U) << "the delay in samples at 48 kHz";
-    double squares = 0.0;
-    for (std::size_t i = 400; i < 1200; ++i) {
-        squares += static_cast<double>(output[i]) * static_cast<double>(output[i]);
-    }
-    EXPECT_NEAR(std::sqrt(squares / 800.0), 0.1, 0.003);
-}
-
 TEST(VoiceTest, ATouchDuringAFadeStartsWithoutAStep) {
     Voice voice(playedRateHz, 60.0F, unreadFigures);
     beginTone(voice, 6.0F);

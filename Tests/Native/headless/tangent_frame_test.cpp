@@ -83,13 +83,6 @@ TEST(MotionTest, EveryPointOfThePathIsWithinTheBounds) {
     }
 }
 
-TEST(MotionTest, BoundsOfAStraightPathAreItsEnds) {
-    const Motion motion(
-        {{0.0, {{1.0, 2.0, 3.0}, {1.0, 0.0, 0.0, 0.0}}}, {4.0, {{-1.0, 2.5, 7.0}, {1.0, 0.0, 0.0, 0.0}}}}, false);
-    EXPECT_LT(glm::distance(motion.bounds().lowest, glm::dvec3(-1.0, 2.0, 3.0)), 1e-12);
-    EXPECT_LT(glm::distance(motion.bounds().highest, glm::dvec3(1.0, 2.5, 7.0)), 1e-12);
-}
-
 constexpr double frameSeconds = 1.0 / 90.0;
 
 void expectOrthonormal(const TangentAxes& axes, const glm::dvec3& normal) {

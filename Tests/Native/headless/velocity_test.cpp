@@ -289,23 +289,6 @@ TEST(VelocityTest, AStopFadesMonotonically) {
     }
 }
 
-TEST(VelocityTest, ATipAtRestOnATurntableHasAngularVelocityTimesArm) {
-    SceneSurface turntable = surfaceOf(Plane{});
-    turntable.motion.emplace(std::vector<Keyframe>{{0.0, {{}, testing::turned(0.0, {0.0, 1.0, 0.0})}},
-                                                   {1.0, {{}, testing::turned(120.0, {0.0, 1.0, 0.0})}}},
-                             false);
-    const glm::dvec3 tip(0.1, 0.0, 0.0);
-    PathOn history(turntable);
-    for (int frame = 0; frame <= 60; ++frame) {
-        history.add(frame / 90.0, tip);
-    }
-    const glm::dvec3 velocity = history.nowMps();
-    const double expected = 0.1 * 120.0 * std::numbers::pi / 180.0;
-    EXPECT_NEAR(glm::length(velocity), expected, 0.005 * expected);
-    // Unity turns +z towards +x about +y: the material at +x moves towards -z, the tip towards +z relative to it.
-    EXPECT_NEAR(velocity.z, expected, 0.005 * expected);
-}
-
 TEST(VelocityTest, ASurfaceThatJumpsBackAtTheEndOfItsLoopIsNotAStroke) {
     SceneSurface plate = surfaceOf(Plane{});
     plate.motion.emplace(std::vector<Keyframe>{{0.0, {}}, {1.0, {{0.5, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}}}}, true);

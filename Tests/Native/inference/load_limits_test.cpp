@@ -1,5 +1,6 @@
 #include "inference/load_limits.hpp"
 
+#include "inference/onnx_runtime.hpp"
 #include "inference/onnx_segment_generator.hpp"
 #include "model/model_builder.hpp"
 #include "rebuilt_model.hpp"
@@ -9,7 +10,6 @@
 #include <gtest/gtest.h>
 #include <onnxruntime_c_api.h>
 
-#include <chrono>
 #include <thread>
 
 // Limits of operators, time and memory while loading a tier, and cancellation.
@@ -84,18 +84,6 @@ TEST(LoadLimitsTest, ACancelledLoadThrows) {
     EXPECT_EQ(failureOf<LoadCancelled>(tinyModel(), {.cancellation = cancellation}), "the load was cancelled");
 }
 
-TEST(LoadLimitsTest, ALongLoadEndsWhenItIsCancelled) {
-    const model::ModelFile slow = tinyWithLevel(model::testing::slowLevel());
-    const auto cancellation = std::make_shared<Cancellation>();
-    std::thread canceller([&] {
-        std::this_thread::sleep_for(std::chrono::milliseconds(50));
-        cancellation->cancel();
-    });
-    EXPECT_EQ(failureOf<LoadCancelled>(slow, {.cancellation = cancellation, .probeLimitMs = maximumProbeLimitMs}),
-              "the load was cancelled");
-    canceller.join();
-}
-
 TEST(LoadLimitsTest, ACancellationAfterTheLoadHasNoEffect) {
     const auto cancellation = std::make_shared<Cancellation>();
     OnnxSegmentGenerator generator = loadDraft(tinyModel(), {.cancellation = cancellation});
@@ -114,15 +102,6 @@ TEST(LoadLimitsTest, ATierWhoseProbeRunTakesTooLongIsRejectedByNameAndAnotherLoa
     EXPECT_THAT(failureOf<TierTooSlow>(slow, {.probeLimitMs = 2.0}),
                 ::testing::StartsWith("tier \"draft\", graph \"level\": a run of 256 took longer than 64 ms"));
     other.join();
-}
-
-TEST(LoadLimitsTest, LevelsAreTabulatedInRunsOf256ForAnyBatchSize) {
-    OnnxSegmentGenerator generator = loadDraft(tinyModel());
-    const std::vector<SegmentRequest> requests(640, goldenBatch().requests().front());
-    std::vector<float> levels(requests.size());
-    generator.levels(requests, levels);
-    EXPECT_EQ(generator.runCounts().level, 3U);
-    EXPECT_THAT(levels, ::testing::Each(levels.front()));
 }
 
 TEST(CancellationTest, AnActionRunsOnceOnCancellation) {
@@ -291,7 +270,6 @@ TEST(LogTest, TheLogOfAFailingGraphReachesOnlyTheCallbackOfItsRuntime) {
 namespace haptoflow::inference::testing {
 namespace {
 
-using model::testing::Bytes;
 using model::testing::ModelBuilder;
 
 model::ModelFile modelWith(const std::string& fieldBlob, const std::string& levelBlob,
@@ -373,3 +351,62 @@ TEST_F(NotFiniteTest, AVeryLowLevelGivesSilenceInsteadOfAnError) {
 
 }  // namespace
 }  // namespace haptoflow::inference::testing
+
+namespace haptoflow::inference {
+namespace {
+
+template <typename Action>
+std::string refusalOf(Action action) {
+    try {
+        action();
+    } catch (const RuntimeUnavailable& error) {
+        return error.what();
+    }
+    ADD_FAILURE() << "no RuntimeUnavailable was thrown";
+    return {};
+}
+
+const OrtApi* ORT_API_CALL noApi(std::uint32_t /*version*/) noexcept {
+    return nullptr;
+}
+
+const char* ORT_API_CALL oldVersion() noexcept {
+    return "1.2.3";
+}
+
+TEST(OnnxRuntimeTest, TheLibraryIsOpenedByPathAndItsVersionIsReported) {
+    const auto runtime = Runtime::open(HAPTOFLOW_TEST_ONNXRUNTIME);
+    EXPECT_THAT(runtime->version(), ::testing::MatchesRegex("[0-9]+\\.[0-9]+\\.[0-9]+.*"));
+}
+
+TEST(OnnxRuntimeTest, TheErrorForAMissingLibraryNamesItsPath) {
+    EXPECT_THAT(refusalOf([] { (void)Runtime::open("/nowhere/libonnxruntime.so"); }),
+                ::testing::StartsWith("/nowhere/libonnxruntime.so: cannot be loaded"));
+}
+
+TEST(OnnxRuntimeTest, AFileThatIsNotALibraryIsRejected) {
+    const std::string path = HAPTOFLOW_TEST_GOLDEN_DIR "/model/tiny.haptoflow";
+    EXPECT_THAT(refusalOf([&] { (void)Runtime::open(path); }), ::testing::StartsWith(path));
+}
+
+TEST(OnnxRuntimeTest, ALibraryOtherThanOnnxRuntimeIsRejected) {
+    EXPECT_THAT(refusalOf([] { (void)Runtime::open("libm.so.6"); }), ::testing::HasSubstr("OrtGetApiBase"));
+}
+
+TEST(OnnxRuntimeTest, AVersionWithoutTheRequiredApiIsRejected) {
+    const OrtApiBase base{noApi, oldVersion};
+    EXPECT_THAT(refusalOf([&] { (void)Runtime::fromApiBase(&base); }), ::testing::HasSubstr("1.2.3 is too old: 1.16"));
+}
+
+TEST(OnnxRuntimeTest, AnErrorNamesTheOperationAndTheReason) {
+    const auto runtime = Runtime::open(HAPTOFLOW_TEST_ONNXRUNTIME);
+    try {
+        runtime->check(runtime->api().CreateStatus(ORT_FAIL, "made by the test"), "trying");
+        FAIL() << "a failure was not reported";
+    } catch (const InferenceError& error) {
+        EXPECT_STREQ(error.what(), "trying: made by the test");
+    }
+}
+
+}  // namespace
+}  // namespace haptoflow::inference

@@ -14,7 +14,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -111,16 +110,6 @@ TEST(OnnxSegmentGeneratorTest, ARequestGivesTheSameSegmentAloneAndInABatch) {
         }
     }
     EXPECT_EQ(generate(generator, requests), together);
-}
-
-TEST(OnnxSegmentGeneratorTest, TheSolverCanBeChangedBetweenBatches) {
-    const auto requests = goldenBatch().requests();
-    OnnxSegmentGenerator changed = makeGenerator("standard", {SolverKind::euler, 1});
-    (void)generate(changed, requests);
-    changed.setSolver({SolverKind::heun, 5});
-    OnnxSegmentGenerator fresh = makeGenerator("standard", {SolverKind::heun, 5});
-    EXPECT_EQ(generate(changed, requests), generate(fresh, requests));
-    EXPECT_EQ(changed.runCounts().field, 11U);
 }
 
 TEST(OnnxSegmentGeneratorTest, AnAverageVelocityTierAlwaysUsesEuler) {

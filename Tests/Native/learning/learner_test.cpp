@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 
 namespace haptoflow::learning {
@@ -188,18 +187,6 @@ TEST_F(LearnerTest, GivenWaveVectorsReplaceTheEstimation) {
     EXPECT_FALSE(model::parseMaterial(learn(made.view(), settings).materialJson).label.wavelengthMetres.has_value());
 }
 
-TEST_F(LearnerTest, AMissingStretchIsExcludedAndReported) {
-    MadeRecording made({}, {.seconds = 12.0});
-    for (std::size_t i = 10'000; i < 10'400; ++i) {
-        made.acceleration[i] = std::numeric_limits<float>::quiet_NaN();
-    }
-    LearningSettings settings = brief();
-    settings.segmentBudget = 1000;
-    const LearningReport report = learn(made.view(), settings).report;
-    EXPECT_NEAR(report.slidingSeconds, 11.78, 0.1);
-    EXPECT_THAT(report.warnings, ::testing::Contains(HasSubstr("was left out")));
-}
-
 TEST_F(LearnerTest, AConstantMotionIsLearntWithAWarning) {
     MadeRecording made({}, {.minimumSpeedMps = 0.08, .maximumSpeedMps = 0.08});
     made.velocity.clear();
@@ -271,16 +258,6 @@ TEST_F(LearnerTest, NamesAndLabelsThatCannotBeAreRefusedBeforeLearning) {
         settings.name = name;
         EXPECT_THROW((void)learn(made.view(), settings), std::invalid_argument) << name;
     }
-}
-
-TEST_F(LearnerTest, AModelWithThreeLabelsIsEnough) {
-    const model::ModelFile tiny = model::ModelFile::read(HAPTOFLOW_TEST_GOLDEN_DIR "/model/tiny.haptoflow");
-    const auto generator = haptoflow::testing::generatorOf(tiny, 64);
-    const MadeRecording made({}, {});
-    LearningSettings settings = brief();
-    settings.segmentBudget = 2000;
-    const LearntMaterial learnt = learnMaterial(made.view(), tiny, *generator, settings);
-    EXPECT_NO_THROW(model::requireSpace(model::parseMaterial(learnt.materialJson), tiny.header()));
 }
 
 }  // namespace

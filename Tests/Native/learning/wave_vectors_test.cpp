@@ -100,23 +100,6 @@ TEST(WaveVectorsTest, ARecordingOfShortUsableStretchesHasNoWaveVectorsAndDoesNot
     EXPECT_TRUE(vectorsOf(golden.recording).empty());
 }
 
-TEST(WaveVectorsTest, RibsAreFoundWithinTwoPercentInPitchAndDirection) {
-    const MadeSurface surface{.ribs = {0.8, 0.45}, .ribShare = 0.5};
-    const std::vector<WaveVector> found = vectorsOf(MadeRecording(surface, {}));
-    ASSERT_EQ(found.size(), 1U);
-    EXPECT_NEAR(found[0].x, 0.8, 0.016);
-    EXPECT_NEAR(found[0].y, 0.45, 0.016);
-}
-
-TEST(WaveVectorsTest, TwoFamiliesAreBothFound) {
-    const MadeSurface surface{.ribs = {0.9, 0.0}, .otherRibs = {0.1, 0.7}, .ribShare = 0.5};
-    std::vector<WaveVector> found = vectorsOf(MadeRecording(surface, {.seconds = 14.0}));
-    ASSERT_EQ(found.size(), 2U);
-    std::ranges::sort(found, {}, [](const WaveVector& each) { return std::abs(each.y); });
-    EXPECT_NEAR(std::abs(found[0].x), 0.9, 0.018);
-    EXPECT_NEAR(found[1].y * (found[1].x < 0.0 ? -1.0 : 1.0), 0.7, 0.014);
-}
-
 TEST(WaveVectorsTest, ASurfaceWithoutRibsHasNoWaveVectorsWhateverItsResonance) {
     for (const double resonanceHz : {40.0, 90.0, 180.0, 400.0}) {
         for (const unsigned seed : {1U, 2U, 3U}) {

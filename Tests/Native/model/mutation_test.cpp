@@ -1,4 +1,4 @@
-#include "../skeleton/skeleton_model.hpp"
+#include "../inference/skeleton_model.hpp"
 #include "random.hpp"
 #include "refusal.hpp"
 

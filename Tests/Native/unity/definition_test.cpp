@@ -42,19 +42,6 @@ TEST(DefinitionTest, TheDefinitionStatesItsLayout) {
     EXPECT_EQ(definition.flags, 0U);
 }
 
-TEST(DefinitionTest, EveryCallbackIsSet) {
-    const UnityHost host;
-    const AudioEffectDefinition& definition = *host.definitions()[0];
-    EXPECT_NE(definition.create, nullptr);
-    EXPECT_NE(definition.release, nullptr);
-    EXPECT_NE(definition.reset, nullptr);
-    EXPECT_NE(definition.process, nullptr);
-    EXPECT_NE(definition.setPosition, nullptr);
-    EXPECT_NE(definition.setParameter, nullptr);
-    EXPECT_NE(definition.getParameter, nullptr);
-    EXPECT_NE(definition.getBuffer, nullptr);
-}
-
 TEST(DefinitionTest, EveryTextFitsItsField) {
     const UnityHost host;
     const AudioEffectDefinition& definition = *host.definitions()[0];

@@ -35,22 +35,6 @@ protected:
 
 class StoppingFlagsTest : public StoppingTest, public ::testing::WithParamInterface<std::uint32_t> {};
 
-TEST_P(StoppingFlagsTest, TheRoutedChannelFallsSilentAndTheVoicesClockStops) {
-    effect.setFlags(GetParam());
-    voice_.slide();
-    (void)effect.process(frameOfAudio);
-    const std::uint64_t atRest = rendered();
-    for (int i = 0; i < 5; ++i) {
-        voice_.slide();
-        const Sound in = Sound::pattern(frameOfAudio, 2);
-        const Sound output = effect.process(in, 2);
-        EXPECT_THAT(output.channel(1), Each(0.0F));
-        EXPECT_EQ(output.channel(0), in.channel(0));
-        voice_.generate();
-    }
-    EXPECT_EQ(rendered(), atRest);
-}
-
 TEST_P(StoppingFlagsTest, TheVoiceFadesWithin5MsAndIsThenNotRendered) {
     SteppedVoice same(runtime_, model_);
     (void)reference(same, 10);

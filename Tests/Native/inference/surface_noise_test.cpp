@@ -1,5 +1,8 @@
 #include "skeleton/surface_noise.hpp"
 
+#include "inference/golden_file.hpp"
+#include "skeleton/gaussian_noise.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -160,25 +163,6 @@ TEST(SurfaceNoiseTest, PathsAPartOfASampleApartHaveOneWaveBelow700Hz) {
     }
 }
 
-TEST(SurfaceNoiseTest, TheFilterIsTheRootOfARaisedCosine) {
-    double meanSquare = 0.0;
-    const auto formula = [](double samples) {
-        const double time = std::numbers::pi * samples;
-        const double slope = 4.0 * noiseRollOff * samples;
-        return (std::sin(time * (1.0 - noiseRollOff)) + slope * std::cos(time * (1.0 + noiseRollOff))) /
-               (time * (1.0 - slope * slope));
-    };
-    const auto samplesOf = [](std::size_t tap) {
-        return (static_cast<double>(tap) + 0.5) / noiseSlotsPerSample - static_cast<double>(noiseReachSamples);
-    };
-    for (std::size_t tap = 0; tap < noiseKernel.size(); ++tap) {
-        meanSquare += std::pow(formula(samplesOf(tap)), 2) / noiseSlotsPerSample;
-    }
-    for (std::size_t tap = 0; tap < noiseKernel.size(); ++tap) {
-        EXPECT_NEAR(noiseKernel[tap], formula(samplesOf(tap)) / std::sqrt(meanSquare), 1e-7) << tap;
-    }
-}
-
 TEST(SurfaceNoiseTest, PathsBesideEachOtherLoseTheirLikenessWithinAMillimetre) {
     const auto beside = [](double metres) {
         double sum = 0.0;
@@ -223,6 +207,41 @@ TEST(SurfaceNoiseTest, PathsWithoutWayOrWithNumbersOfNoUseGiveTheOtherNumbers) {
         expected[4] = expected[5] = 0.0F;
         EXPECT_EQ(noise, expected);
     }
+}
+
+std::vector<float> noise(NoiseKey key, std::size_t count) {
+    std::vector<float> values(count);
+    fillStandardNormal(key, values);
+    return values;
+}
+
+TEST(PhiloxTest, PhiloxGivesThePublishedOutput) {
+    using Words = std::array<std::uint32_t, 4>;
+    EXPECT_EQ(philox({0, 0, 0, 0}, {0, 0}), (Words{0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8}));
+    EXPECT_EQ(philox({0xffffffff, 0xffffffff, 0xffffffff, 0xffffffff}, {0xffffffff, 0xffffffff}),
+              (Words{0x408f276d, 0x41c83b0e, 0xa20bc7c6, 0x6d5451fd}));
+    EXPECT_EQ(philox({0x243f6a88, 0x85a308d3, 0x13198a2e, 0x03707344}, {0xa4093822, 0x299f31d0}),
+              (Words{0xd16cfe09, 0x94fdcceb, 0x5001e420, 0x24126ea1}));
+}
+
+TEST(GaussianNoiseTest, AgreesWithPythonForEveryGoldenKey) {
+    const nlohmann::json golden = haptoflow::testing::readGolden("model/noise.expected.json");
+    for (const auto& row : haptoflow::testing::goldenRows(golden, "noise")) {
+        const auto expected = row.at("values").get<std::vector<float>>();
+        ASSERT_FALSE(expected.empty());
+        const NoiseKey key{row.at("seed").get<std::uint64_t>(), row.at("voice").get<std::uint32_t>(),
+                           row.at("segment").get<std::uint64_t>()};
+        const auto found = noise(key, expected.size());
+        for (std::size_t index = 0; index < expected.size(); ++index) {
+            EXPECT_NEAR(found[index], expected[index], 1e-6F) << row.dump().substr(0, 60) << " at " << index;
+        }
+    }
+}
+
+TEST(GaussianNoiseTest, TheSameKeyGivesTheSameNoiseForAnyLength) {
+    const auto longer = noise({9, 8, 7}, 201);
+    const auto shorter = noise({9, 8, 7}, 77);
+    EXPECT_TRUE(std::equal(shorter.begin(), shorter.end(), longer.begin()));
 }
 
 }  // namespace

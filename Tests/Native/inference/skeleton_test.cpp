@@ -57,38 +57,6 @@ TEST_F(SkeletonTest, AGainOnTheImpulsesChangesThemAlone) {
     }
 }
 
-TEST_F(SkeletonTest, NoiseLinesAndImpulsesAllPassThroughTheFilterAndTheGraphSeesThem) {
-    const SkeletonParameters parameters = parametersFor(ruled_);
-    SurfaceWaves waves(pieceSamples);
-    waves.add({.cycles = 0.25, .rateHz = 60.0}, parameters.families[0]);
-    waves.add({.cycles = 0.5, .rateHz = -130.0}, parameters.families[1]);
-    TailImpulses::Ringing impulses{};
-    TailImpulses().add(std::span(noise_).first(pieceSamples), parameters.impulseGains, impulses);
-    const double gain = std::exp(parameters.filter.logGain);
-    Piece drive{};
-    for (std::size_t n = 0; n < pieceSamples; ++n) {
-        const double swing = 2.0 * std::tanh(0.5 * static_cast<double>(waves.swing()[n]));
-        const double drawn = static_cast<double>(noise_[n]) * std::exp(swing) + static_cast<double>(waves.lines()[n]) +
-                             static_cast<double>(impulses[n]);
-        drive[n] = static_cast<float>(gain * drawn);
-    }
-    std::array<double, filterOrder> past{};
-    std::copy(previous_.end() - filterOrder, previous_.end(), past.begin());
-    Piece filtered{};
-    parameters.filter.run(past, drive, filtered);
-    NetworkInput input = segmentOf(ruled_, noise_);
-    for (std::size_t n = 0; n < pieceSamples; ++n) {
-        EXPECT_NEAR(input.segment()[n], filtered[n], 1e-5) << n;
-        EXPECT_NEAR(input.piece(1, n, 1)[0], gain * static_cast<double>(impulses[n]), 1e-5) << n;
-    }
-    // Cosines of the first harmonic of both families at the first sample, .25 ms into the segment.
-    const auto angle = [](double cycles, double rateHz) {
-        return 2.0 * std::numbers::pi * (cycles + rateHz * 0.5 / 2000.0);
-    };
-    EXPECT_NEAR(input.piece(2, 0, 1)[0], std::cos(angle(0.25, 60.0)) + std::cos(angle(-0.5, 130.0)), 1e-5);
-    EXPECT_NEAR(input.piece(7, 0, 1)[0], std::sin(angle(0.25, 60.0)) + std::sin(angle(-0.5, 130.0)), 1e-5);
-}
-
 TEST_F(SkeletonTest, AnUnruledSurfaceHasNoWavesAndItsTurnsDoNotMatter) {
     const Phases still{0.7F, 0.2F, 0.9F, 0.0F, 0.4F, -0.5F};
     const Phases other{0.0F, 0.0F, 0.0F, 0.0F, 0.4F, -0.5F};
@@ -135,23 +103,6 @@ TEST(LevelModelTest, TheLawIsLinearInTheLogarithmsAndTheCorrectionIsLimited) {
     const std::array<float, embeddingSize> embedding{0.5F};
     const double expected = 1.0 + 0.5 + 0.75 * std::log(0.0605 / 0.06) + 0.25 * std::log(2.02) + 0.9;
     EXPECT_NEAR(level.logLevel(embedding, {0.0F, 0.06F, 2.0F}), expected, 1e-6);
-}
-
-TEST(LevelModelTest, TheCorrectionSeesHowFastTheTipCrossesRibs) {
-    const auto zeros = [](std::size_t count) { return std::vector<float>(count); };
-    // SiLU(20 + x) - 20 = x: the hidden units hand on the rate of the second family.
-    std::vector<float> first = zeros(LevelModel::correctionInputs);
-    first.back() = 1.0F;
-    const std::vector<float> one{1.0F};
-    const Perceptron correction({{first, std::array<float, 1>{20.0F}}, {one, zeros(1)}},
-                                {one, std::array<float, 1>{-20.0F}});
-    const LevelModel level({zeros(3 * embeddingSize), zeros(3)}, correction);
-    std::array<float, embeddingSize> embedding{};
-    embedding[embeddingSize - 1] = 0.5F;
-    const auto expected = [](double rateHz) { return 0.9 * std::tanh(0.25 * std::log1p(rateHz)); };
-    EXPECT_NEAR(level.logLevel(embedding, {0.3F, -0.1F, 1.0F}), expected(50.0), 1e-5);
-    EXPECT_NEAR(level.logLevel(embedding, {0.3F, 0.0F, 1.0F}), 0.0, 1e-5);
-    EXPECT_NEAR(level.logLevel(std::array<float, embeddingSize>{}, {0.3F, 0.1F, 1.0F}), 0.0, 1e-5);
 }
 
 }  // namespace

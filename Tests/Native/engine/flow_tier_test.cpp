@@ -1,5 +1,6 @@
 #include "engine/offline_renderer.hpp"
 #include "simulated_device.hpp"
+#include "skeleton/surface_noise.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +10,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
-#include <optional>
-#include <ranges>
 #include <span>
 #include <string>
 #include <vector>
@@ -32,8 +31,6 @@ constexpr double seedSpeedMps = 0.1;
 /// Cycles per millimetre; at 0.1 m/s, the tip crosses 20 ribs per second.
 constexpr float coarse = 0.2F;
 constexpr float fine = 0.35F;
-/// The first segment fades in over 5 ms.
-constexpr std::size_t fadeInSamples = 14;
 
 double cyclesPerSample(std::span<const float> waveVector, const std::array<float, 3>& motion) {
     return (static_cast<double>(waveVector[0]) * static_cast<double>(motion[0]) +
@@ -41,7 +38,7 @@ double cyclesPerSample(std::span<const float> waveVector, const std::array<float
            1000.0 / inference::waveformRateHz;
 }
 
-float ribs(double cycles) {
+float ribWave(double cycles) {
     return static_cast<float>(std::numbers::sqrt2 * std::sin(2.0 * std::numbers::pi * cycles));
 }
 
@@ -49,7 +46,7 @@ float ribs(double cycles) {
 void ribsOf(const SegmentRequest& request, std::span<float> segment) {
     const double step = cyclesPerSample(std::span(request.embedding).subspan(60, 2), request.motion);
     for (std::size_t i = 0; i < segment.size(); ++i) {
-        segment[i] = ribs(static_cast<double>(request.phases[0]) + step * static_cast<double>(i));
+        segment[i] = ribWave(static_cast<double>(request.phases[0]) + step * static_cast<double>(i));
     }
 }
 
@@ -101,64 +98,7 @@ protected:
         speedsMps_.clear();
         turns_.clear();
     }
-
-    static std::optional<ContactState> slide(double) { return onLabel(0); }
-
-    /// Once the first segment sounds, without its beginning.
-    static std::size_t firstSample(const SimulatedDevice& device) {
-        return static_cast<std::size_t>(device.waveform.seams.at(0)) + fadeInSamples;
-    }
-
-    /// The largest difference between the played waveform and the sinusoid of the ribs since touch-down, at constant
-    /// speed.
-    static float largestError(const SimulatedDevice& device, double firstPhase, double cycles) {
-        const std::vector<float>& played = device.waveform.samples;
-        float largest = 0.0F;
-        for (std::size_t i = firstSample(device); i < played.size(); ++i) {
-            // The output is three samples late, which is anticipated; two of them are read ahead at the onset.
-            largest = std::max(largest, std::abs(played[i] - ribs(firstPhase + cycles * static_cast<double>(i + 1))));
-        }
-        return largest;
-    }
 };
-
-TEST_F(RibPhaseTest, AtConstantSpeedTheRibsContinueTheSeedsWithoutAJump) {
-    for (const double updateHz : {30.0, 72.0, 120.0}) {
-        for (const double latency : {0.002, 0.012, 0.045}) {
-            DeviceSettings settings;
-            settings.updateHz = updateHz;
-            settings.latencySeconds = [latency](double) { return latency; };
-            SimulatedDevice device(model_, generator_, settings);
-            device.run(2.0, slide);
-            ASSERT_GT(device.waveform.samples.size(), 3000U);
-            ASSERT_GT(device.counters().inferences, 20U);
-            EXPECT_LT(largestError(device, seedPhase, 0.01), 2e-3F) << updateHz << " Hz, " << latency;
-        }
-    }
-}
-
-TEST_F(RibPhaseTest, AReversedStrokeCrossesTheSameRibsBackwards) {
-    SimulatedDevice device(model_, generator_);
-    device.run(1.0, slide);
-    std::size_t turn = 0;
-    device.run(0.9, [&](double) {
-        if (turn == 0) {
-            turn = static_cast<std::size_t>(device.voice().renderer.voice().waveform().head() - device.waveform.origin);
-        }
-        return onLabel(0, -static_cast<float>(seedSpeedMps));
-    });
-    const auto back = std::ranges::find_if(speedsMps_, [](float speed) { return speed < 0.0F; });
-    ASSERT_EQ(device.counters().dropped, 0U) << "every request must have a seam";
-    // Until the first segment backwards, the last one forwards is heard.
-    const auto seam = static_cast<std::size_t>(
-        device.waveform.seams.at(static_cast<std::size_t>(std::distance(speedsMps_.begin(), back))));
-    const std::vector<float>& played = device.waveform.samples;
-    ASSERT_GT(played.size(), turn + 1500);
-    ASSERT_LT(seam, turn + 40);
-    for (std::size_t n = seam - turn + 5; n < 1500; ++n) {
-        ASSERT_NEAR(played[turn + n], played[turn - n], 3e-3F) << n << " samples from the turn";
-    }
-}
 
 TEST_F(RibPhaseTest, SpeedChangesAtEveryUpdateMakeNoPhaseJump) {
     for (const std::size_t blockFrames : {64U, 256U, 1024U}) {
@@ -198,39 +138,126 @@ TEST_F(RibPhaseTest, ATouchBeginsWithThePhaseOfItsSeed) {
     EXPECT_NEAR(phases_.front()[1], 0.125F, 1e-6F) << "the tip does not move along the second wave vector";
 }
 
-TEST_F(RibPhaseTest, AFailedRunLeavesThePhaseAlone) {
-    int runs = 0;
-    FakeGenerator failing([&](const SegmentRequest& request, std::span<float> segment) {
-        if (++runs % 3 == 0) {
-            throw inference::InferenceError("a test says so");
-        }
-        ribsOf(request, segment);
-    });
-    SimulatedDevice device(model_, failing);
-    device.run(2.0, slide);
-    ASSERT_GT(device.counters().failures, 20U);
-    EXPECT_LT(largestError(device, seedPhase, 0.01), 2e-3F);
+// The noise of a voice belongs to the place: whatever the blocks, the frames and the latencies, a place is heard with
+// its own noise at the moment at which the tip is there.
+
+ContactState at(double metres, double speedMps) {
+    ContactState state = testing::sliding(static_cast<float>(speedMps));
+    state.hasPlace = 1;
+    state.surfaceSeed = 11;
+    state.placeMetres = {static_cast<float>(metres), 0.0F, 0.25F};
+    state.firstAxis = {1.0F, 0.0F, 0.0F};
+    state.secondAxis = {0.0F, 0.0F, -1.0F};
+    return state;
 }
 
-TEST_F(RibPhaseTest, LiveVoiceAndOfflineRendererHaveTheSameRibPhases) {
-    const auto hand = [](double t) {
-        return onLabel(0, 0.1F + 0.06F * static_cast<float>(std::sin(2.0 * std::numbers::pi * t)));
-    };
-    const std::vector<TimedContactState> states = testing::statesOf(2.0, hand);
-    const OfflineRender offline = renderOffline(model_, generator_, states, {.leadMs = 8.0});
-    DeviceSettings settings;
-    settings.fixedLeadSamples = 16;
-    settings.blockFrames = 48;
-    SimulatedDevice device(model_, generator_, settings);
-    device.run(2.0, hand);
-    const std::size_t common = std::min(offline.waveformMps2.size(), device.waveform.samples.size());
-    ASSERT_GT(common, 3500U);
-    // With blocks of 1 ms, the tip may be up to a sixtieth of a rib further.
-    float largest = 0.0F;
-    for (std::size_t i = firstSample(device); i < common; ++i) {
-        largest = std::max(largest, std::abs(offline.waveformMps2[i] - device.waveform.samples[i]));
+double correlation(std::span<const float> left, std::span<const float> right) {
+    double product = 0.0;
+    double leftPower = 0.0;
+    double rightPower = 0.0;
+    for (std::size_t i = 0; i < left.size(); ++i) {
+        product += static_cast<double>(left[i]) * static_cast<double>(right[i]);
+        leftPower += static_cast<double>(left[i]) * static_cast<double>(left[i]);
+        rightPower += static_cast<double>(right[i]) * static_cast<double>(right[i]);
     }
-    EXPECT_LT(largest, std::numbers::sqrt2_v<float> * 2.0F * std::numbers::pi_v<float> * 0.05F);
+    return product / std::sqrt(leftPower * rightPower);
+}
+
+class PlaceTest : public ::testing::Test {
+protected:
+    /// What is heard on a stroke from `startMetres`, with a network that passes its noise on.
+    std::vector<float> heard(const DeviceSettings& settings, double startMetres, double speedMps,
+                             double seconds = 1.0) {
+        SimulatedDevice device(model_, noise_, settings);
+        device.run(seconds, [&](double t) { return at(startMetres + speedMps * t, speedMps); });
+        EXPECT_EQ(device.counters().underruns, 0U);
+        return device.waveform.samples;
+    }
+
+    /// The noise of the stroke's places, from the field itself.
+    static std::vector<float> field(double startMetres, double speedMps, std::size_t count) {
+        constexpr std::size_t pieceSamples = 32;
+        const double stepMetres = speedMps / 2000.0;
+        skeleton::SurfaceNoise surfaceNoise;
+        std::vector<float> noise(count);
+        for (std::size_t first = 0; first < count; first += pieceSamples) {
+            surfaceNoise.next(0x9E3779B97F4A7C15U + 11U,
+                              {.startMetres = {startMetres + stepMetres * static_cast<double>(first), 0.0, 0.25},
+                               .stepMetres = {stepMetres, 0.0, 0.0}},
+                              {}, std::span(noise).subspan(first, std::min(pieceSamples, count - first)));
+        }
+        return noise;
+    }
+
+    /// The best correlation of `count` samples from sample `first`, and the shift at which it is found.
+    struct Match {
+        double correlation = -1.0;
+        double samples = 0.0;
+    };
+    static Match match(const std::vector<float>& heard, double startMetres, double speedMps) {
+        constexpr std::size_t first = 400;
+        constexpr std::size_t count = 1200;
+        Match best;
+        for (double samples = -20.0; samples <= 20.0; samples += 0.25) {
+            const std::vector<float> expected =
+                field(startMetres + speedMps / 2000.0 * (static_cast<double>(first) + samples), speedMps, count);
+            const double found = correlation(std::span(heard).subspan(first, count), expected);
+            if (found > best.correlation) {
+                best = {found, samples};
+            }
+        }
+        return best;
+    }
+
+    model::ModelFile model_ = testing::smallModel();
+    FakeGenerator noise_{testing::whiteNoise};
+};
+
+TEST_F(PlaceTest, APlaceIsHeardWhenTheTipIsThereWhateverTheDevice) {
+    for (const std::size_t blockFrames : {64U, 480U, 1024U}) {
+        for (const double updateHz : {60.0, 90.0}) {
+            for (const double latency : {0.002, 0.02}) {
+                DeviceSettings settings;
+                settings.blockFrames = blockFrames;
+                settings.updateHz = updateHz;
+                settings.latencySeconds = [latency](double) { return latency; };
+                settings.readsClock = true;
+                const Match found = match(heard(settings, 0.05, 0.1), 0.05, 0.1);
+                EXPECT_GT(found.correlation, 0.999) << blockFrames << " frames, " << updateHz << " Hz, " << latency;
+                // The output is three samples late, which is anticipated; two of them are read ahead at the onset.
+                EXPECT_NEAR(found.samples, 1.0, 0.05) << blockFrames << " frames, " << updateHz << " Hz, " << latency;
+            }
+        }
+    }
+}
+
+TEST_F(PlaceTest, AnotherPlaceHasOtherNoise) {
+    DeviceSettings settings;
+    settings.readsClock = true;
+    const std::vector<float> first = heard(settings, 0.05, 0.1);
+    EXPECT_GT(match(first, 0.05, 0.1).correlation, 0.999);
+    EXPECT_LT(match(first, 0.25, 0.1).correlation, 0.2);
+}
+
+TEST_F(PlaceTest, WithoutAPlaceTheNoiseIsWhiteAndDiffersFromTouchToTouch) {
+    std::array<std::vector<float>, 2> touches;
+    SimulatedDevice device(model_, noise_, {});
+    for (std::uint32_t touch = 1; touch <= 2; ++touch) {
+        const std::size_t before = device.waveform.samples.size();
+        device.run(0.6, [touch](double) {
+            ContactState state = testing::sliding(0.1F);
+            state.touchCounter = touch;
+            return state;
+        });
+        device.run(0.1, [touch](double) { return testing::lifted(touch); });
+        touches[touch - 1].assign(device.waveform.samples.begin() + static_cast<std::ptrdiff_t>(before + 300),
+                                  device.waveform.samples.begin() + static_cast<std::ptrdiff_t>(before + 1100));
+    }
+    EXPECT_NEAR(correlation(touches[0], touches[1]), 0.0, 0.15);
+    for (const std::vector<float>& touch : touches) {
+        EXPECT_NEAR(haptoflow::testing::levelDecibels(touch), 0.0, 1.0);
+        EXPECT_NEAR(correlation(std::span(touch).first(799), std::span(touch).last(799)), 0.0, 0.15);
+    }
 }
 
 }  // namespace
