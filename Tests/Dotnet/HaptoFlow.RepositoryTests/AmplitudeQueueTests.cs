@@ -3,19 +3,18 @@ using System;
 using System.Linq;
 using HaptoFlow.Outputs;
 using NUnit.Framework;
+using static HaptoFlow.RepositoryTests.Playback;
 
 namespace HaptoFlow.RepositoryTests
 {
     /// <summary>The commands that a simulated motor receives.</summary>
     public sealed class AmplitudeQueueTests
     {
-        private const double FrameSeconds = 1.0 / 72.0;
-
         [Test]
         public void TheMotorIsUpdatedForAMinuteAndNeverFasterThanItAccepts([Values(45.0, 72.0, 500.0)] double rateHz)
         {
             var motor = new SimulatedMotor { RateHz = rateHz };
-            AmplitudeQueue queue = QueueFor(motor, SimulatedWave.Sine(120.0));
+            var queue = new AmplitudeQueue(motor, SimulatedWave.Sine(120.0));
             double now = 0.0;
             int silent = 0;
             var random = new Random(3);
@@ -23,7 +22,7 @@ namespace HaptoFlow.RepositoryTests
             {
                 now += FrameSeconds * (0.85 + 0.3 * random.NextDouble());
                 silent += now > 1.0 && motor.AmplitudeAt(now) <= 0f ? 1 : 0;
-                motor.Now = now;
+                motor.AdvanceTo(now);
                 queue.Update(now);
                 Assert.That(queue.Statistics.LatencyMilliseconds, Is.LessThan(1000.0 * (0.0135 + 1.3 / rateHz + 2.0 * FrameSeconds)));
             }
@@ -37,7 +36,7 @@ namespace HaptoFlow.RepositoryTests
         public void APlayableToneKeepsItsAmplitudeAndFrequency([Values(0.05, 0.2, 0.6)] double amplitude)
         {
             var motor = new SimulatedMotor { MinFrequencyHz = 60.0, MaxFrequencyHz = 400.0 };
-            Play(motor, QueueFor(motor, SimulatedWave.Sine(216.0, amplitude)), 0.0, 1.0);
+            Play(motor, new AmplitudeQueue(motor, SimulatedWave.Sine(216.0, amplitude)), 0.0, 1.0);
             Assert.That(motor.Commands.Skip(8).Select(each => (double)each.Amplitude),
                 Is.All.EqualTo(amplitude).Within(0.08 * amplitude));
             Assert.That(motor.Commands.Skip(8).Select(each => (double)each.Hertz), Is.All.EqualTo(216.0).Within(12.0));
@@ -47,7 +46,7 @@ namespace HaptoFlow.RepositoryTests
         public void AnUnknownMotorPlays160HertzOfTheSameIntensity()
         {
             var motor = new SimulatedMotor();
-            AmplitudeQueue queue = QueueFor(motor, SimulatedWave.Sine(400.0, 0.2));
+            var queue = new AmplitudeQueue(motor, SimulatedWave.Sine(400.0, 0.2));
             queue.FullScaleMps2 = 60f;
             Play(motor, queue, 0.0, 1.0);
             // The threshold of perception is 0.56 m/s^2 at 400 Hz and 0.03 m/s^2 at 160 Hz, so 12 m/s^2 at 400 Hz feel
@@ -62,7 +61,7 @@ namespace HaptoFlow.RepositoryTests
             // The amplitude is modulated at 3 Hz.
             static double Envelope(double seconds) => 0.4 + 0.3 * Math.Sin(2.0 * Math.PI * 3.0 * seconds);
             var motor = new SimulatedMotor { MinFrequencyHz = 60.0, MaxFrequencyHz = 400.0 };
-            Play(motor, QueueFor(motor, new SimulatedWave(seconds =>
+            Play(motor, new AmplitudeQueue(motor, new SimulatedWave(seconds =>
                 Envelope(seconds) * Math.Sin(2.0 * Math.PI * 216.0 * seconds))), 0.0, 3.0);
             foreach ((double seconds, float amplitude, _, _) in motor.Commands.Skip(5))
             {
@@ -76,7 +75,7 @@ namespace HaptoFlow.RepositoryTests
         {
             // A tone of 100 Hz, and an impact of 320 Hz at 0.5 s.
             var motor = new SimulatedMotor { MinFrequencyHz = 60.0, MaxFrequencyHz = 400.0 };
-            Play(motor, QueueFor(motor, new SimulatedWave(seconds =>
+            Play(motor, new AmplitudeQueue(motor, new SimulatedWave(seconds =>
                 0.02 * Math.Sin(2.0 * Math.PI * 100.0 * seconds) + (seconds < 0.5 ? 0.0 : 0.6 *
                     Math.Exp(-80.0 * (seconds - 0.5)) * Math.Sin(2.0 * Math.PI * 320.0 * (seconds - 0.5))))), 0.0, 1.0);
             (double _, float amplitude, float hertz, float _) = motor.Commands.OrderBy(each => each.Amplitude).Last();
@@ -88,7 +87,7 @@ namespace HaptoFlow.RepositoryTests
         public void AHitchCausesAGapAndNoStuckVibration()
         {
             var motor = new SimulatedMotor();
-            AmplitudeQueue queue = QueueFor(motor, SimulatedWave.Sine(160.0));
+            var queue = new AmplitudeQueue(motor, SimulatedWave.Sine(160.0));
             double now = Play(motor, queue, 0.0, 1.0);
             Assert.That(motor.AmplitudeAt(now + AmplitudeQueue.MaximumSeconds), Is.Zero);
             Play(motor, queue, now + 0.2, 0.5);
@@ -101,7 +100,7 @@ namespace HaptoFlow.RepositoryTests
         {
             var motor = new SimulatedMotor();
             SimulatedWave wave = SimulatedWave.Sine(120.0);
-            AmplitudeQueue queue = QueueFor(motor, wave);
+            var queue = new AmplitudeQueue(motor, wave);
             double now = Play(motor, queue, 0.0, 1.0);
             wave.IsStopped = true;
             now = Play(motor, queue, now, 0.5 * FrameSeconds);
@@ -113,7 +112,7 @@ namespace HaptoFlow.RepositoryTests
         {
             var motor = new SimulatedMotor();
             SimulatedWave wave = SimulatedWave.Sine(120.0);
-            AmplitudeQueue queue = QueueFor(motor, wave);
+            var queue = new AmplitudeQueue(motor, wave);
             double now = Play(motor, queue, 0.0, 1.0);
             float before = motor.AmplitudeAt(now);
             wave.IsSilent = true;
@@ -138,14 +137,14 @@ namespace HaptoFlow.RepositoryTests
             var random = new Random(seed);
             var motor = new SimulatedMotor();
             SimulatedWave wave = SimulatedWave.Sine(90.0, 0.9);
-            AmplitudeQueue queue = QueueFor(motor, wave);
+            var queue = new AmplitudeQueue(motor, wave);
             queue.Gain = 5f;
             queue.Ceiling = 0.7f;
             double now = 0.0;
             for (int frame = 0; frame < 4000; ++frame)
             {
                 now += random.Next(40) == 0 ? 0.3 * random.NextDouble() : FrameSeconds * (0.7 + 0.6 * random.NextDouble());
-                motor.Now = now;
+                motor.AdvanceTo(now);
                 wave.IsSilent ^= random.Next(20) == 0;
                 wave.IsStopped ^= random.Next(30) == 0;
                 motor.IsThere ^= random.Next(60) == 0;
@@ -158,20 +157,6 @@ namespace HaptoFlow.RepositoryTests
                 }
             }
             Assert.That(motor.Commands.Max(each => each.Amplitude), Is.LessThanOrEqualTo(0.7f));
-        }
-
-        private static AmplitudeQueue QueueFor(SimulatedMotor motor, SimulatedWave wave) =>
-            new AmplitudeQueue(motor, wave);
-
-        private static double Play(SimulatedMotor motor, AmplitudeQueue queue, double from, double seconds)
-        {
-            double now = from;
-            for (; now < from + seconds; now += FrameSeconds)
-            {
-                motor.Now = now;
-                queue.Update(now);
-            }
-            return now;
         }
     }
 }

@@ -135,7 +135,7 @@ namespace HaptoFlow.RepositoryTests
             queue.FullScaleMps2 = FullScaleMps2;
             for (double now = 1.0 / frameHz; now < wave.Length / WaveHistory.RateHz; now += 1.0 / frameHz)
             {
-                motor.Now = now;
+                motor.AdvanceTo(now);
                 device.AdvanceTo(now);
                 queue.Update(now);
             }

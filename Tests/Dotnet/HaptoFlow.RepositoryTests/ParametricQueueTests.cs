@@ -3,6 +3,7 @@ using System;
 using System.Linq;
 using HaptoFlow.Outputs;
 using NUnit.Framework;
+using static HaptoFlow.RepositoryTests.Playback;
 
 namespace HaptoFlow.RepositoryTests
 {
@@ -10,21 +11,19 @@ namespace HaptoFlow.RepositoryTests
     /// rule of streams is violated.</summary>
     public sealed class ParametricQueueTests
     {
-        private const double FrameSeconds = 1.0 / 72.0;
-
         [Test]
         public void TheQueueNeitherStarvesNorGrowsInAMinute(
             [Values(0.0, 45.0, 100.0)] double rateHz, [Values(-0.005, 0.0, 0.005)] double drift)
         {
             var device = new SimulatedParametricDevice { RateHz = rateHz, Drift = drift };
-            ParametricQueue queue = QueueFor(device, SimulatedWave.Sine(150.0));
+            var queue = new ParametricQueue(device, SimulatedWave.Sine(150.0));
             var random = new Random(3);
             double now = 0.0;
             double deepest = 0.0;
             for (int frame = 0; now < 60.0; ++frame)
             {
                 now += FrameSeconds * (0.85 + 0.3 * random.NextDouble());
-                device.Now = now;
+                device.AdvanceTo(now);
                 Assert.That(device.IsStarved && frame > 20, Is.False, $"starved at {now} s");
                 queue.Update(now);
                 deepest = Math.Max(deepest, device.DepthSeconds);
@@ -38,7 +37,7 @@ namespace HaptoFlow.RepositoryTests
         {
             static double Envelope(double seconds) => 0.4 + 0.3 * Math.Sin(2.0 * Math.PI * 6.0 * seconds);
             var device = new SimulatedParametricDevice();
-            ParametricQueue queue = QueueFor(device, new SimulatedWave(seconds =>
+            var queue = new ParametricQueue(device, new SimulatedWave(seconds =>
                 Envelope(seconds) * Math.Sin(2.0 * Math.PI * 250.0 * seconds)));
             double now = 0.0;
             double worst = 0.0;
@@ -46,7 +45,7 @@ namespace HaptoFlow.RepositoryTests
             for (int frame = 0; frame < 200; ++frame)
             {
                 now = frame * FrameSeconds;
-                device.Now = now;
+                device.AdvanceTo(now);
                 queue.Update(now);
                 began = double.IsNaN(began) && queue.IsPlaying ? now - FrameSeconds : began;
                 for (double at = now; at < now + FrameSeconds && now > 0.2; at += 0.008)
@@ -66,7 +65,7 @@ namespace HaptoFlow.RepositoryTests
         public void AnOnsetIsPlayedAsATransient()
         {
             var device = new SimulatedParametricDevice();
-            Play(device, QueueFor(device, new SimulatedWave(seconds => seconds % 0.5 < 0.25
+            Play(device, new ParametricQueue(device, new SimulatedWave(seconds => seconds % 0.5 < 0.25
                 ? 0.02 * Math.Sin(1000.0 * seconds) : 0.6 * Math.Sin(1000.0 * seconds))), 0.0, 2.0);
             Assert.That(device.Knocks.Count, Is.InRange(3, 8));
             Assert.That(device.Knocks.Count(knock => knock.Amplitude > 0.35f), Is.InRange(3, 4), "one for each onset");
@@ -76,11 +75,11 @@ namespace HaptoFlow.RepositoryTests
         public void AStreamBeginsFromSilenceAfterAHitch()
         {
             var device = new SimulatedParametricDevice();
-            ParametricQueue queue = QueueFor(device, SimulatedWave.Sine(150.0));
+            var queue = new ParametricQueue(device, SimulatedWave.Sine(150.0));
             double now = Play(device, queue, 0.0, 1.0);
             Assert.That(device.AmplitudeAt(now + 0.1), Is.Zero, "a stream that gets nothing more ends by itself");
             now += 0.2;
-            device.Now = now;
+            device.AdvanceTo(now);
             queue.Update(now);
             Assert.That(device.AmplitudeAt(now), Is.Zero);
             Assert.That(device.AmplitudeAt(now + 0.01), Is.EqualTo(0.3f).Within(0.05f));
@@ -92,10 +91,10 @@ namespace HaptoFlow.RepositoryTests
         {
             var device = new SimulatedParametricDevice();
             SimulatedWave wave = SimulatedWave.Sine(150.0);
-            ParametricQueue queue = QueueFor(device, wave);
+            var queue = new ParametricQueue(device, wave);
             double now = Play(device, queue, 0.0, 1.0);
             wave.IsStopped = true;
-            device.Now = now;
+            device.AdvanceTo(now);
             queue.Update(now);
             Assert.That(device.AmplitudeAt(now), Is.Zero);
             wave.IsStopped = false;
@@ -115,13 +114,13 @@ namespace HaptoFlow.RepositoryTests
             var random = new Random(seed);
             var device = new SimulatedParametricDevice { Drift = 0.01 * (random.NextDouble() - 0.5) };
             SimulatedWave wave = SimulatedWave.Sine(90.0, 0.9);
-            ParametricQueue queue = QueueFor(device, wave);
+            var queue = new ParametricQueue(device, wave);
             queue.Gain = 3f;
             double now = 0.0;
             for (int frame = 0; frame < 4000; ++frame)
             {
                 now += random.Next(40) == 0 ? 0.3 * random.NextDouble() : FrameSeconds * (0.7 + 0.6 * random.NextDouble());
-                device.Now = now;
+                device.AdvanceTo(now);
                 wave.IsSilent ^= random.Next(20) == 0;
                 wave.IsStopped ^= random.Next(30) == 0;
                 if (random.Next(60) == 0)
@@ -148,21 +147,6 @@ namespace HaptoFlow.RepositoryTests
                 queue.Update(now);
             }
             Assert.That(GC.GetAllocatedBytesForCurrentThread() - before, Is.Zero);
-        }
-
-        private static ParametricQueue QueueFor(SimulatedParametricDevice device, SimulatedWave wave) =>
-            new ParametricQueue(device, wave);
-
-        private static double Play(SimulatedParametricDevice device, ParametricQueue queue, double from, double seconds)
-        {
-            double now = from;
-            for (; now < from + seconds; now += FrameSeconds)
-            {
-                device.Now = now;
-                queue.Update(now);
-            }
-            device.Now = now;
-            return now;
         }
 
         private sealed class Silent : IParametricSink

@@ -5,8 +5,33 @@ using HaptoFlow.Outputs;
 
 namespace HaptoFlow.RepositoryTests
 {
+    /// <summary>A device whose clock the test moves.</summary>
+    internal interface ISimulatedDevice
+    {
+        void AdvanceTo(double seconds);
+    }
+
+    internal static class Playback
+    {
+        public const double FrameSeconds = 1.0 / 72.0;
+
+        /// <summary>Updates a queue once a frame.</summary>
+        /// <returns>The time after the last frame.</returns>
+        public static double Play(ISimulatedDevice device, HapticQueue queue, double from, double seconds)
+        {
+            double now = from;
+            for (; now < from + seconds; now += FrameSeconds)
+            {
+                device.AdvanceTo(now);
+                queue.Update(now);
+            }
+            device.AdvanceTo(now);
+            return now;
+        }
+    }
+
     /// <summary>A motor that plays each command for its duration.</summary>
-    internal sealed class SimulatedMotor : IAmplitudeSink
+    internal sealed class SimulatedMotor : IAmplitudeSink, ISimulatedDevice
     {
         private double endsSeconds;
         private float amplitude;
@@ -21,10 +46,12 @@ namespace HaptoFlow.RepositoryTests
 
         public bool IsThere { get; set; } = true;
 
-        public double Now { get; set; }
+        public double Now { get; private set; }
 
         public List<(double Seconds, float Amplitude, float Hertz, float Duration)> Commands { get; } =
             new List<(double, float, float, float)>();
+
+        public void AdvanceTo(double seconds) => Now = seconds;
 
         public float AmplitudeAt(double seconds) => seconds < endsSeconds ? amplitude : 0f;
 
@@ -51,7 +78,7 @@ namespace HaptoFlow.RepositoryTests
 
     /// <summary>A device that plays streams of points on its own clock, and checks the rules of its makers. A stream
     /// without new points continues for 50 ms.</summary>
-    internal sealed class SimulatedParametricDevice : IParametricSink
+    internal sealed class SimulatedParametricDevice : IParametricSink, ISimulatedDevice
     {
         private const double ExtensionSeconds = 0.05;
 
@@ -69,7 +96,7 @@ namespace HaptoFlow.RepositoryTests
 
         public bool IsThere { get; set; } = true;
 
-        public double Now { get; set; }
+        public double Now { get; private set; }
 
         public int Streams { get; private set; }
 
@@ -84,6 +111,8 @@ namespace HaptoFlow.RepositoryTests
 
         /// <summary>How often the points ran out before the stream ended.</summary>
         public bool IsStarved => points.Count > 0 && !hasEnded && StreamTime(Now) > points[^1].Seconds;
+
+        public void AdvanceTo(double seconds) => Now = seconds;
 
         public float AmplitudeAt(double seconds)
         {
@@ -178,7 +207,7 @@ namespace HaptoFlow.RepositoryTests
 
     /// <summary>A controller with its own clock. It plays submitted samples one after another, and 0 when it has none.
     /// A submission that replaces the previous one is played from the moment of the call.</summary>
-    internal sealed class SimulatedWaveDevice : IWaveformSink
+    internal sealed class SimulatedWaveDevice : IWaveformSink, ISimulatedDevice
     {
         private readonly Queue<float> waiting = new Queue<float>();
         private double nextSampleSeconds;

@@ -3,14 +3,13 @@ using System;
 using System.Linq;
 using HaptoFlow.Outputs;
 using NUnit.Framework;
+using static HaptoFlow.RepositoryTests.Playback;
 
 namespace HaptoFlow.RepositoryTests
 {
     /// <summary>The samples that reach a simulated device with its own clock.</summary>
     public sealed class WaveformQueueTests
     {
-        private const double FrameSeconds = 1.0 / 72.0;
-
         // At 45 Hz the filter reads 1.5 samples of the device ahead, and a sample lasts 22 ms.
         private static double MaximumLatencyMs(double rateHz) => 1000.0 * (FramePace.MaximumDepthSeconds +
             2.0 / rateHz + Math.Max(0.012, 1.6 / rateHz));
@@ -277,18 +276,6 @@ namespace HaptoFlow.RepositoryTests
                 }
             }
             return 10.0 * Math.Log10(Math.Max(1e-12, (all - near) / all));
-        }
-
-        private static double Play(SimulatedWaveDevice device, WaveformQueue queue, double from, double seconds)
-        {
-            double now = from;
-            for (; now < from + seconds; now += FrameSeconds)
-            {
-                device.AdvanceTo(now);
-                queue.Update(now);
-            }
-            device.AdvanceTo(now);
-            return now;
         }
 
         private static float[] Between(SimulatedWaveDevice device, double from, double to) => device.Played

@@ -183,24 +183,6 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
-        public IEnumerator AnExclusiveChannelCarriesOnlyTheHaptics()
-        {
-            GameObject listener = Make("Ears");
-            listener.AddComponent<AudioSource>();
-            listener.AddComponent<SteadySource>();
-            var output = listener.AddComponent<HapticOutput>();
-            output.Channel = 1;
-            output.Route = OutputRoute.ListenerChannel;
-            var tap = listener.AddComponent<AudioTap>();
-            HapticStylus stylus = StylusAlong(_ => new Vector3(0f, 0.05f, 0f));
-            stylus.Output = output;
-            yield return Frames(20);
-            Assert.That(tap.Blocks, Is.GreaterThan(0));
-            Assert.That(tap.Peak(0), Is.EqualTo(0.25f).Within(1e-6f));
-            Assert.That(tap.Peak(1), Is.Zero);
-        }
-
-        [UnityTest]
         public IEnumerator StrengthOfSurfaceStylusAndOutputMultiply()
         {
             HapticStylus stylus = Circling();
@@ -222,13 +204,30 @@ namespace HaptoFlow.Tests
     {
         private const float Audible = 0.001f;
 
+        [SetUp]
+        public void MakeABoard()
+        {
+            FinishLoading();
+            Board();
+        }
+
+        [UnityTest]
+        public IEnumerator AnExclusiveChannelCarriesOnlyTheHaptics()
+        {
+            AudioTap tap = Ears(out HapticOutput output);
+            output.Channel = 1;
+            StylusAlong(_ => new Vector3(0f, 0.05f, 0f)).Output = output;
+            yield return Frames(20);
+            Assert.That(tap.Blocks, Is.GreaterThan(0));
+            Assert.That(tap.Peak(0), Is.EqualTo(0.25f).Within(1e-6f));
+            Assert.That(tap.Peak(1), Is.Zero);
+        }
+
         [UnityTest]
         public IEnumerator AListenerRouteWithoutAChannelIsSilentAndLogsAnError()
         {
-            FinishLoading();
             LogAssert.Expect(LogType.Error, new Regex("Ears is silent: .*Choose a channel"));
             AudioTap tap = Ears(out HapticOutput output);
-            Board();
             Circling().Output = output;
             yield return Frames(40);
             Assert.That(tap.Blocks, Is.GreaterThan(0));
@@ -245,8 +244,6 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator AListenerAtVolumeZeroSilencesNoHapticsUnlessTheyObeyIt()
         {
-            FinishLoading();
-            Board();
             Output(out HapticOutput output);
             Circling();
             yield return null;
@@ -259,8 +256,6 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator APauseMenuSilencesTheHapticsAndTheyReturnAfterwards()
         {
-            FinishLoading();
-            Board();
             Output(out HapticOutput output);
             HapticStylus stylus = Circling();
             yield return Frames(40);
@@ -283,8 +278,6 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator AnOutputThatPlaysWhilePausedGoesOnInAPauseMenu()
         {
-            FinishLoading();
-            Board();
             Output(out HapticOutput output);
             output.PlayWhilePaused = true;
             Circling();
@@ -302,8 +295,6 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator AnApplicationThatReturnsIntoAPauseMenuStaysSilent()
         {
-            FinishLoading();
-            Board();
             Output(out HapticOutput output);
             Circling();
             AudioListener.pause = true;
@@ -318,8 +309,6 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator TheAuthorsSourceOnTheOutputsObjectIsLeftAlone()
         {
-            FinishLoading();
-            Board();
             GameObject owner = Make("Radio");
             var music = owner.AddComponent<AudioSource>();
             (music.spatialBlend, music.priority, music.dopplerLevel, music.bypassEffects) = (1f, 200, 0.5f, true);
@@ -346,8 +335,6 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator AnOutputSwitchedOnWithItsObjectPlaysFromOneSourceOnly()
         {
-            FinishLoading();
-            Board();
             Output(out HapticOutput output);
             Circling();
             yield return Frames(10);
@@ -362,7 +349,7 @@ namespace HaptoFlow.Tests
             Assert.That(output.transform.childCount, Is.EqualTo(1));
             Assert.That(output.Level, Is.GreaterThan(Audible));
             Transform owner = output.transform;
-            UnityEngine.Object.DestroyImmediate(output);
+            Object.DestroyImmediate(output);
             yield return Frames(50);
             Assert.That(owner.childCount, Is.Zero, "it takes its source along after the fade");
         }
