@@ -127,32 +127,11 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
-        public void WithoutAReliefTheSamplesAreThoseOfBefore()
-        {
-            float[] before = Of(null, HapticEffects.Texture).Samples;
-            float[] with = Of(ReliefPreviews.Ribs(), HapticEffects.Texture).Samples;
-            Assert.That(with.SequenceEqual(before), Is.False);
-            Assert.That(Of(null, HapticEffects.Texture).Samples, Is.EqualTo(before));
-            Assert.That(Do(Request(null, HapticEffects.Texture)).Heights, Is.Null);
-        }
-
-        [Test]
         public void TheShareOfTheRangeIsTheReliefs()
         {
             PreviewRelief ribs = ReliefPreviews.Ribs();
             double loud = Of(ribs, HapticEffects.Nothing).RmsMps2;
             Assert.That(Of(ribs with { Share = 0.01f }, HapticEffects.Nothing).RmsMps2, Is.LessThan(0.5 * loud));
-        }
-
-        [Test]
-        public void AMapThatIsReplacedDuringThePreviewIsFelt()
-        {
-            PreviewRelief ribs = ReliefPreviews.Ribs();
-            PreviewRelief step = ReliefPreviews.Of(
-                100, 1, (0.04f, 0.1f), 1f, true, (column, _) => column < 50 ? 0.0 : 1.0);
-            float[] first = Of(ribs, HapticEffects.Nothing).Samples;
-            Assert.That(Of(step, HapticEffects.Nothing).Samples.SequenceEqual(first), Is.False);
-            Assert.That(Of(ribs, HapticEffects.Nothing).Samples, Is.EqualTo(first));
         }
 
         [Test]

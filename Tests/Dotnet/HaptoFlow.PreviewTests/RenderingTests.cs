@@ -167,55 +167,6 @@ namespace HaptoFlow.PreviewTests
         }
     }
 
-    /// <summary>Feature scale and tone in the preview, with the real native library.</summary>
-    public sealed class ScaleAndToneTests
-    {
-        private const double SpeedMps = 0.15;
-
-        private static readonly Stroke Slide =
-            PresetStrokes.Make(StrokePreset.Slide, new StrokeSettings(SpeedMps, 1.0, 0.0, 1.5));
-
-        private PreviewWorker worker = null!;
-
-        [SetUp]
-        public void Begin() => worker = new PreviewWorker();
-
-        [TearDown]
-        public void End() => worker.Dispose();
-
-        private static LabelMix Mix(string label, float featureScale = 1f, float toneDbPerOctave = 0f) =>
-            new LabelMix(label, "", 0f, "", null, featureScale, toneDbPerOctave);
-
-        private PreviewSound[] Render(params LabelMix[] materials)
-        {
-            PreviewResult result = worker.Do(new PreviewRequest(ModelFiles.Default, Slide, materials)
-            {
-                Tier = "draft",
-            }, CancellationToken.None);
-            Assert.That(result.Problem, Is.Null);
-            return result.Sounds.Select(each => each.Sound).ToArray();
-        }
-
-        [Test]
-        public void ASoundIsNotReusedForAnotherFeatureScaleOrTone()
-        {
-            float[] plain = Render(Mix("corduroy"))[0].Samples;
-            float[] large = Render(Mix("corduroy", 2f))[0].Samples;
-            float[] bright = Render(Mix("corduroy", 2f, 3f))[0].Samples;
-            Assert.That(large.SequenceEqual(plain), Is.False);
-            Assert.That(bright.SequenceEqual(large), Is.False);
-            Assert.That(Render(Mix("corduroy"))[0].Samples.SequenceEqual(plain), Is.True);
-        }
-
-        [TestCase(1f, 0f, "corduroy")]
-        [TestCase(2f, 0f, "corduroy (x2)")]
-        [TestCase(0.25f, 0f, "corduroy (x0.25)")]
-        [TestCase(1f, -4.5f, "corduroy (-4.5 dB/oct)")]
-        [TestCase(2f, 3f, "corduroy (x2, +3 dB/oct)")]
-        public void TheTitleNamesFeatureScaleAndToneUnlessTheyAreDefaults(float scale, float tone, string title) =>
-            Assert.That(Mix("corduroy", scale, tone).Title, Is.EqualTo(title));
-    }
-
     public sealed class LatestTaskTests
     {
         [Test]

@@ -4,6 +4,7 @@ using System.IO;
 using System.Linq;
 using HaptoFlow.Editor;
 using HaptoFlow.Preview;
+using HaptoFlow.Tests.Support;
 using NUnit.Framework;
 using UnityEditor;
 using UnityEngine;
@@ -429,6 +430,29 @@ namespace HaptoFlow.PreviewTests
             Assert.That(GC.GetAllocatedBytesForCurrentThread() - before, Is.Zero);
             Assert.That((drawings, ScreenPaint.All.Count), Is.EqualTo((1, calls)));
             picture.Release();
+        }
+
+        [Test]
+        public void TheTiersOfAnImportedModelSoundDifferentAndItHasNoSliders()
+        {
+            HapticModelAsset model = HapticModelAsset.Create(
+                File.ReadAllBytes(RepositoryFiles.In("Tests", "Golden", "model", "published.haptoflow")));
+            State.Model = model;
+            State.First.Label = "wool felt";
+            var sounds = new List<float[]>();
+            foreach (string tier in PreviewModel.Of(model).Tiers.ToArray())
+            {
+                State.Change("Quality", state => state.Tier = tier);
+                Window.Finish();
+                Assert.That(Window.Session!.Problem, Is.Null);
+                Assert.That(Samples.Max(Math.Abs), Is.GreaterThan(1e-4f), tier);
+                sounds.Add(Samples);
+            }
+            Assert.That(sounds, Has.Count.EqualTo(2).And.Unique);
+            EditorScreen.Enter("Sliders", true);
+            WindowHost.Draw(Window);
+            string[] shown = WindowHost.Draw(Window).Select(item => item.Label).ToArray();
+            Assert.That(shown, Has.Member("Feature Scale").And.Some.StartsWith("This model has no sliders"));
         }
     }
 

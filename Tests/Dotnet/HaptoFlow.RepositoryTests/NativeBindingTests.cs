@@ -103,38 +103,6 @@ namespace HaptoFlow.RepositoryTests
         }
 
         [Test]
-        public void ASlidingTipIsAudibleAndALiftedOneFallsSilent()
-        {
-            using HapticEngine engine = EngineWithoutWorker();
-            using HapticVoice voice = engine.OpenVoice(48000.0);
-            float sliding = Peak(engine, voice, Sliding(1), 30);
-            float lifting = Peak(engine, voice, new ContactState { TouchCounter = 1 }, 2);
-            float lifted = Peak(engine, voice, new ContactState { TouchCounter = 1 }, 10);
-            Assert.That(sliding, Is.GreaterThan(0.002f));
-            Assert.That(lifting, Is.LessThanOrEqualTo(1.0f));
-            Assert.That(lifted, Is.Zero);
-            VoiceStatistics statistics = voice.Statistics();
-            Assert.That(statistics.Inferences, Is.GreaterThan(10UL));
-            Assert.That(statistics.Onsets, Is.EqualTo(1UL));
-            Assert.That(statistics.Updates, Is.EqualTo(42UL));
-            Assert.That(statistics.RenderedFrames, Is.EqualTo(42UL * 512UL));
-            Assert.That(engine.Statistics().Segments, Is.EqualTo(statistics.Inferences));
-            Assert.That(engine.Statistics().Voices, Is.EqualTo(1u));
-        }
-
-        [Test]
-        public void OnlyTheChosenChannelIsWritten()
-        {
-            using HapticEngine engine = EngineWithoutWorker();
-            using HapticVoice voice = engine.OpenVoice(48000.0);
-            Peak(engine, voice, Sliding(1), 10);
-            var stereo = Enumerable.Repeat(0.5f, 1024).ToArray();
-            Assert.That(voice.Render(stereo, 2, 1, 48000.0), Is.True);
-            Assert.That(stereo.Where((_, index) => index % 2 == 0), Is.All.EqualTo(0.5f));
-            Assert.That(stereo.Where((_, index) => index % 2 == 1), Has.Some.Not.EqualTo(0.5f));
-        }
-
-        [Test]
         public void AClosedVoiceRendersSilenceAndRefusesStates()
         {
             using HapticEngine engine = EngineWithoutWorker();
