@@ -1,8 +1,8 @@
-#include "clip_output.hpp"
 #include "effects/wave_features.hpp"
 #include "headless/command_files.hpp"
 #include "messages.hpp"
 #include "model/plain_text.hpp"
+#include "render_output.hpp"
 #include "svg_plot.hpp"
 
 #include <nlohmann/json.hpp>

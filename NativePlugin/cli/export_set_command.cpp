@@ -1,4 +1,3 @@
-#include "clip_output.hpp"
 #include "clips/clip_making.hpp"
 #include "commands.hpp"
 #include "effects/device_loudness.hpp"
@@ -12,6 +11,7 @@
 #include "model/plain_text.hpp"
 #include "option_values.hpp"
 #include "output_file.hpp"
+#include "render_output.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -1,10 +1,10 @@
-#include "clip_output.hpp"
 #include "commands.hpp"
 #include "headless/command_files.hpp"
 #include "messages.hpp"
 #include "model/material_file.hpp"
 #include "model/plain_text.hpp"
 #include "option_values.hpp"
+#include "render_output.hpp"
 
 #include <nlohmann/json.hpp>
 

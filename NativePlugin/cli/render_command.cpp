@@ -1,4 +1,3 @@
-#include "clip_output.hpp"
 #include "clips/clip_making.hpp"
 #include "commands.hpp"
 #include "effects/actuator_profile.hpp"

@@ -4,7 +4,6 @@
 #include "inference/onnx_runtime.hpp"
 #include "inference/segment_generator.hpp"
 #include "learning/learning_report.hpp"
-#include "learning/learning_settings.hpp"
 #include "model/model_file.hpp"
 #include "recordings/recording.hpp"
 

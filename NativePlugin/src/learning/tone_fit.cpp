@@ -1,7 +1,6 @@
 #include "learning/tone_fit.hpp"
 
 #include "dsp/tone_filter.hpp"
-#include "learning/gamma_regression.hpp"
 #include "learning/numerics.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
-#include "clip_output.hpp"
 #include "clips/clip_formats.hpp"
 #include "command_line.hpp"
 #include "output_file.hpp"
+#include "render_output.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "learning/learning_settings.hpp"
+#include "learning/learning_report.hpp"
 #include "recordings/recording.hpp"
 #include "skeleton/gaussian_noise.hpp"
 

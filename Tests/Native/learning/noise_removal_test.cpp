@@ -2,7 +2,6 @@
 
 #include "learning/noisy_texture.hpp"
 #include "recordings/recording.hpp"
-#include "recordings/short_time_spectrum.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

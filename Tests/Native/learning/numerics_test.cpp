@@ -1,6 +1,5 @@
 #include "learning/numerics.hpp"
-#include "learning/filter_likelihood.hpp"
-#include "learning/gamma_regression.hpp"
+#include "learning/embedding_search.hpp"
 #include "model/model_file.hpp"
 #include "skeleton/condition.hpp"
 #include "skeleton/gaussian_noise.hpp"
