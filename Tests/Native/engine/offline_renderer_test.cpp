@@ -78,6 +78,18 @@ TEST_F(OfflineRendererTest, AStreamedRenderArrivesPerUpdateAndHasTheSameStatisti
     EXPECT_EQ(streamed.seamStatistics.jumpRatio, whole.seamStatistics.jumpRatio);
 }
 
+TEST_F(OfflineRendererTest, WithoutTouchNothingIsGeneratedAndTheOutputIsZero) {
+    std::vector<TimedContactState> states = statesOfSlide(1.0);
+    for (ContactState& state : states) {
+        state.touching = false;
+        state.touchCounter = 0;
+    }
+    const OfflineRender render = renderOffline(model_, noise_, states, {});
+    EXPECT_EQ(noise_.generated, 0);
+    EXPECT_EQ(render.peak, 0.0);
+    EXPECT_TRUE(render.waveformMps2.empty());
+}
+
 TEST_F(OfflineRendererTest, InvalidStatesAreSanitisedAndCountedAndTheOutputIsFinite) {
     std::vector<TimedContactState> states = statesOfSlide(1.0);
     for (std::size_t i = 5; i < states.size(); i += 3) {

@@ -258,6 +258,15 @@ TEST_F(ProcessorsTest, ProcessorChangesAtAnyTimeDoNotClick) {
     }
 }
 
+TEST_F(ProcessorsTest, AVoiceForWhichNoneWasSetGetsNone) {
+    SimulatedDevice device(model_, tone_);
+    device.run(0.1, slide);
+    device.voice().channels.lacksProcessors = true;
+    device.voice().planner.serveOutputRate();
+    device.run(0.1, slide);
+    EXPECT_EQ(of(device, EffectKind::compensation).prepared, 0U);
+}
+
 TEST_F(ProcessorsTest, MutePausePanicMissingStatesAndCeilingActAfterTheDelay) {
     struct Stop {
         const char* name;
