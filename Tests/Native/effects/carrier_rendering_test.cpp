@@ -190,6 +190,15 @@ TEST(WaveDecimationTest, AnImpulseIsDelayedByThreeSamplesOfTheNewRate) {
     }
 }
 
+TEST(WaveDecimationTest, AWholeWaveKeepsItsTimeAndItsLength) {
+    std::vector<float> wave(64);
+    wave[3] = 1.0F;
+    const std::vector<float> slow = effects::decimated(wave, 4);
+    ASSERT_EQ(slow.size(), 16U);
+    EXPECT_NEAR(slow[0], 0.25F, 0.02F);
+    EXPECT_EQ(effects::decimated(wave, 1), wave);
+}
+
 TEST(WaveDecimationTest, FactorsOutOfRangeAreRejectedAndSamplesAllocateNothing) {
     EXPECT_THROW(WaveDecimation(0), std::invalid_argument);
     EXPECT_THROW(WaveDecimation(97), std::invalid_argument);
