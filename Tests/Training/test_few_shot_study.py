@@ -24,6 +24,7 @@ from haptoflow_training.export.level_table import LevelTable
 from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.model_stamp import with_measured_words
 from haptoflow_training.recordings.material_recording import MaterialRecording
+from haptoflow_training.recordings.synthetic import load_materials
 
 ROOT = Path(__file__).parents[2]
 DEFAULT = ROOT / "Packages" / "com.haptoflow.runtime" / "Runtime" / "Models" / "default.haptoflow"
@@ -35,6 +36,21 @@ ENGINE = Path(os.environ.get("HAPTOFLOW_ENGINE", ROOT / "build" / "native" / "ha
 @pytest.fixture(scope="module")
 def case() -> FewShotCase:
     return make_case(study_materials(3, 2026)[2], 2026, 10.0)
+
+
+def test_unseen_materials_lie_between_labels_and_equal_none() -> None:
+    known = load_materials()
+    unseen = study_materials(12, 2026)
+    assert len({material.label for material in unseen}) == 12
+    for material in unseen:
+        assert all(material.calibrated != other.calibrated for other in known)
+        assert all(material.tool_modes != other.tool_modes for other in known)
+        assert all(material.surface_seed != other.surface_seed for other in known)
+    assert sum(bool(material.rulings) for material in unseen) >= 3
+    assert sum(material.impact_strength > 0.0 for material in unseen) >= 2
+    assert sum(material.stick_slip_strength > 0.0 for material in unseen) >= 2
+    assert unseen == study_materials(12, 2026)
+    assert unseen[0] != study_materials(12, 2027)[0]
 
 
 def test_the_recording_itself_has_no_error_and_twice_its_amplitude_has_six_decibels(case: FewShotCase) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -14,8 +15,12 @@ from training_fixtures import FakeRecording, FakeStore, level_offsets_db, travel
 
 from haptoflow_paper.codec.small_codec import read_small_codec_config
 from haptoflow_paper.codec.trainer import SegmentSampler
+from haptoflow_paper.rows.reference_conditions import conditions
 from haptoflow_paper.runs.tier import build_seed_bank
 from haptoflow_training.export.exponents import draw_windows, fit_exponents
+from haptoflow_training.preprocessing.pipeline import preprocess_recording
+from haptoflow_training.preprocessing.settings import PreprocessingSettings
+from haptoflow_training.recordings.synthetic import load_materials, machine_conditions, record_machine_condition
 from haptoflow_training.training.batches import HeldOut, SegmentBatches, clear_spans
 from haptoflow_training.training.config import BatchConfig, load_config
 
@@ -146,3 +151,31 @@ def test_clear_spans_are_the_rest_of_each_recording_and_never_span_two() -> None
     spans = clear_spans(motion, np.array([0, 4]), np.array([4, 4]), HeldOut(speed_mps=(0.25, 0.3)))
     assert spans.starts.tolist() == [0, 2, 4, 7] and spans.lengths.tolist() == [1, 2, 1, 1]
     assert spans.owners.tolist() == [0, 0, 1, 1]
+
+
+def _default_passes() -> Sequence[tuple[int, NDArray[np.float32]]]:
+    data = load_config(ROOT / "Training" / "configs" / "default" / "base.toml").data
+    material = load_materials()[0]
+    found = []
+    for identity in machine_conditions(
+        material, directions=data.machine_directions, speeds_mmps=(60,), forces_millinewtons=(1000,), repeats=1
+    ):
+        recording = record_machine_condition(material, identity, seed=data.recordings_seed)
+        found.append((identity.direction_degrees, preprocess_recording(recording, PreprocessingSettings()).motion))
+    return found
+
+
+def test_no_default_machine_pass_has_the_held_out_direction_and_the_evaluation_uses_the_same_bands() -> None:
+    config = load_config(ROOT / "Training" / "configs" / "default" / "base.toml").batch
+    direction = HeldOut(direction_degrees=config.held_out_direction_degrees)
+    for named, motion in _default_passes():
+        sliding = motion[np.hypot(motion[:, 0], motion[:, 1]) > 0.03]
+        assert len(sliding) > 1000 and direction.holds(sliding).mean() < 0.01, named
+    grid = conditions(load_materials())
+    asked = np.array([[np.cos(np.radians(225.0)), np.sin(np.radians(225.0)), 1.0]])
+    assert direction.holds(asked).all() and any(entry.direction_degrees == 225.0 for entry in grid)
+    for band, values in (
+        (config.held_out_speed_mps, [entry.speed_mps for entry in grid]),
+        (config.held_out_force_newtons, [entry.force_newtons for entry in grid]),
+    ):
+        assert any(band[0] <= value < band[1] for value in values)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from haptoflow_benchmark import waveform_metrics
 from haptoflow_paper.report import row_metrics, temporal_metrics
 from haptoflow_paper.report.cell_figures import measure_cell
-from haptoflow_paper.report.told_apart import told_apart_percent
+from haptoflow_paper.report.told_apart import logistic_regression, told_apart_percent
 from haptoflow_paper.rows.reference_conditions import Condition, is_on_other_label
 from haptoflow_paper.rows.reference_set import ReferencePair
 
@@ -20,6 +20,10 @@ RATE_HZ = 2000
 
 def _noise(seconds: float, seed: int) -> np.ndarray:
     return np.random.default_rng(seed).standard_normal(int(seconds * RATE_HZ))
+
+
+def _tone(frequency_hz: float, seconds: float) -> np.ndarray:
+    return np.sqrt(2.0) * np.sin(2.0 * np.pi * frequency_hz * np.arange(int(seconds * RATE_HZ)) / RATE_HZ)
 
 
 def test_a_waveform_has_perfect_figures_against_itself() -> None:
@@ -38,6 +42,26 @@ def test_half_the_amplitude_is_minus_six_decibels_and_leaves_gfc_unchanged() -> 
     assert waveform_metrics.log_spectral_distance_db(0.5 * wave, wave) == pytest.approx(6.02, abs=0.01)
     np.testing.assert_allclose(row_metrics.critical_band_errors_db(0.5 * wave, wave), -6.02, atol=0.01)
     assert waveform_metrics.gfc_recording(0.5 * wave, wave) == pytest.approx(1.0)
+
+
+def test_rmse_favours_silence_over_an_independent_draw_and_segment_gfc_penalises_correct_randomness() -> None:
+    wave, draw = _noise(8.0, 1), _noise(8.0, 2)
+    assert row_metrics.relative_rmse(np.zeros_like(wave), wave) == pytest.approx(1.0, abs=0.01)
+    assert row_metrics.relative_rmse(draw, wave) == pytest.approx(np.sqrt(2.0), abs=0.03)
+    assert row_metrics.gfc_segment(draw, wave) < 0.85
+    assert waveform_metrics.gfc_recording(draw, wave) > 0.98
+
+
+def test_a_band_that_a_recording_lacks_is_compared_with_the_floor_and_not_with_its_numbers_last_digits() -> None:
+    tone = _tone(100.0, 8.0)
+    # 7 bins of 126 hold the tone and its window; the rest is noise of 0.1 over the floor: 20 dB.
+    distance = waveform_metrics.log_spectral_distance_db(tone + 0.1 * _noise(8.0, 4), tone)
+    assert distance == pytest.approx(20.0, abs=1.0)
+
+
+def test_the_fundamental_is_found_between_bins() -> None:
+    wave = _tone(123.4, 4.0) + 0.3 * _noise(4.0, 3)
+    assert row_metrics.fundamental_hz(wave, 120.0) == pytest.approx(123.4, rel=0.002)
 
 
 def test_a_step_at_every_hop_shows_in_the_jump_ratio() -> None:
@@ -59,6 +83,19 @@ def test_a_modulation_of_the_envelope_shows_only_in_its_band_with_its_power() ->
     # 0.5^2 / 2 of the squared mean, a little less for the average over a frame.
     assert bands[at] == pytest.approx(10.0 * np.log10(0.125), abs=0.3)
     assert np.delete(bands, at).max() < bands[at] - 25.0
+
+
+def test_the_modulation_spectrum_is_independent_of_level_and_two_draws_of_noise_agree_within_a_decibel() -> None:
+    first, second = _noise(24.0, 3), _noise(24.0, 4)
+    np.testing.assert_allclose(temporal_metrics.modulation_spectrum_db(7.0 * first), temporal_metrics.modulation_spectrum_db(first))
+    assert temporal_metrics.modulation_error_db(first, second) < 1.0
+
+
+@pytest.mark.parametrize("rate_hz", [8.3, 25.0, 125.0, 417.0])
+def test_noise_modulated_at_the_rib_rate_has_that_modulation_depth(rate_hz: float) -> None:
+    depth = 0.8
+    swing = np.sqrt(1.0 + depth * np.cos(2.0 * np.pi * rate_hz * _time(16.0) + 1.0))
+    assert temporal_metrics.rib_modulation_depth(_noise(16.0, 7) * swing, rate_hz) == pytest.approx(depth, rel=0.1)
 
 
 @pytest.mark.parametrize("rate_hz", [8.3, 125.0])
@@ -167,3 +204,26 @@ def test_gaussian_noise_of_the_right_spectrum_is_told_from_rare_impacts() -> Non
         for n, pair in enumerate(pairs)
     ]
     assert _mean(told_apart_percent(pairs, made)) > 85.0
+
+
+def test_no_motion_is_used_for_both_fitting_and_testing() -> None:
+    # Every motion has its own pitch. Memorised, each would identify its render; from other motions, none does.
+    generator = np.random.default_rng(3)
+    time = np.arange(_TOLD_APART_SAMPLES) / 2000.0
+    motion = np.zeros((_TOLD_APART_SAMPLES, 3), dtype=np.float32)
+    pairs, made = [], []
+    for number in range(12):
+        pitches = generator.uniform(50.0, 900.0, size=2)
+        tones = [(np.sin(2 * np.pi * pitch * time) + 0.1 * generator.standard_normal(_TOLD_APART_SAMPLES)) for pitch in pitches]
+        condition = Condition("a", 0, "constant", 0.1, 1.0, 0.0, 12.0, number)
+        pairs.append(ReferencePair(condition, tones[0].astype(np.float32), tones[0].astype(np.float32), motion))
+        made.append(tones[1].astype(np.float32))
+    assert _mean(told_apart_percent(pairs, made)) < 75.0
+
+
+def test_the_regression_recovers_the_weights_that_made_the_classes() -> None:
+    generator = np.random.default_rng(5)
+    given = generator.standard_normal((40000, 3))
+    truth = np.array([1.0, -2.0, 0.0])
+    sides = (generator.random(40000) < 1.0 / (1.0 + np.exp(-(given @ truth + 0.5)))).astype(np.float64)
+    assert logistic_regression(given, sides) == pytest.approx([1.0, -2.0, 0.0, 0.5], abs=0.06)

@@ -142,6 +142,12 @@ def test_a_store_opened_again_is_the_store_that_was_written(store: SegmentStore)
         again.waveform[0] = 1.0
 
 
+def test_every_recording_is_in_exactly_one_split_and_all_splits_occur(store: SegmentStore) -> None:
+    names = [{stored.name for stored in store.split(split)} for split in SPLITS]
+    assert all(names)
+    assert sum(map(len, names)) == len(set.union(*names)) == len(store.recordings)
+
+
 def test_no_sample_of_one_split_belongs_to_another_split(store: SegmentStore) -> None:
     splits_of_sample = np.zeros(len(store.waveform), dtype=int)
     for split in SPLITS:
@@ -150,6 +156,14 @@ def test_no_sample_of_one_split_belongs_to_another_split(store: SegmentStore) ->
             used[stored.start : stored.start + stored.length] = True
         splits_of_sample += used
     assert splits_of_sample.max() == 1
+
+
+def test_no_pass_over_a_track_of_the_surface_is_in_two_splits(store: SegmentStore) -> None:
+    track = {}
+    for stored in store.recordings:
+        if stored.protocol == "machine":
+            key = (stored.texture_id, stored.direction_degrees, stored.speed_mmps, stored.force_millinewtons)
+            assert track.setdefault(key, stored.split) == stored.split
 
 
 def test_a_recording_keeps_its_split_and_its_silence_when_others_are_added(store: SegmentStore, tmp_path: Path) -> None:
@@ -162,6 +176,14 @@ def test_a_recording_keeps_its_split_and_its_silence_when_others_are_added(store
         assert (stored.split, stored.padding_before, stored.padding_after, stored.length) == (
             (other.split, other.padding_before, other.padding_after, other.length)
         )
+
+
+def test_held_out_directions_and_speeds_land_in_the_test_split(tmp_path: Path) -> None:
+    settings = replace(SETTINGS, held_out_directions=(90,), held_out_speeds_mmps=(40,))
+    store = prepare_store(some_recordings(), LABELS, tmp_path / "store", settings, seed=4)
+    held_out = [one for one in store.recordings if one.direction_degrees == 90 or one.speed_mmps == 40]
+    assert held_out and {one.split for one in held_out} == {"test"}
+    assert store.split("train")
 
 
 def test_a_broken_recording_is_skipped_with_its_reason_and_the_rest_is_kept(tmp_path: Path) -> None:

@@ -16,20 +16,25 @@ from haptoflow_training.errors import InputError
 from haptoflow_training.preprocessing.pipeline import PreparedRecording, preprocess_recording
 from haptoflow_training.preprocessing.preparation import prepare_store
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
-from haptoflow_training.recordings.landing import landing_of, landing_of_spring
+from haptoflow_training.recordings.landing import RibWander, StickSlip, landing_of, landing_of_spring
 from haptoflow_training.recordings.synthetic import (
-    FURTHER_SPECIMENS, HELD_OUT_SPECIMEN, TRAINING_SPECIMENS, Material, load_materials, record_condition
+    FURTHER_SPECIMENS, HELD_OUT_SPECIMEN, TRAINING_SPECIMENS, Material, hand_conditions, load_materials,
+    machine_conditions, record_condition, training_specimen
 )
 from haptoflow_training.recordings.synthetic.contact import SIMULATION_RATE_HZ
 from haptoflow_training.recordings.synthetic.features import impact_acceleration, rib_wander_turns, ruling_height
 from haptoflow_training.recordings.synthetic.materials import (
     DEFAULT_MATERIALS_PATH, Calibrated, Ruling, select_materials, write_calibrated
 )
+from haptoflow_training.recordings.synthetic.measurement import band_level
 from haptoflow_training.recordings.synthetic.surface import (
-    OCTAVE_WAVELENGTHS_MM, RandomField, TipPath, character_of, surface_gain
+    OCTAVE_WAVELENGTHS_MM, RandomField, TipPath, character_of, random_height, surface_gain
 )
+from haptoflow_training.training.config import DataConfig, load_config
+from haptoflow_training.training.recordings_source import synthetic_label_infos
 
 MATERIALS = {material.label: material for material in load_materials()}
+CONFIGURATIONS = Path(__file__).parents[2] / "Training" / "configs"
 
 
 def _path(speed_mmps: float = 200.0, seconds: float = 2.0, degrees: float = 20.0) -> TipPath:
@@ -43,6 +48,14 @@ def _ribs(material: Material, ruling: Ruling, number: int, *, specimen: int) -> 
     return ruling_height(material, ruling, number, _path(), wander)
 
 
+def test_another_specimen_has_another_random_surface_and_other_asperities() -> None:
+    heights = [random_height(MATERIALS["stone"], _path(), specimen=each)[0] for each in (0, 1, HELD_OUT_SPECIMEN)]
+    assert np.abs(np.corrcoef(np.diff(heights, axis=1))[np.triu_indices(3, 1)]).max() < 0.15
+    impulses = [impact_acceleration(MATERIALS["stone"], _path(), SIMULATION_RATE_HZ, specimen=each) for each in (0, 4)]
+    struck = [each != np.median(each) for each in impulses]
+    assert np.mean(struck[0][struck[1]]) < 0.1
+
+
 def test_specimens_have_their_ribs_at_the_same_places_but_for_the_jitter() -> None:
     for label in ("corduroy", "metal mesh", "jute"):
         material = MATERIALS[label]
@@ -54,7 +67,60 @@ def test_specimens_have_their_ribs_at_the_same_places_but_for_the_jitter() -> No
             assert not np.array_equal(one, other)
 
 
+def test_every_specimen_has_guided_and_free_strokes_slow_and_fast_ones_and_every_condition_of_a_pass() -> None:
+    identities = hand_conditions(MATERIALS["wood"], seed=1, recordings=60)
+    for share in (0.25, 0.5, 0.85):
+        for guided in (True, False):
+            met = {
+                training_specimen(each)
+                for each in identities
+                if (int((each.repeat + 1) * share) > int(each.repeat * share)) == guided
+            }
+            assert met == set(TRAINING_SPECIMENS)
+    for specimen in TRAINING_SPECIMENS:
+        speeds = [each.speed_mmps for each in identities if training_specimen(each) == specimen]
+        assert min(speeds) < 12 and max(speeds) > 400
+    passes = machine_conditions(MATERIALS["wood"])
+    data = load_config(CONFIGURATIONS / "default" / "standard.toml").data
+    used = machine_conditions(
+        MATERIALS["wood"],
+        directions=data.machine_directions,
+        speeds_mmps=data.machine_speeds_mmps,
+        forces_millinewtons=data.machine_forces_millinewtons,
+        repeats=data.machine_repeats,
+    )
+    for specimen in TRAINING_SPECIMENS:
+        own = [each for each in passes if training_specimen(each) == specimen]
+        assert len({each.direction_degrees for each in own}) == 8
+        assert {each.speed_mmps for each in own} == {20, 30, 40, 50, 60}
+        of_default = [each for each in used if training_specimen(each) == specimen]
+        assert len({each.direction_degrees for each in of_default}) >= 5
+        assert {each.speed_mmps for each in of_default} == {10, 20, 60}
+        assert {each.force_millinewtons for each in of_default} == {500, 1000}
+    for one, other in zip(passes[::2], passes[1::2], strict=True):
+        assert one.repeat != other.repeat and training_specimen(one) != training_specimen(other)
+
+
 SMOOTH = ("glass", "metal", "plastic", "paper")
+
+
+def _level_and_slope(material: Material, specimen: int) -> tuple[float, float]:
+    """Level in dB and slope of the spectrum in dB per octave, 50 to 400 Hz."""
+    rate, size = PreprocessingSettings().sample_rate_hz, 400
+    powers = []
+    for seed in range(4):
+        recording = record_condition(
+            material, velocity_mps=(0.2, 0.06), force_newtons=1.0, duration_seconds=4.0, seed=seed, specimen=specimen,
+            accelerometer_noise=False,
+        )  # fmt: skip
+        wave = preprocess_recording(recording, PreprocessingSettings()).waveform_mps2.astype(np.float64)
+        frames = wave[: len(wave) // size * size].reshape(-1, size) * np.hanning(size)
+        powers.append((np.abs(np.fft.rfft(frames, axis=1)) ** 2).mean(axis=0))
+    power, frequency = np.mean(powers, axis=0), np.fft.rfftfreq(size, 1.0 / rate)
+    octaves = np.log2(np.array([50.0, 100.0, 200.0, 400.0]))
+    bands = [power[(frequency >= 2**at / 1.2) & (frequency <= 2**at * 1.2)].mean() for at in octaves]
+    slope = np.polyfit(octaves, 10.0 * np.log10(bands), 1)[0]
+    return 20.0 * np.log10(band_level(frequency, power)), float(slope)
 
 
 @pytest.mark.parametrize("label", list(MATERIALS))
@@ -86,6 +152,21 @@ def test_the_held_out_specimen_is_typical_and_further_ones_stay_within_two_devia
     assert np.mean(levels) == pytest.approx(0.0, abs=0.3) and np.std(levels) == pytest.approx(1.0, abs=0.25)
 
 
+def test_a_recording_has_the_level_and_the_tilt_of_its_specimen() -> None:
+    # Places are left out: a few metres of a stroke do not average them away.
+    wood = replace(MATERIALS["wood"], place_spread_db=0.0)
+    loud, soft = (pick(TRAINING_SPECIMENS, key=lambda one: character_of(wood, one).level_db) for pick in (max, min))
+    for specimen in (loud, soft, HELD_OUT_SPECIMEN):
+        level, slope = _level_and_slope(wood, specimen)
+        plain_level, plain_slope = _level_and_slope(wood.without_spread, specimen)
+        stated = character_of(wood, specimen)
+        assert slope - plain_slope == pytest.approx(stated.tilt_db_per_octave, abs=0.05)
+        # The tilt turns about 100 Hz and wood's centroid is half an octave above.
+        assert level - plain_level == pytest.approx(stated.level_db, abs=0.6)
+        if specimen == HELD_OUT_SPECIMEN:
+            assert level == plain_level and slope == plain_slope
+
+
 def _places(count: int) -> NDArray[np.float64]:
     x, y = np.meshgrid(np.linspace(-3000.0, 3000.0, count), np.linspace(-3000.0, 3000.0, count))
     return np.stack([x.ravel(), y.ravel()], axis=1)
@@ -98,9 +179,29 @@ def test_without_spread_every_specimen_and_place_is_typical() -> None:
         assert character_of(plain, specimen).tilt_db_per_octave == 0.0
 
 
+@pytest.mark.parametrize("material", load_materials(), ids=lambda material: material.label)
+def test_every_touch_down_vibration_is_within_the_model_format_s_limits(material: Material) -> None:
+    landing = landing_of(material)
+    assert 1 <= len(landing.modes) <= 2 and 0.0 <= landing.restitution <= 0.9
+    for mode in landing.modes:
+        assert 1.0 <= mode.frequency_hz <= 1000.0
+        assert 10.0 <= mode.decay_per_second <= 10000.0
+        assert 0.0 < mode.gain_per_second <= 10000.0
+
+
 def test_a_label_of_which_only_the_stiffness_is_known_lands_as_the_recorder_s_materials_of_that_stiffness() -> None:
     plain = dataclasses.replace(MATERIALS["wood"], stiffness_newtons_per_metre=900.0, contact_damping=0.4, tool_modes=())
     assert landing_of_spring(900.0) == landing_of(plain)
+
+
+def test_targets_lie_between_the_5th_and_95th_published_percentile():
+    for material in load_materials():
+        targets = material.targets
+        assert 0.25 <= targets.k <= 3.99, material.label
+        assert 0.25 <= targets.p <= 1.58, material.label
+        assert -0.14 <= targets.q <= 0.78, material.label
+        assert 64.0 <= targets.centroid_hz <= 195.0, material.label
+        assert -14.2 <= targets.slope_db_per_octave <= -2.4, material.label
 
 
 def test_an_unknown_key_is_named(tmp_path):
@@ -194,6 +295,22 @@ def test_asperities_neither_repeat_nor_keep_a_beat_along_thirty_metres_of_straig
         assert np.abs(_autocorrelation(struck.astype(float))[8:]).max() < 0.06, label
 
 
+def test_a_field_has_unit_power_and_the_same_spectrum_in_every_direction_and_place() -> None:
+    field = RandomField(1000, 3, 2, 1.0)
+    spectra = []
+    for degrees in (0.0, 30.0, 45.0, 90.0, 137.0):
+        values = field.at(_line(240_000, 0.125, degrees))
+        assert np.sqrt(np.mean(values**2)) == pytest.approx(1.0, abs=0.01)
+        assert np.mean(values**4) == pytest.approx(3.0, abs=0.1)
+        halves = values.reshape(2, -1).std(axis=1)
+        assert halves[0] / halves[1] == pytest.approx(1.0, abs=0.03)
+        power = (np.abs(np.fft.rfft(values.reshape(-1, 800), axis=1)) ** 2).mean(axis=0)
+        spectra.append(power[5:141].reshape(-1, 8).mean(axis=1))
+    mean = np.mean(spectra, axis=0)
+    heard = mean > 0.01 * mean.max()
+    assert np.abs(np.array(spectra)[:, heard] / mean[heard] - 1.0).max() < 0.12
+
+
 SETTINGS = PreprocessingSettings()
 
 
@@ -263,3 +380,14 @@ def test_a_store_keeps_wander_specimen_and_the_fraction_of_the_slip_s_phase(tmp_
         assert np.all(before == found[0])
     assert store.wander_turns[:, 2].min() >= 0.0 and store.wander_turns[:, 2].max() < 1.0
     assert not np.any(store.wander_turns[store.recordings[-1].samples])
+
+
+def test_labels_that_slip_or_wander_say_so_and_no_others() -> None:
+    infos = {info.name: info for info in synthetic_label_infos(DataConfig())}
+    assert infos["rubber"].stick_slip == StickSlip(0.0011, 0.25, 0.004)
+    assert {name for name, info in infos.items() if info.stick_slip is not None} == {"rubber", "leather"}
+    first, second = infos["jute"].rib_wander
+    assert first == RibWander(0.12, pytest.approx(0.014)) and second == RibWander(0.12, pytest.approx(0.0119))
+    assert {name for name, info in infos.items() if info.rib_wander} == {"jute", "corduroy", "metal mesh"}
+    for info in infos.values():
+        assert len(info.rib_wander) in (0, len(info.known_wave_vectors))
