@@ -188,6 +188,38 @@ def test_a_wrong_sha256_is_refused_and_both_digests_are_named(
         codec.load_checkpoint(published_file, digest)
 
 
+def test_missing_unexpected_and_misshapen_entries_are_named_and_nothing_is_loaded(
+    codec: EnCodec, tmp_path: Path
+) -> None:
+    state = codec.state_dict()
+    del state["encoder.model.0.conv.conv.bias"]
+    state["encoder.model.99.weight"] = torch.zeros(1)
+    state["decoder.model.15.conv.conv.bias"] = torch.zeros(2)
+    torch.save(state, tmp_path / "other.th")
+    loaded = _codec(2)
+    untouched = {name: value.clone() for name, value in loaded.state_dict().items()}
+    with pytest.raises(InputError) as raised:
+        loaded.load_checkpoint(tmp_path / "other.th")
+    message = str(raised.value)
+    assert "other.th" in message
+    assert "missing: encoder.model.0.conv.conv.bias" in message
+    assert "unexpected: encoder.model.99.weight" in message
+    assert "decoder.model.15.conv.conv.bias [2] instead of [1]" in message
+    assert all(torch.equal(value, loaded.state_dict()[name]) for name, value in untouched.items())
+
+
+class _Malicious:
+    def __reduce__(self) -> tuple[object, tuple[str]]:
+        return print, ("ran code from a checkpoint",)
+
+
+def test_a_checkpoint_cannot_run_code(codec: EnCodec, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    torch.save({"encoder": _Malicious()}, tmp_path / "malicious.th")
+    with pytest.raises(InputError, match="not a PyTorch checkpoint of tensors, whole"):
+        codec.load_checkpoint(tmp_path / "malicious.th")
+    assert capsys.readouterr().out == ""
+
+
 @pytest.fixture(scope="module")
 def small_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
     torch.manual_seed(4)
