@@ -12,6 +12,8 @@ from typing import Any
 import numpy as np
 import torch
 
+from haptoflow_paper.codec.encodec import EnCodec
+from haptoflow_paper.published.network import NetworkSizes, PublishedNetwork
 
 PUBLISHED = Path(__file__).parents[1] / "Golden" / "published"
 SOLVERS = ("heun", "euler")
@@ -41,6 +43,32 @@ def assert_within_1e_4_of_its_rms(found: Any, expected: Any) -> None:
     assert found.shape == expected.shape
     error, rms = np.abs(found - expected).max(), np.sqrt(np.square(expected).mean())
     assert error <= 1e-4 * rms, f"off by {error / rms:.2g} of the RMS"
+
+
+def write_checkpoint_of_published_sizes(folder: Path) -> Path:
+    """A checkpoint with the authors' sizes (118 classes, first channels 128, EnCodec's own) and random weights."""
+    sizes = NetworkSizes(
+        classes=118, latent=128, channels=(128, 256), label=64, control=64, hidden=64, time=64, position=32, groups=8, past_groups=4
+    )
+    torch.manual_seed(3)
+    shutil.copytree(PUBLISHED / "heun", folder, ignore=shutil.ignore_patterns("golden.npz", "*.th", "*.safetensors"))
+    state = PublishedNetwork(sizes).state_dict()
+    header, data = {}, bytearray()
+    for name, value in state.items():
+        content = value.numpy().astype("<f4").tobytes()
+        header[name] = {"dtype": "F32", "shape": list(value.shape), "data_offsets": [len(data), len(data) + len(content)]}
+        data += content
+    write_safetensors(folder / "model.safetensors", header, bytes(data))
+    books = {f"quantizer.vq.layers.{level}._codebook.embed": torch.randn(1024, 128) / (level + 1) for level in range(32)}
+    torch.save({**EnCodec().state_dict(), **books}, folder / "encodec.th")
+    classes = [f"Material {row:03}" for row in range(sizes.classes)]
+
+    def enlarge(meta: dict[str, Any]) -> None:
+        meta["dataset"].update(classes=classes, label_to_int={name: row for row, name in enumerate(classes)}, num_classes=118)
+        meta["config"]["sampling"].update(steps=8, solver="heun", guidance_scale=3.0)
+
+    change_meta(folder, enlarge)
+    return folder
 
 
 def copied(solver: str, folder: Path) -> Path:

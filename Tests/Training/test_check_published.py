@@ -24,10 +24,16 @@ from haptoflow_paper.published.check_parity import parity_lines
 from haptoflow_paper.published.check_points import BUDGET_MS, Measured, Point, points_of, time_lines
 from haptoflow_paper.published.check_signals import LabelWaves, signal_lines
 from haptoflow_paper.published.checkpoint import read_checkpoint
+from haptoflow_paper.published.published_file import PublishedFile
 from haptoflow_paper.published.published_model import PublishedModel
+from haptoflow_paper.rows.engine_generator import EngineGenerator
 from haptoflow_paper.rows.timing import Milliseconds
 from haptoflow_training.export.model_file import read_model_file
-from published_samples import PUBLISHED, SOLVERS, change_safetensors, copied
+from haptoflow_training.model_stamp import SHIPPED_MODEL
+from published_samples import (
+    PUBLISHED, SOLVERS, assert_within_1e_4_of_its_rms, change_safetensors, copied,
+    write_checkpoint_of_published_sizes
+)
 
 ROOT = Path(__file__).parents[2]
 
@@ -103,6 +109,19 @@ class TestReport:
         best = points[-1]
         assert best["name"] == "published" and best["difference"] == 0.0 and best["lsd_db"] == 0.0
         assert all(each["difference"] > 0.0 and each["paced_ms"]["p50"] > 0.0 for each in points[:-1])
+
+
+@pytest.mark.long(because="check-published runs whole; its lines of parity, signal and time are tested below")
+def test_a_file_that_is_no_import_is_measured_and_its_parity_does_not_apply(tmp_path: Path) -> None:
+    code = main(["check-published", str(ROOT / SHIPPED_MODEL), "--seconds-limit", "0.5", "-o", str(tmp_path)])
+    report = json.loads((tmp_path / "check.json").read_text(encoding="utf-8"))
+    lines = {line["name"]: line for line in report["lines"]}
+    assert lines["the file against the checkpoint"]["verdict"] == NOT_APPLICABLE
+    assert lines["level"]["verdict"] == lines["power below 500 Hz"]["verdict"] == NOT_APPLICABLE
+    assert lines["more steps are nearer the best tier"]["verdict"] == NOT_APPLICABLE
+    assert lines["labels differ"]["verdict"] == lines["finite numbers"]["verdict"] == PASS
+    assert {point["name"] for point in report["points"]} == {"sketch", "draft", "standard"}
+    assert code == (3 if any(line["verdict"] == FAIL for line in lines.values()) else 0)
 
 
 class TestParity:
@@ -289,3 +308,32 @@ class TestTimes:
         source = (ROOT / "NativePlugin" / "src" / "engine" / "quality_control.hpp").read_text(encoding="utf-8")
         assert "defaultUpdateRateHz = 72.0;" in source and "defaultBudgetShare = 0.25;" in source
         assert BUDGET_MS == pytest.approx(1000.0 * 0.25 / 72.0)
+
+
+@pytest.mark.long(
+    because="a network of the published sizes is exported and run; test_published_model.py holds the engine to the "
+    "authors' own arrays at small sizes"
+)
+def test_a_model_of_the_published_sizes_computes_the_same_in_the_engine_as_in_pytorch(tmp_path: Path) -> None:
+    checkpoint = read_checkpoint(write_checkpoint_of_published_sizes(tmp_path / "published"))
+    file = PublishedFile(checkpoint)
+    path = tmp_path / "published.haptoflow"
+    file.write_draft(path)
+    model, numbers = checkpoint.model, np.random.default_rng(5)
+    labels, count = np.array([3, 117]), 2
+    motions = np.array([[0.03, -0.02, 0.6], [-0.05, 0.01, 1.0]], dtype=np.float32)
+    noise = numbers.standard_normal((count, 128, 8), dtype=np.float32)
+    previous = 0.3 * numbers.standard_normal((count, 200), dtype=np.float32)
+    with EngineGenerator(default_engine(ROOT), path, maximum_batch=count) as generator:
+        rows = generator.embeddings[labels]
+        unused = np.zeros_like(previous)
+        for _ in range(2):
+            found = generator.generate(rows, motions, previous, unused, latent_noise=noise.reshape(count, -1))
+            expected = model.segment(
+                torch.from_numpy(noise),
+                model.network.label_embed(torch.from_numpy(labels)),
+                torch.from_numpy(motions),
+                torch.from_numpy(previous).unsqueeze(1),
+            )
+            assert_within_1e_4_of_its_rms(found, expected[:, 0])
+            previous = found

@@ -22,7 +22,7 @@ from haptoflow_paper.cli import main
 from haptoflow_paper.codec.checkpoint_file import read_tensors
 from haptoflow_paper.published.checkpoint import read_checkpoint
 from haptoflow_paper.published.labels import EmbeddingRows, published_labels
-from haptoflow_paper.published.level_measurement import RenderedLevels, _motions
+from haptoflow_paper.published.level_measurement import RenderedLevels, _motions, band_rms
 from haptoflow_paper.published.meta_file import ControlStatistics
 from haptoflow_paper.published.published_file import PublishedFile, TrainedRange, tiers_of
 from haptoflow_training.errors import InputError
@@ -49,6 +49,19 @@ def test_an_assumed_level_is_said_where_inspect_shows_it(assumed: Path) -> None:
     header = read_model_file(assumed).header
     assert header["normalisation"]["assumed"] is True
     assert "level assumed" in header["provenance"]["statement"]
+
+
+def test_an_assumed_level_makes_the_median_of_the_labels_the_measured_one(assumed: Path) -> None:
+    file = read_model_file(assumed)
+    unit = file.header["normalisation"]["peak_mps2"]
+    seeds = file.header["seed_bank"]["entries"]
+    levels: dict[str, list[float]] = {}
+    for seed, wave in zip(seeds, file.tensors["seeds"], strict=True):
+        if abs(np.hypot(*seed["velocity_mps"]) - 0.04) < 1e-4:
+            levels.setdefault(seed["label"], []).append(float(band_rms(unit * seed["gain"] * wave[None])[0]))
+    of_classes = [np.sqrt(np.mean(np.square(levels[label["name"]]))) for label in file.header["labels"][:5]]
+    # Seeds are the second half of what the level was measured on.
+    assert abs(20 * np.log10(np.median(of_classes) / 0.57)) < 1.5
 
 
 def test_every_part_s_licence_and_origin_stand_in_the_file(assumed: Path) -> None:
