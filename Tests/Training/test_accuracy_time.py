@@ -12,15 +12,17 @@ import numpy as np
 import pytest
 from matplotlib import pyplot
 
+from haptoflow_paper.report.cell_figures import BY_KEY
 from haptoflow_paper.rows.reference_conditions import Condition, conditions
 from haptoflow_paper.rows.reference_set import REFERENCE_ROWS, ReferencePair, reference_waves
 from haptoflow_paper.report.accuracy_time import table, timed_rows, with_times
-from haptoflow_paper.report.accuracy_time_chart import PANELS, draw_chart, draw_panel, draw_spectra
+from haptoflow_paper.report.accuracy_time_chart import PANELS, chart_points, draw_chart, draw_panel, draw_spectra
 from haptoflow_paper.report.accuracy_time_report import write_document
 from haptoflow_paper.rows import accuracy
 from haptoflow_paper.rows.row_plan import PlannedRow
 from haptoflow_paper.rows.row_runner import weights_crc32
-from haptoflow_paper.rows.row_summary import summary
+from haptoflow_paper.rows.row_summary import median_interval, summary, with_interval
+from haptoflow_paper.rows.workplace import read_row
 from haptoflow_training.model_stamp import SHIPPED_MODEL
 
 ROOT = Path(__file__).parents[2]
@@ -151,6 +153,19 @@ def axes() -> Iterator[Any]:
     figure, axes = pyplot.subplots()
     yield axes
     pyplot.close(figure)
+
+
+@pytest.mark.parametrize("name", ["standard", "draft"])
+def test_the_bars_are_bootstrap_intervals_over_the_stored_recordings_of_the_row(name: str) -> None:
+    kept = read_row(ROOT / "Training" / "haptoflow_paper" / "results" / "rows" / f"{name}-1.json")["conditions"]
+    assert len(kept) == next(row for row in SHIPPED["rows"] if row["name"] == name)["recordings"]
+    for panel in PANELS:
+        point = next(entry for entry in chart_points(SHIPPED["rows"], panel.key) if entry.row == name)
+        if panel.key == "lsd_db":
+            ends = with_interval(kept, panel.key)[1:]
+        else:
+            ends = median_interval(kept, BY_KEY[panel.key])
+        assert (point.low, point.high) == pytest.approx(ends, abs=2e-3)
 
 
 @pytest.mark.parametrize("panel", PANELS, ids=lambda panel: panel.key)

@@ -70,6 +70,42 @@ def test_a_table_that_reaches_every_goal_meets_all_of_them() -> None:
     assert len(goals) == 37 and all(goal.holds for goal in goals), [goal for goal in goals if not goal.holds]
 
 
+@pytest.mark.parametrize(
+    ("part", "figure", "value", "beginning"),
+    [
+        ("", "level_error_db", -0.3, "size of the median"),
+        ("cells", "level_error_db", _spread(0.8), "level, nine"),
+        ("special", "slow_level_error_db", _spread(2.3), "level at 10 mm/s"),
+        ("", "gfc_recording", 0.987, "GFC"),
+        ("", "gfc_label_worst", 0.94, "GFC of the worst label"),
+        ("", "lsd_db", 0.95, "LSD, dB"),
+        ("cells", "lsd_db", _spread(1.9), "LSD, nine"),
+        ("special", "ruled_lsd_db", _spread(1.5), "LSD of ruled"),
+        ("special", "oblique_lsd_db", 1.6, "LSD across ribs"),
+        ("cells", "f0_error_percent", _spread(1.1), "error of the fundamental"),
+        ("cells", "harmonic_share", _spread(0.7), "harmonic share"),
+        ("special", "impact_kurtosis_log_ratio", _spread(0.48), "impacts: factor of kurtosis"),
+        ("special", "impact_crest_error_db", _spread(1.6), "impacts: crest"),
+        ("special", "rib_modulation_error_db", _spread(3.1), "ribs, 0.01 to 0.5 m/s: modulation"),
+        ("special", "rib_coherence", _spread(0.7), "ribs, 0.01 to 0.5 m/s: coherence"),
+        ("special", "nap_error_db", 0.8, "nap"),
+        ("", "drift_db_per_min", -0.2, "drift"),
+        ("", "told_apart_percent", {"median": 61.0, "p90": 65.0, "worst": 69.0}, "told apart from recordings, median"),
+        ("", "told_apart_percent", {"median": 58.0, "p90": 65.0, "worst": 71.0}, "told apart from recordings, worst"),
+        ("", "fast", [_FAST, {**_FAST, "level_error_db": 0.8}], "level error, 500"),
+        ("", "fast", [_FAST, {**_FAST, "gfc_recording": 0.98}], "GFC, 500"),
+        ("", "fast", [_FAST, {**_FAST, "lsd_db": 2.5}], "LSD, 500"),
+    ],
+)
+def test_a_figure_beyond_its_limit_misses_its_goal(part: str, figure: str, value: Any, beginning: str) -> None:
+    table = _table()
+    standard = table["rows"][0]
+    (standard[part] if part else standard)[figure] = value
+    goals = judge(table)
+    assert _named(goals, beginning).holds is False
+    assert [goal.what for goal in goals if goal.holds is False] == [_named(goals, beginning).what]
+
+
 def test_missing_rows_leave_their_goals_unjudged() -> None:
     alone = judge({"rows": [row for row in _table()["rows"] if row["name"] == "standard"]})
     for beginning in (

@@ -12,9 +12,9 @@ import pytest
 from haptoflow_training.cli import main
 from haptoflow_training.recordings.synthetic import TRAINING_SPECIMENS, load_materials
 from haptoflow_training.recordings.synthetic.measurement import (
-    Design, Deviation, SpreadMeasurement, calibrate, measure, measure_spread
+    TOLERANCE, Design, Deviation, SpreadMeasurement, calibrate, measure, measure_spread
 )
-from haptoflow_training.recordings.synthetic.materials import DEFAULT_MATERIALS_PATH
+from haptoflow_training.recordings.synthetic.materials import DEFAULT_MATERIALS_PATH, Targets
 
 MATERIALS = {material.label: material for material in load_materials()}
 # From 20 mm/s like the report: at lower speeds ribs are met at less than 20 Hz, which bends a ruled label's level law.
@@ -26,6 +26,20 @@ SMALL = Design(
     reference_repeats=2,
     fast_speeds_mmps=(),
 )
+
+
+def test_a_deviation_passes_only_within_every_tolerance():
+    targets = Targets(1.0, 1.0, 0.2, 100.0, -8.0)
+    assert Deviation.of(targets, targets).passes()
+    for wrong in (
+        Targets(1.25, 1.0, 0.2, 100.0, -8.0),
+        Targets(1.0, 1.2, 0.2, 100.0, -8.0),
+        Targets(1.0, 1.0, 0.4, 100.0, -8.0),
+        Targets(1.0, 1.0, 0.2, 120.0, -8.0),
+        Targets(1.0, 1.0, 0.2, 100.0, -10.5),
+    ):
+        assert not Deviation.of(wrong, targets).passes()
+    assert (TOLERANCE.level_db, TOLERANCE.p, TOLERANCE.q) == (1.5, 0.15, 0.15)
 
 
 @pytest.mark.parametrize("label", ["glass", "metal mesh", "carpet"])

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from haptoflow_paper.rows import reference_set as subject
-from haptoflow_paper.rows.reference_conditions import Condition, conditions
+from haptoflow_paper.rows.reference_conditions import CONSTANT_SPEEDS_MPS, Condition, conditions
 from haptoflow_paper.rows.reference_set import known_phases, record_pair
 from haptoflow_training.recordings.synthetic import FURTHER_SPECIMENS, HELD_OUT_SPECIMEN, Material, load_materials
 from haptoflow_training.recordings.synthetic.surface import TRAINING_SPECIMENS
@@ -28,6 +28,16 @@ def _first(label: str, kind: str, **wanted: object) -> Condition:
         if entry.label == label and entry.kind == kind and all(getattr(entry, k) == v for k, v in wanted.items()):
             return entry
     raise AssertionError((label, kind, wanted))
+
+
+def test_the_grid_covers_slow_to_fast_and_light_to_firm_on_every_label() -> None:
+    assert min(CONSTANT_SPEEDS_MPS) == 0.01 and max(CONSTANT_SPEEDS_MPS) == 1.5
+    for material in MATERIALS:
+        own = [entry for entry in CHOSEN if entry.label == material.label]
+        assert {entry.speed_mps for entry in own if entry.kind == "constant"} >= set(CONSTANT_SPEEDS_MPS)
+        assert {entry.kind for entry in own} >= {"constant", "reversal", "stop", "varying", "change"}
+        forces = [entry.force_newtons for entry in own if entry.kind == "constant"]
+        assert min(forces) == 0.2 and max(forces) == 3.0
 
 
 def test_two_recordings_are_of_the_held_out_specimen_and_the_third_of_one_that_no_training_knows_either(monkeypatch: pytest.MonkeyPatch) -> None:

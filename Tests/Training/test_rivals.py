@@ -5,16 +5,22 @@ from __future__ import annotations
 import dataclasses
 import io
 import json
+import math
 import warnings
+from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
 import onnx
 import pytest
+import scipy.signal
 import torch
 from torch import Tensor
 
 from haptoflow_paper.rivals import ARCHITECTURES, Rival, build_rival
+from haptoflow_paper.rivals.autoregressive import AutoregressiveRival
 from haptoflow_paper.rivals.rival import INPUTS, SegmentNetworkGraph
+from haptoflow_paper.rivals.spsi import SpsiRival
 from haptoflow_paper.runs.trainer import EvaluatedTrainer
 from haptoflow_training.commands import train
 from haptoflow_training.errors import InputError
@@ -54,6 +60,16 @@ def _shortened(name: str) -> TrainingConfig:
         batch=BatchConfig(),
         recipe=dataclasses.replace(config.recipe, **few, reflow_pairs=500, energy_batch_size=6),
     )  # fmt: skip
+
+
+@pytest.mark.parametrize("name", GIVEN_THE_SAME)
+def test_a_rival_given_the_same_has_the_recordings_batches_and_time_of_our_recipe(name: str) -> None:
+    ours, rival = load_config(CONFIGS / "sketch.toml"), load_config(CONFIGS / f"{name}.toml")
+    assert rival.model.network == "field" and rival.model.ribs
+    assert rival.recipe.calibrate_level and ours.recipe.calibrate_level
+    assert rival.data == ours.data
+    assert rival.batch == ours.batch
+    assert rival.optimiser.budget_seconds == ours.optimiser.budget_seconds > 0.0
 
 
 _LARGE = pytest.mark.long(because="the two largest networks; the other rivals train and are exported by the same code")
@@ -130,6 +146,8 @@ def _train(words: list[str]) -> int:
     return main(["train", *words])
 
 
+DETERMINISTIC = ("transformer", "dstn")
+RANDOM = ("spsi", "autoregressive")
 SAMPLED = ("transformer", "dstn", "spsi")
 # In the forms as published and given the same.
 FORMS = {
@@ -140,6 +158,8 @@ FORMS = {
         for architecture in SAMPLED
     },
 }
+
+Batch = Callable[[int], tuple[Tensor, Tensor]]
 
 
 def _inputs(batch: int) -> dict[str, Tensor]:
@@ -164,6 +184,26 @@ def _built(form: str) -> Rival:
     return baseline
 
 
+def _one_condition(batch: int) -> tuple[Tensor, Tensor, Tensor]:
+    """Embedding, motion and phases."""
+    motion = torch.tensor([[0.06, 0.0, 1.0]]).expand(batch, -1)
+    return torch.full((batch, EMBEDDING_SIZE), 0.3), motion, torch.zeros(batch, 6)
+
+
+def _test_rival_networks_train(baseline: Rival, draw: Batch, steps: int, rate: float) -> list[float]:
+    """Losses of every step on batches of (previous, segment) from `draw`, all of one condition."""
+    optimiser = torch.optim.Adam(baseline.parameters(), lr=rate)
+    generator, losses = torch.Generator().manual_seed(0), []
+    for step in range(steps):
+        previous, segment = draw(step)
+        loss = baseline.loss(segment, previous, *_one_condition(len(segment)), generator).mean()
+        optimiser.zero_grad()
+        loss.backward()
+        optimiser.step()
+        losses.append(loss.item())
+    return losses
+
+
 @pytest.mark.parametrize("form", FORMS)
 def test_a_rival_s_loss_is_one_number_for_every_row(form: str) -> None:
     inputs = _inputs(3)
@@ -184,6 +224,61 @@ def test_exactly_the_named_inputs_affect_a_rival_s_output(form: str) -> None:
     for name in INPUTS:
         after = baseline(**dict(inputs, **{name: inputs[name] + 0.1}))
         assert torch.equal(before, after) == (name not in baseline.inputs), name
+
+
+def test_deterministic_rivals_ignore_the_noise_and_sampled_ones_read_it() -> None:
+    assert sorted(DETERMINISTIC + RANDOM) == sorted(ARCHITECTURES)
+    assert all("noisy" not in _built(architecture).inputs for architecture in DETERMINISTIC)
+    assert all("noisy" in _built(architecture).inputs for architecture in RANDOM)
+
+
+def test_spsi_learns_a_spectrum_and_renders_at_the_stated_level() -> None:
+    frequencies = torch.linspace(0.0, 1.0, 101)
+    shape = (-((frequencies - 0.3) / 0.1).square()).exp() + 0.05
+
+    def draw(step: int) -> tuple[Tensor, Tensor]:
+        noise = torch.randn(32, 1, 200, generator=torch.Generator().manual_seed(step))
+        return torch.zeros_like(noise), torch.fft.irfft(torch.fft.rfft(noise) * shape)
+
+    baseline = SpsiRival()
+    losses = _test_rival_networks_train(baseline, draw, 80, 3e-3)
+    with torch.no_grad():
+        conditions = _one_condition(64)
+        stated = baseline.log_magnitudes(*conditions[:2])[0]
+        noise = torch.randn(64, 1, 200, generator=torch.Generator().manual_seed(2))
+        made = baseline(noise, torch.zeros_like(noise), *conditions)
+    # The geometric mean of a Gaussian texture's magnitudes lies a factor exp(-0.289) below their RMS.
+    expected = (shape * math.sqrt(75.0)).log() - 0.289
+    assert losses[-1] < 0.3 * losses[0]
+    assert (stated - expected)[5:95].abs().mean() < 0.15
+    power = (stated.exp().square() * 2.0).sum() / (200.0 * 75.0)
+    assert made.square().mean().sqrt().item() == pytest.approx(power.sqrt().item(), rel=0.05)
+
+
+@pytest.mark.long(because="a filter is trained; test_all_pole_filter.py holds its arithmetic and Burg's estimates")
+def test_the_autoregressive_rival_learns_the_poles_and_level_of_a_process() -> None:
+    radius, angle = 0.95, 2.0 * math.pi * 0.08
+    truth = np.array([1.0, -2.0 * radius * math.cos(angle), radius**2])
+    gain = 0.2
+    source = np.random.default_rng(4)
+
+    def draw(_step: int) -> tuple[Tensor, Tensor]:
+        wave = scipy.signal.lfilter([gain], truth, source.standard_normal((16, 800)))[:, 400:]
+        both = torch.from_numpy(wave).float().unsqueeze(1)
+        return both[:, :, :200], both[:, :, 200:]
+
+    torch.manual_seed(0)
+    baseline = AutoregressiveRival()
+    losses = _test_rival_networks_train(baseline, draw, 150, 3e-3)
+    with torch.no_grad():
+        coefficients, log_gain = baseline.process(*_one_condition(1)[:2])
+    learned = np.concatenate([[1.0], coefficients[0].double().numpy()])
+    least = math.log(gain) + 0.5
+    assert losses[-1] - least < 0.1 < losses[0] - least
+    assert math.exp(log_gain.item()) == pytest.approx(gain, rel=0.1)
+    response = [np.abs(scipy.signal.freqz([1.0], a, worN=128)[1]) for a in (truth, learned)]
+    assert np.abs(20.0 * np.log10(response[1] / response[0])).mean() < 1.5
+    assert abs(int(response[1].argmax()) - int(response[0].argmax())) <= 1
 
 
 def _exported(baseline: Rival, batch: int) -> onnx.ModelProto:

@@ -12,7 +12,10 @@ import pytest
 
 from haptoflow_training.cli import main
 from haptoflow_training.errors import InputError
-from haptoflow_training.studies.delay_budget import BenchFigures, Block, Budget, Spread, budgets, read_bench
+from haptoflow_training.model_stamp import with_measured_words
+from haptoflow_training.studies.delay_budget import (
+    BenchFigures, Block, Budget, Spread, budgets, page_words as budget_words, read_bench
+)
 from haptoflow_training.studies.plans import SplitMix64, latency_plan, similarity_plan, williams_design
 
 GOLDEN = Path(__file__).parents[1] / "Golden" / "studies" / "plans.json"
@@ -197,3 +200,10 @@ def test_every_command_of_a_page_runs_in_its_order(
         assert "SIMULATED" in (tmp_path / "report.html").read_text(encoding="utf-8")
     if "merge" in ran:
         assert sorted(path.name for path in (tmp_path / "tables").iterdir()) == ["latency.csv", "similarity.csv"]
+
+
+def test_the_published_budget_is_that_of_the_published_benchmark() -> None:
+    page = (RESULTS / "delay-budget.md").read_text(encoding="utf-8")
+    chart = "../../Documentation~/images/delay-budget.png"
+    words = budget_words(read_bench(PUBLISHED), chart)
+    assert page == with_measured_words(page, words), "write it anew: haptoflow-training study budget --page"
