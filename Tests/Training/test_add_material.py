@@ -12,13 +12,19 @@ from typing import Any
 import numpy as np
 import pytest
 
+from haptoflow_benchmark.engine_library import default_engine
 from haptoflow_benchmark.engine_render import render_motion
+from haptoflow_benchmark.waveform_metrics import power_spectrum
+from haptoflow_paper.report.temporal_metrics import rib_modulation_depth
+from haptoflow_paper.rows.engine_generator import EngineGenerator
 from haptoflow_training.cli import main
+from haptoflow_training.training.closed_loop import UPDATE_RATE_HZ, run_closed_loop
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.model_file import ModelFile, model_space, read_model_file, with_label
 from haptoflow_training.export.sliders import Sliders, find_sliders
 from haptoflow_training.recordings.synthetic import load_materials
 from own_samples import csv_one_axis, stroke
+from training_fixtures import still_surfaces
 
 ROOT = Path(__file__).parents[2]
 DEFAULT = ROOT / "Packages" / "com.haptoflow.runtime" / "Runtime" / "Models" / "default.haptoflow"
@@ -208,6 +214,57 @@ def sliders(file: ModelFile) -> Sliders:
 def learnt(file: ModelFile, label: str) -> np.ndarray:
     names = [entry["name"] for entry in file.header["labels"]]
     return file.tensors["embedding"][names.index(label)]
+
+
+def moved(sliders: Sliders, base: np.ndarray, values: dict[str, float]) -> np.ndarray:
+    """What the engine makes of an embedding [60] and sliders of -1 to 1 by name."""
+    far = base + sum(min(1.0, max(-1.0, value)) * sliders.directions[name] for name, value in values.items())
+    own, along = sliders.axes @ (base - sliders.mean), sliders.axes @ (far - sliders.mean)
+    held = np.clip(along, np.minimum(sliders.lowest, own), np.maximum(sliders.highest, own))
+    return np.asarray(far + sliders.axes.T @ (held - along))
+
+
+def slid(file: ModelFile, sliders: Sliders, label: str, name: str, values: tuple[float, ...]) -> list[np.ndarray]:
+    base = learnt(file, label)
+    return [np.concatenate([moved(sliders, base[:60], {name: value}), base[60:]]) for value in values]
+
+
+def rendered(embeddings: list[np.ndarray], velocity: tuple[float, float]) -> np.ndarray:
+    motion = np.tile(np.array([*velocity, 1.0], dtype=np.float32), (len(embeddings), 4400, 1))
+    with EngineGenerator(default_engine(ROOT), DEFAULT) as source:
+        run = run_closed_loop(
+            source, np.stack(embeddings).astype(np.float32), motion, np.arange(len(embeddings)),
+            still_surfaces(len(embeddings)), update_rate_hz=UPDATE_RATE_HZ, seed=3,
+        )  # fmt: skip
+    return run.waves[:, 400:]
+
+
+def centroid_hz(wave: np.ndarray) -> float:
+    power, frequency = power_spectrum(wave, 512), np.fft.rfftfreq(512, 1.0 / 2000.0)
+    band = (frequency >= 20.0) & (frequency <= 900.0)
+    return float((power[band] * frequency[band]).sum() / power[band].sum())
+
+
+@pytest.mark.long(
+    because="a slider is rendered step by step; test_regularity_makes_ribs_stand_out renders another slider"
+)
+def test_coarseness_lowers_the_pitch_step_by_step_and_hardness_raises_it(file: ModelFile, sliders: Sliders) -> None:
+    values, labels = (-1.0, -0.5, 0.0, 0.5, 1.0), ("wood", "stone", "paper", "rubber")
+    for name, sign in (("coarseness", -1.0), ("hardness", 1.0)):
+        asked = [each for label in labels for each in slid(file, sliders, label, name, values)]
+        waves = rendered(asked, (0.08, 0.03))
+        pitch = np.log([centroid_hz(wave) for wave in waves]).reshape(len(labels), len(values)).mean(axis=0)
+        assert (sign * np.diff(pitch) > 0.0).all(), (name, np.exp(pitch))
+        assert sign * (pitch[-1] - pitch[0]) > 0.25
+
+
+def test_regularity_makes_ribs_stand_out(file: ModelFile, sliders: Sliders) -> None:
+    depths = []
+    for label, rate in (("jute", 40.0), ("corduroy", 32.0)):
+        asked = slid(file, sliders, label, "regularity", (-1.0, 1.0))
+        depths.append([rib_modulation_depth(wave, rate) for wave in rendered(asked, (0.08, 0.0))])
+    irregular, regular = np.mean(depths, axis=0)
+    assert regular > irregular
 
 
 def test_the_shipped_file_is_what_the_command_writes(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -141,6 +141,13 @@ def _tracked(
     return np.array(phases)
 
 
+def test_the_same_seed_gives_the_same_phases_and_another_seed_other_ones() -> None:
+    first, again, other = (_tracked(JUTE, 3, 5, (0.1, 0.05, 1.0), seed) for seed in (1, 1, 2))
+    np.testing.assert_array_equal(first, again)
+    assert np.abs(first - other).max() > 0.01
+    assert np.abs(first[:, 0] - first[:, 1]).max() > 0.01, "every row has a surface of its own"
+
+
 def test_each_rate_is_how_fast_its_phase_advances() -> None:
     for label in (JUTE, RUBBER):
         phases = _tracked(label, 40, 60, (0.05, 0.02, 1.0)).astype(np.float64)

@@ -47,3 +47,22 @@ def test_another_label_sounds_from_the_hop_at_which_it_is_published() -> None:
     assert abs(20.0 * np.log10(rms(changed[400:start]) / rms(one[400:start]))) < 0.5
     assert abs(20.0 * np.log10(rms(changed[start + 20 :]) / rms(other[start + 20 :]))) < 0.5
     assert abs(20.0 * np.log10(rms(one) / rms(other))) > 3.0
+
+
+def test_a_waveform_is_the_same_every_time_and_another_with_another_seed() -> None:
+    with EngineGenerator(default_engine(ROOT), MODEL, "draft") as generator:
+        first, again, another = (
+            closed_loop(generator, STEADY[None, :1000], np.array([0]), update_rate_hz=72.0, seed=seed).waves
+            for seed in (3, 3, 4)
+        )
+    np.testing.assert_array_equal(first, again)
+    assert not np.allclose(first, another)
+
+
+def test_the_first_correction_begins_at_a_hop_start() -> None:
+    runs = []
+    for tier in ("sketch", "standard"):
+        with EngineGenerator(default_engine(ROOT), MODEL, tier) as generator:
+            runs.append(closed_loop(generator, STEADY[None, :1000], np.array([0]), update_rate_hz=72.0, seed=3))
+    differs = np.abs(runs[0].waves - runs[1].waves)[0] > 1e-3 * rms(runs[0].waves[0])
+    assert np.min(np.abs(runs[1].hop_starts - int(np.argmax(differs)))) <= 2
