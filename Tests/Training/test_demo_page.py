@@ -95,3 +95,9 @@ def test_the_scene_is_drawn_twice_with_labels_start_tip_and_moving_object() -> N
         assert view.count("<svg ") == view.count('class="mover"') == view.count('class="tip"') == 1
         places = json.loads(re.search(r'class="tip"[^>]*data-track="([^"]*)"', view)[1])
         assert len(places) == 31
+
+
+def test_a_looped_motion_passes_through_its_keyframes_and_begins_again() -> None:
+    keyframes = [{"t": t, "position": [x, 0, 0]} for t, x in ((0, 0), (0.5, 0.1), (1, 0))]
+    places = drawings.positions_at({"keyframes": keyframes, "loop": True}, np.array([0, 0.5, 1, 2.5]))
+    assert places[:, 0] == pytest.approx([0, 0.1, 0, 0.1], abs=1e-9)

@@ -13,10 +13,50 @@ from haptoflow_training.recordings.native_recording import as_native
 
 RATE_HZ = 8000
 
+CENTRES_HZ = 1000.0 * 2.0 ** (np.arange(-17, 0) / 3.0)
+
+
+def band_levels_db(axes: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Third-octave energies of all axes together, 20-800 Hz bands (upper edge 891 Hz)."""
+    spectrum = np.abs(np.fft.rfft(axes, axis=0)) ** 2
+    power = spectrum.sum(axis=1) if spectrum.ndim == 2 else spectrum
+    frequencies = np.fft.rfftfreq(len(axes), 1.0 / RATE_HZ)
+    edge = 2.0 ** (1.0 / 6.0)
+    return 10 * np.log10(
+        [power[(frequencies >= c / edge) & (frequencies < c * edge)].sum() for c in CENTRES_HZ]
+    )
+
 
 def broadband(seconds: float, seed: int = 3) -> NDArray[np.float64]:
     noise = np.random.default_rng(seed).standard_normal((int(seconds * RATE_HZ), 3))
     return signal.sosfilt(signal.butter(2, [15, 1500], "bandpass", fs=RATE_HZ, output="sos"), noise, axis=0)
+
+
+def resonant(noise: NDArray[np.float64], low: float, high: float) -> NDArray[np.float64]:
+    return signal.sosfilt(signal.butter(1, [low, high], "bandpass", fs=RATE_HZ, output="sos"), noise)
+
+
+def one_source_through_three_transfers() -> NDArray[np.float64]:
+    noise = broadband(4.0)
+    return np.column_stack(
+        [
+            0.2 * noise[:, 0],
+            1.5 * resonant(noise[:, 0], 150, 300),
+            0.1 * signal.lfilter([1.0], [1.0, -0.9], -noise[:, 0]) + 0.1 * noise[:, 1],
+        ]
+    )
+
+
+def nearly_cancelling_axes() -> NDArray[np.float64]:
+    noise = broadband(4.0)
+    return np.column_stack([noise[:, 0], -noise[:, 0] + 0.3 * noise[:, 1], 0.2 * noise[:, 2]])
+
+
+@pytest.mark.parametrize("axes", [one_source_through_three_transfers, nearly_cancelling_axes])
+def test_dft321_keeps_every_third_octave_energy_within_half_a_decibel(axes) -> None:
+    three = axes()
+    difference = band_levels_db(dft321(three, RATE_HZ)) - band_levels_db(three)
+    assert np.abs(difference).max() < 0.5
 
 
 @pytest.mark.parametrize("axis", [0, 2])

@@ -157,6 +157,24 @@ def test_the_energy_distance_prefers_a_continued_tone_to_a_restarted_one() -> No
     assert losses[2] < losses[3] - 0.1, "own past: by spectra alone"
 
 
+def _blows(seed: int, rate: float) -> torch.Tensor:
+    """[256, 200] of noise power 1: even for rate 1, in a share `rate` of the samples for less."""
+    generator = torch.Generator().manual_seed(seed)
+    noise = torch.randn(256, 200, generator=generator)
+    return noise * (torch.rand(256, 200, generator=generator) < rate) / rate**0.5
+
+
+@pytest.mark.parametrize("rate", [0.01, 0.1, 0.4])
+def test_the_energy_distance_prefers_impacts_at_the_recorded_rate(rate: float) -> None:
+    recorded, past = _blows(1, rate), torch.zeros(256, 200)
+
+    def loss(drawn_rate: float) -> float:
+        return _loss(recorded, past, (_blows(2, drawn_rate), _blows(3, drawn_rate)), own=True)
+
+    assert loss(rate) < loss(1.0) - 0.05
+    assert loss(rate) < loss(0.3 * rate) - 0.02
+
+
 def test_rendering_a_chain_appends_each_generated_hop() -> None:
     store = make_store()
     model = build_model(field_config(), [(), ()]).eval()

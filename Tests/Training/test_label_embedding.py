@@ -11,6 +11,7 @@ import pytest
 import torch
 from numpy.typing import NDArray
 
+from haptoflow_paper.runs.continuing_comb import GAINS, ContinuingComb, spread_gains
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE
 from haptoflow_training.models.haptoflow_model import SkeletonModel
 from haptoflow_training.models.label_embedding import (
@@ -21,6 +22,8 @@ from haptoflow_training.models.level_model import LevelModel
 from haptoflow_training.models.rib_comb import PARTIALS, RibComb
 from haptoflow_training.models.skeleton import Skeleton
 from haptoflow_training.training.found_wave_vectors import rib_phase_turns
+from haptoflow_training.recordings.synthetic.carriers import guided_ride
+from haptoflow_training.recordings.synthetic.contact import SIMULATION_RATE_HZ
 from haptoflow_training.training.config import ModelConfig, RecipeConfig
 from haptoflow_training.training.energy_distance import energy_distance_loss, envelopes, spectra
 from haptoflow_training.training.losses import SkeletonLosses
@@ -143,6 +146,11 @@ def test_rate_features_are_zero_at_rest_and_tell_how_fast_and_which_way() -> Non
 EMBEDDING = LabelEmbedding(64, [((0.4, 0.0),), ((0.8, 0.0), (0.0, 0.8)), ()])
 
 
+def _wave(frequencies_hz: list[float], start: int, stop: int) -> torch.Tensor:
+    time = torch.arange(start, stop) / 2000.0
+    return torch.stack([torch.sin(2.0 * math.pi * f * time + f) for f in frequencies_hz]).sum(dim=0).reshape(1, 1, -1)
+
+
 def test_the_rib_frequency_is_the_speed_across_the_ribs_over_their_wavelength() -> None:
     angle = math.radians(60.0)
     motion = torch.tensor([[0.2 * math.cos(angle), 0.2 * math.sin(angle), 1.0]])
@@ -158,6 +166,33 @@ def _test_ribs_phases(
     phases = surface_phases(embedding, motion, torch.zeros(len(embedding), 2), torch.zeros(len(embedding), 6))
     phases[:, :2] = torch.tensor(turns)
     return phases
+
+
+def _comb(
+    past: torch.Tensor,
+    label: int,
+    speed_mps: float,
+    gains: torch.Tensor | None = None,
+    turns: tuple[float, float] = (0.0, 0.0),
+) -> torch.Tensor:
+    """[B, 5, 200]: the past continued by both families of ribs, pulses of both, lines."""
+    count = len(past)
+    motion = torch.tensor([[speed_mps, 0.0, 1.0]] * count)
+    embedding = EMBEDDING(torch.tensor([label] * count))
+    phases = _test_ribs_phases(embedding, motion, turns)
+    spread = (torch.zeros(1, GAINS) if gains is None else gains)[:, spread_gains()]
+    return ContinuingComb()(torch.flip(past, [2]), phases, spread)
+
+
+@pytest.mark.parametrize("speed_mps", [0.1, 0.237, 0.9])
+def test_the_comb_continues_a_tone_and_its_overtone_with_their_phases(speed_mps: float) -> None:
+    fundamental = 400.0 * speed_mps
+    tones = [f for f in (fundamental, 2.0 * fundamental) if f < 960.0]
+    combed = _comb(_wave(tones, -200, 0), 0, speed_mps)
+    truth = _wave(tones, 0, 200)[0, 0]
+    error = (combed[0, 0] - truth).square().mean().sqrt() / truth.square().mean().sqrt()
+    assert error.item() < 0.25, "a ramp of 100 ms tells harmonics 20 Hz apart from their neighbours"
+    assert combed[0, 1].abs().max().item() == 0.0, "a second family of ribs that is not there"
 
 
 def test_a_segment_s_partials_relative_to_the_surface_do_not_depend_on_the_place() -> None:
@@ -202,6 +237,25 @@ def test_training_does_not_change_wave_vectors_and_a_saved_run_has_them(tmp_path
     Trainer(config, make_store(), tmp_path, ALONE, wave_vectors=[((0.5, 0.0),), ()]).run()
     model = load_trained(tmp_path)[2]
     assert model.embedding.weight[:, -4:].tolist() == [[0.5, 0.0, 0.0, 0.0], [0.0, 0.0, 0.0, 0.0]]
+
+
+def test_a_quarter_of_a_guided_stroke_is_so_steady_that_fast_ribs_keep_their_phase_and_half_of_that_is_along_a_scan() -> None:
+    """0.6 mm ribs at up to 1.5 m/s: how far the position is, in the middle of a tenth, from a straight line's."""
+    step = int(SIMULATION_RATE_HZ) // 10
+    bends, turns = [], []
+    for seed in range(6):
+        ride = guided_ride(
+            np.random.default_rng(seed), duration_seconds=8.0, median_speed_mmps=400.0, median_force_newtons=1.0
+        )
+        position = ride.path.position_mm[10 * step : 70 * step]
+        tenths = position[: len(position) // step * step].reshape(-1, step, 2)
+        bend = 0.5 * (tenths[:, step // 2 - 1] + tenths[:, step // 2] - tenths[:, 0] - tenths[:, -1])
+        bends.append(2.0 * math.pi * np.abs(bend[:, 0]) / 0.6)
+        eighths = np.arctan2(*(tenths[:, -1] - tenths[:, 0]).T) / (0.25 * math.pi)
+        turns.append(np.abs(eighths - np.round(eighths)) * 45.0)
+    steady, turned_degrees = np.concatenate(bends) < 0.05, np.concatenate(turns)
+    assert np.mean(steady) > 0.25
+    assert np.mean(turned_degrees[steady] < 5.0) > 0.4
 
 
 RATE_HZ = 2000
@@ -262,3 +316,8 @@ def test_a_followed_phase_becomes_the_one_at_which_the_skeleton_s_fundamental_is
     stated = math.copysign(1.0, rate_hz) * path_of(followed)[0, 0].double().numpy()
     line = np.mean(ended * np.exp(-2j * np.pi * stated))
     assert abs(np.angle(line)) < 0.05 and abs(line) > 1e-3
+
+
+def test_what_the_recorder_states_is_left_as_it_is() -> None:
+    model = SkeletonModel(wave_vectors=[[VECTOR]], level=LevelModel(16), skeleton=Skeleton((16, 16)))
+    assert not SkeletonLosses(model).ribs_followed

@@ -9,16 +9,17 @@ from pathlib import Path
 import onnx
 import pytest
 import torch
+from torch import nn
 
 from haptoflow_paper.codec.representation import CodecRepresentation, build_representation
 from haptoflow_paper.codec.small_codec import SmallCodec, SmallCodecShape
 from haptoflow_paper.rivals import ARCHITECTURES
 from haptoflow_paper.runs.tier import export_level_model, network_graph
-from haptoflow_paper.runs.velocity_field import VelocityField
+from haptoflow_paper.runs.velocity_field import IMPULSE_GAINS as GAINS, BandLimit, ContinuousImpulses, VelocityField
 from haptoflow_training.export.trained_tier import tier_of
 from haptoflow_training.models.conditioning import EMBEDDING_SIZE, MotionFeatures
 from haptoflow_training.models.level_model import LevelModel, level_loss
-from haptoflow_training.models.skeleton import ATOMS, NOISE_BEFORE, TAIL_THRESHOLDS, TAPS, TailImpulses
+from haptoflow_training.models.skeleton import ATOMS, NOISE_BEFORE, TAIL_THRESHOLDS, TAPS, THRESHOLDS, TailImpulses
 from haptoflow_training.training.config import TrainingConfig, load_config
 from haptoflow_training.training.trainer import build_model
 from paper_samples import evaluated
@@ -53,6 +54,13 @@ def test_every_input_affects_the_velocity_field_s_output(levels: int) -> None:
         assert not torch.allclose(field(**changed), before, atol=1e-5), name
 
 
+def test_rows_of_a_batch_are_independent() -> None:
+    field = _trained_like(VelocityField(width=32))
+    inputs = _inputs(4)
+    alone = field(**{name: value[2:3] for name, value in inputs.items()})
+    torch.testing.assert_close(field(**inputs)[2:3], alone, rtol=1e-4, atol=1e-5)
+
+
 def test_motion_features_are_finite_from_rest_to_twenty_metres_a_second() -> None:
     motion = torch.tensor([[0.0, 0.0, 0.0], [20.0, 0.0, 1000.0], [-1e-9, 1e-9, -3.0]])
     module = MotionFeatures()
@@ -78,6 +86,17 @@ def test_the_level_model_learns_a_power_law_of_speed_and_force() -> None:
     expected = torch.log(2.0 * motion[:, 0] * motion[:, 2] ** 0.3)
     error_decibels = 8.686 * (model(embedding.expand(3, -1), motion)[:, 0] - expected).abs()
     assert error_decibels.max() < 0.7, error_decibels
+
+
+def test_the_band_limit_is_the_convolution_of_past_segment_and_mirrored_segment_with_its_taps() -> None:
+    band_limit = BandLimit()
+    with torch.no_grad():
+        band_limit.weight.copy_(torch.randn(1, 1, 129))
+    past, segment = torch.randn(2, 3, 1, 200).unbind()
+    whole = torch.cat([past[:, :, -64:], segment, torch.flip(segment[:, :, -64:], [2])], dim=2)
+    torch.testing.assert_close(
+        band_limit(past, segment), torch.nn.functional.conv1d(whole, band_limit.weight), rtol=1e-4, atol=1e-4
+    )
 
 
 ROOT = Path(__file__).parents[2]
@@ -159,3 +178,16 @@ def test_each_tail_rings_with_its_own_kernels(excess: float, tail: int) -> None:
     other = gains.clone()
     other[0, 1 - tail] = 0.0
     assert torch.equal(impulses(noise, gains.reshape(1, -1)), impulses(noise, other.reshape(1, -1)))
+
+
+class _SameRungs(TailImpulses):
+    thresholds = THRESHOLDS
+
+
+def test_tails_with_equal_kernels_are_the_impulses_of_a_network() -> None:
+    noise = 1.6 * torch.randn(4, 1, 200, generator=torch.Generator().manual_seed(5))
+    same = torch.randn(1, GAINS, generator=torch.Generator().manual_seed(6))
+    network = ContinuousImpulses()(noise, same.expand(4, -1))
+    both = _SameRungs()(nn.functional.pad(noise, (NOISE_BEFORE, 0)), same.repeat(4, 2))
+    torch.testing.assert_close(both, network, rtol=1e-4, atol=1e-4)
+    assert network.square().mean() > 0.1

@@ -85,6 +85,11 @@ def _imported(tree: ast.AST) -> Iterator[tuple[int, str]]:
             yield node.lineno, str(node.module)
 
 
+def test_each_package_has_modules_to_check() -> None:
+    counts = {package: sum(found == package for found, _ in MODULES) for package in ABOVE}
+    assert counts["haptoflow_training"] > 80 and counts["haptoflow_benchmark"] > 10
+
+
 @pytest.mark.parametrize(("package", "path"), MODULES, ids=lambda value: str(value).removeprefix(f"{TRAINING}/"))
 def test_no_module_names_a_package_above_its_own(package: str, path: Path) -> None:
     text = path.read_text(encoding="utf-8")

@@ -187,6 +187,12 @@ def _own_condition() -> tuple[torch.Tensor, torch.Tensor]:
     return torch.randn(2, 64, generator=torch.Generator().manual_seed(10)), torch.tensor([[0.1, 0.0, 1.0]] * 2)
 
 
+def test_an_untrained_skeleton_has_a_filter_and_neither_swing_lines_nor_rungs() -> None:
+    gains = Skeleton((16, 16)).gains(*_own_condition(), STILL)
+    assert gains.coefficients.abs().max() > 0.0
+    assert all(part.abs().max() == 0.0 for part in (gains.swing, gains.lines, gains.impulses))
+
+
 def _moved_by(skeleton: Skeleton, loss: torch.Tensor) -> dict[str, bool]:
     """Which weights the gradient of a loss reaches: those of the filter's perceptron, 16 wide, those of the other one,
     and the rows of the last layer."""

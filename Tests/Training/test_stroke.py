@@ -32,6 +32,14 @@ def test_a_random_stroke_has_the_median_speed_asked_for_and_stays_within_what_ha
     assert np.ptp(stroke.position_metres, axis=0).max() < 1.0
 
 
+def test_a_random_strokes_velocity_is_the_derivative_of_its_position():
+    stroke = random_planar_stroke(
+        np.random.default_rng(5), duration_seconds=4.0, rate_hz=1000.0, median_speed_mps=0.3, extent_metres=0.3
+    )
+    difference = np.diff(stroke.position_metres, axis=0) * 1000.0
+    assert np.allclose(difference, stroke.velocity_mps[:-1], atol=1e-9)
+
+
 def test_a_scripted_stroke_starts_and_ends_at_its_waypoints_and_rounds_the_others_without_stopping():
     stroke = scripted_stroke(WAYPOINTS, segment_seconds=0.5, rate_hz=240.0, seed=2, tremor_metres=0.0)
     assert np.allclose(stroke.position_metres[0], WAYPOINTS[0])

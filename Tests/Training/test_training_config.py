@@ -67,6 +67,12 @@ def test_recordings_of_one_s_own_train_labels_alone() -> None:
     assert [(phase.name, phase.objective) for phase in phases] == [("embedding", "likelihood")]
 
 
+def test_a_skeleton_s_filter_is_fitted_before_its_likelihood_and_a_refinement_has_none() -> None:
+    base, standard = (load_config(CONFIGURATIONS / "default" / f"{name}.toml") for name in ("base", "standard"))
+    objectives = [[phase.objective for phase in Trainer.phases(config)] for config in (base, standard)]
+    assert objectives == [["level", "filter", "likelihood", "energy", "energy"], ["energy", "energy"]]
+
+
 def test_a_configuration_takes_what_it_does_not_set_from_the_one_it_extends(tmp_path: Path) -> None:
     (tmp_path / "base.toml").write_text("seed = 5\n[optimiser]\nsteps = 7\nbatch_size = 3\n", encoding="utf-8")
     config = _load(tmp_path, 'extends = "base.toml"\n[optimiser]\nsteps = 9\n')
@@ -148,6 +154,11 @@ def test_a_wrong_key_or_value_is_named_with_its_file(tmp_path: Path, text: str, 
         _load(tmp_path, text)
     assert complaint in str(raised.value)
     assert "run.toml" in str(raised.value) or "nowhere.toml" in str(raised.value)
+
+
+def test_a_missing_file_is_named() -> None:
+    with pytest.raises(InputError, match="nowhere.toml"):
+        load_config(Path("nowhere.toml"))
 
 
 def test_a_configuration_is_restored_from_a_checkpoint() -> None:
