@@ -12,7 +12,7 @@ from haptoflow_training.cli import main
 from haptoflow_training.studies.plans import CONDITIONS
 from haptoflow_training.studies.simulation import PAPER_CURVES, AnswerModel, RatingModel, latency_power
 from haptoflow_training.studies.psychometric import (
-    Answers, Curve, expanded_interval, fit, fit_curve, threshold_difference
+    Answers, Curve, expanded_interval, fit, fit_curve, share, threshold_difference
 )
 from haptoflow_training.studies.rating_tests import (
     adjusted, analysed, cohen_dz, equivalence, factors, friedman, holm, possible_true_counts, rank_biserial,
@@ -40,6 +40,18 @@ def test_few_differences_are_tested_by_counting_every_pattern_of_signs(alternati
     assert signed_rank_p(differences, alternative) == pytest.approx(every_sign_p(differences, alternative))
 
 
+def test_the_approximation_is_near_the_counted_value_where_it_takes_over() -> None:
+    random = np.random.default_rng(3)
+    compared = 0
+    for _ in range(40):
+        differences = np.round(random.normal(0.7, 1.5, 16))
+        counted = every_sign_p(differences, "two-sided")
+        if np.count_nonzero(differences) > 12 and counted < 0.1:
+            assert signed_rank_p(differences) == pytest.approx(counted, abs=0.05)
+            compared += 1
+    assert compared >= 8
+
+
 def test_differences_that_are_all_zero_have_no_p_value_and_no_effect() -> None:
     nothing = np.zeros(24)
     assert signed_rank_p(nothing) is None and rank_biserial(nothing) is None and cohen_dz(nothing) is None
@@ -51,6 +63,16 @@ def test_the_effect_sizes_are_those_of_their_definitions() -> None:
     assert cohen_dz(differences) == pytest.approx(1.25 / np.std(differences, ddof=1))
     assert rank_biserial(np.array([1.0, 2.0])) == 1.0 and rank_biserial(np.array([-1.0])) == -1.0
     assert cohen_dz(np.array([1.0, 1.0])) is None and cohen_dz(np.array([1.0])) is None
+
+
+def test_kendalls_w_is_one_for_full_agreement_and_follows_from_friedmans_chi_square() -> None:
+    agreed = friedman(np.tile([1.0, 3.0, 5.0, 7.0], (10, 1)))
+    assert agreed is not None and agreed.kendall_w == pytest.approx(1.0)
+    ratings = ratings_of(2, 24, [4.0, 4.5, 5.0, 3.5])
+    found = friedman(ratings)
+    assert found is not None
+    assert found.chi_square == pytest.approx(float(stats.friedmanchisquare(*ratings.T).statistic))
+    assert found.kendall_w == pytest.approx(found.chi_square / (24 * 3))
 
 
 def test_ratings_that_are_all_equal_get_a_reason_in_place_of_tests() -> None:
@@ -70,6 +92,11 @@ def test_pairs_are_followed_up_only_where_the_methods_differ() -> None:
     for pair in different.pairs:
         assert pair.p is not None and pair.p_shaffer is not None and pair.p_shaffer >= pair.p
     assert min(pair.p_shaffer for pair in different.pairs) < 0.001  # type: ignore[type-var]
+
+
+def test_equal_methods_are_equivalent_with_enough_participants_and_different_ones_never() -> None:
+    assert equivalence(*ratings_of(8, 300, [4.0, 4.0]).T, 0.5) < 0.001
+    assert equivalence(*ratings_of(8, 300, [5.5, 3.0]).T, 0.5) > 0.99
 
 
 def test_the_larger_side_of_equivalence_decides_and_a_wider_bound_is_easier() -> None:
@@ -110,6 +137,17 @@ def test_the_possible_numbers_of_true_hypotheses_are_those_of_every_way_to_be_eq
     assert possible_true_counts(methods) == counts
 
 
+def test_adjusted_values_keep_the_order_and_stay_below_one_whatever_the_values() -> None:
+    random = np.random.default_rng(4)
+    for methods in range(2, 7):
+        for _ in range(50):
+            p_values = list(random.uniform(size=len(factors(methods))) ** 3)
+            result = adjusted(p_values, methods)
+            assert all(raw <= value <= 1.0 for raw, value in zip(p_values, result, strict=True))
+            by_rank = [value for _, value in sorted(zip(p_values, result, strict=True))]
+            assert by_rank == sorted(by_rank)
+
+
 def test_a_wrong_number_of_values_is_refused() -> None:
     with pytest.raises(ValueError, match="6 pairs"):
         adjusted([0.1, 0.2], 4)
@@ -147,6 +185,13 @@ def test_no_test_of_ratings_exceeds_its_false_positive_rate() -> None:
         # More than 25 of 300 would occur less than once in a hundred times at 5 %.
         assert count <= 25
     assert min(friedman, alone) >= 5
+
+
+def test_shares_have_wilsons_interval() -> None:
+    one = share(190, 200)
+    assert one.rate == 0.95
+    assert (one.low, one.high) == pytest.approx((0.9104, 0.9726), abs=5e-4)
+    assert one.covers(0.95) and not one.covers(0.9)
 
 
 @pytest.mark.parametrize(
@@ -196,6 +241,14 @@ def test_the_curve_is_the_maximum_likelihood_found_by_a_general_optimiser(seed: 
     assert curve.x0 == pytest.approx(best.x[1] * 100.0, rel=1e-6)
 
 
+def test_very_many_answers_recover_the_curve_they_were_drawn_from() -> None:
+    curve = fit_curve(drawn(1, participants=20000))
+    assert curve is not None
+    assert curve.k == pytest.approx(0.0214, rel=0.02)
+    assert curve.x0 == pytest.approx(130.25, abs=0.6)
+    assert curve.percent(curve.x0) == pytest.approx(50.0)
+
+
 @pytest.mark.parametrize(
     ("yes", "said"),
     [
@@ -243,6 +296,15 @@ def test_a_threshold_beyond_the_tested_delays_is_called_extrapolated() -> None:
     result = fit(drawn(3, x0=290.0))
     assert result.curve is not None and result.curve.x0 > 250.0
     assert any("extrapolated" in note for note in result.notes)
+
+
+def test_the_same_seed_gives_the_same_interval_and_more_participants_a_narrower_one() -> None:
+    few, many = fit(drawn(5, participants=12), seed=3), fit(drawn(5, participants=96), seed=3)
+    assert few.threshold_interval == fit(drawn(5, participants=12), seed=3).threshold_interval
+    assert few.threshold_interval is not None and many.threshold_interval is not None
+    width = many.threshold_interval.high - many.threshold_interval.low
+    assert width < 0.6 * (few.threshold_interval.high - few.threshold_interval.low)
+    assert few.threshold_interval.covers(few.curve.x0)  # type: ignore[union-attr]
 
 
 def test_participants_are_drawn_whole_so_that_copies_of_each_other_widen_the_interval() -> None:

@@ -36,6 +36,14 @@ def _rms(values):
     return float(np.sqrt(np.mean(np.sum(values**2, axis=1))))
 
 
+def _uniform_spectrum(recording, axis=2):
+    time = recording.acceleration_time_seconds
+    grid = np.arange(time[0] + 0.2, time[-1], 1 / 4000.0)
+    values = np.interp(grid, time, recording.acceleration_g[:, axis])
+    power = np.abs(np.fft.rfft((values - values.mean()) * np.hanning(len(values)))) ** 2
+    return np.fft.rfftfreq(len(values), 1 / 4000.0), power
+
+
 def _straight(start_mm, heading, speed_mmps, count):
     velocity = np.tile(speed_mmps * np.array([np.cos(heading), np.sin(heading)]), (count, 1))
     time = np.arange(count) / SIMULATION_RATE_HZ
@@ -69,6 +77,63 @@ def test_level_grows_with_speed_and_everything_stays_within_the_sensors_range(la
         assert np.max(np.abs(recording.acceleration_g)) <= 16.0
     assert np.all(np.diff(levels) > 0.0)
     assert levels[-1] < 80.0
+
+
+@pytest.mark.parametrize(("label", "wavelength_mm"), [("corduroy", 2.5), ("metal mesh", 1.2)])
+@pytest.mark.parametrize("speed", [0.1, 0.2])
+def test_a_ruled_surface_vibrates_at_speed_over_wavelength(label, wavelength_mm, speed):
+    _, recording = _vibration(label, velocity=(speed, 0.01 * speed), seconds=2.0)
+    frequency, power = _uniform_spectrum(recording)
+    expected = 1e3 * speed / wavelength_mm
+    near = (frequency > 0.6 * expected) & (frequency < 1.5 * expected)
+    assert frequency[near][np.argmax(power[near])] == pytest.approx(expected, rel=0.03)
+    assert power[near].max() > 20 * np.median(power[near])
+
+
+def test_wood_is_smoother_along_its_grain():
+    along = np.mean([_rms(_vibration("wood", velocity=(0.1, 0.0), seed=seed)[0]) for seed in range(3)])
+    across = np.mean([_rms(_vibration("wood", velocity=(0.0, 0.1), seed=seed)[0]) for seed in range(3)])
+    assert along < 0.85 * across
+
+
+def test_impacts_give_concrete_heavier_tails_than_the_same_surface_without_them():
+    def kurtosis(material):
+        normal = np.concatenate(
+            [_vibration("concrete", material=material, seconds=2.0, seed=seed)[0][:, 2] for seed in range(3)]
+        )
+        return np.mean(normal**4) / np.var(normal) ** 2
+
+    concrete = MATERIALS["concrete"]
+    assert kurtosis(concrete) > 4.0
+    assert kurtosis(replace(concrete, impact_strength=0.0)) < 3.7
+
+
+def _prepared_wave(label, *, material=None, speed=0.03, seconds=6.0, seeds=range(6), accelerometer_noise=False):
+    waves = []
+    for seed in seeds:
+        heading = 0.2 + seed
+        recording = record_condition(
+            material or MATERIALS[label],
+            velocity_mps=(speed * np.cos(heading), speed * np.sin(heading)),
+            force_newtons=1.0,
+            duration_seconds=seconds,
+            seed=seed,
+            accelerometer_noise=accelerometer_noise,
+        )
+        waves.append(preprocess_recording(recording, PreprocessingSettings()).waveform_mps2.astype(float))
+    return np.concatenate(waves)
+
+
+@pytest.mark.parametrize("label", ["stone", "sandpaper"])
+def test_asperities_that_mostly_push_up_skew_the_vibration_of_rough_stone_upwards(label):
+    def skewness(material):
+        wave = _prepared_wave(label, material=material)
+        return np.mean((wave - wave.mean()) ** 3) / np.std(wave) ** 3
+
+    rough = MATERIALS[label]
+    assert rough.impact_upward_share == 0.85
+    assert skewness(rough) > 0.05
+    assert skewness(replace(rough, impact_upward_share=0.15)) < -0.05
 
 
 def test_without_the_accelerometer_s_noise_rest_is_digital_silence_and_the_other_sensors_stay_as_they_are():
@@ -127,6 +192,19 @@ def test_a_machine_pass_rests_at_both_ends_and_moves_as_its_name_says():
     assert np.hypot(*travelled) == pytest.approx(90.0, abs=0.5)
     assert np.degrees(np.arctan2(-travelled[1], travelled[0])) == pytest.approx(45.0, abs=0.5)
     assert recording.force_newtons.mean() == pytest.approx(0.5, abs=0.1)
+
+
+def test_the_frame_s_vibration_is_present_at_rest_and_stronger_in_motion():
+    recording = record_machine_condition(MATERIALS["glass"], RecordingIdentity(6, 0, 60, 500, 0), seed=5)
+    time = recording.acceleration_time_seconds
+    still, moving = (recording.acceleration_g[(time > low) & (time < low + 0.3)] for low in (0.0, 0.8))
+
+    def low_over_high(values):
+        power = np.sum(np.abs(np.fft.rfft(values - values.mean(axis=0), axis=0)) ** 2, axis=1)
+        return power[3:40].mean() / power[len(power) // 2 :].mean()
+
+    assert low_over_high(still) > 1.5
+    assert low_over_high(moving) > 2.0 * low_over_high(still)
 
 
 def _same(one, other):
