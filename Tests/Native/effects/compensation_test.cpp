@@ -422,6 +422,24 @@ TEST(ActuatorProfileTest, InvalidTextIsRejectedWithAOneLineMessage) {
     }
 }
 
+TEST(ActuatorProfileTest, AProfileWithAChangedByteIsRejectedOrUsable) {
+    std::mt19937 random(7);
+    for (int round = 0; round < 4000; ++round) {
+        std::string text = valid;
+        for (unsigned change = 0; change <= random() % 3; ++change) {
+            text[random() % text.size()] = static_cast<char>(random() % 256);
+        }
+        try {
+            const ActuatorProfile profile = ActuatorProfile::parse(text);
+            ASSERT_EQ(profile.frequencyHz.size(), profile.magnitudeDecibels.size()) << text;
+            for (double hz = 1.0; hz < 1e4; hz *= 1.3) {
+                ASSERT_TRUE(std::isfinite(profile.magnitudeDecibelsAt(hz))) << text;
+            }
+        } catch (const ProfileError&) {
+        }
+    }
+}
+
 TEST(ActuatorProfileTest, TheBuiltInProfilesAreFlatAndThePapersApproximateVoiceCoil) {
     for (const std::string_view name : {"flat", "voice-coil"}) {
         const auto profile = ActuatorProfile::builtIn(name);

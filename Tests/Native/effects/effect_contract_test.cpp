@@ -83,8 +83,10 @@ std::unique_ptr<Effect> compensationOfVoiceCoil(double outputRateHz) {
     return std::make_unique<Compensation>(*ActuatorProfile::builtIn("voice-coil"), outputRateHz);
 }
 
+constexpr float listenLimitMps2 = 200.0F;
+
 std::unique_ptr<Effect> listen(double outputRateHz) {
-    return std::make_unique<Listen>(outputRateHz, 200.0);
+    return std::make_unique<Listen>(outputRateHz, listenLimitMps2);
 }
 
 std::vector<float> noiseOf(std::size_t count) {
@@ -143,6 +145,9 @@ TEST_P(EffectContractTest, AnyInputGivesFiniteSamplesAtEveryRateAndNoneAfterARes
         }
         for (const float sample : played(*effect, samples, 33)) {
             ASSERT_TRUE(std::isfinite(sample)) << outputRateHz;
+            if (GetParam().name == "Listen") {
+                ASSERT_LE(std::abs(sample), listenLimitMps2) << outputRateHz;
+            }
         }
         effect->reset();
         std::vector<float> silence(256);
@@ -311,6 +316,23 @@ TEST(DelayTest, IsIdleOnlyOnceTheLineHoldsNothingButSilence) {
     EXPECT_FALSE(delay.isIdle()) << "with the maximum delay the impulse is the next sample";
     playThrough(delay, samples, 4001, 1);
     EXPECT_TRUE(delay.isIdle());
+}
+
+TEST(DelayTest, AResetClearsTheSignalAndKeepsTheDelay) {
+    Delay delay(8000.0);
+    delay.setDelaySeconds(0.1);
+    std::vector<float> samples(4000, 5.0F);
+    playThrough(delay, samples);
+    delay.setDelaySeconds(0.2);
+    playThrough(delay, samples, 3000, 40);
+    delay.reset();
+    EXPECT_TRUE(delay.isIdle());
+    std::vector<float> after(4000, 0.0F);
+    after[0] = 1.0F;
+    playThrough(delay, after);
+    for (std::size_t i = 0; i < after.size(); ++i) {
+        ASSERT_EQ(after[i], i == 1600 ? 1.0F : 0.0F) << i;
+    }
 }
 
 }  // namespace

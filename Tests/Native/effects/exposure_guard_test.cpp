@@ -1,5 +1,7 @@
 #include "effects/exposure_guard.hpp"
 
+#include "support/counting_new.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -128,6 +130,20 @@ TEST(ExposureGuardTest, ALevelThatUsesUpTheDailyDoseIsReducedWithThatReason) {
     EXPECT_FALSE(session.untouched);
     EXPECT_EQ(guard.report().reason, ExposureReason::dose);
     EXPECT_LE(session.steepestDbPerSecond, 1.21);
+}
+
+TEST(ExposureGuardTest, TheGainMovesLinearlyWithinEachHundredthOfASecond) {
+    ExposureLaw law;
+    law.shortTermSeconds = 0.2;
+    ExposureGuard guard(voiceRateHz, law);
+    std::vector<float> samples(16000, 150.0F);
+    guard.process(samples);
+    const double perSample = std::pow(10.0, law.slewDbPerSecond / voiceRateHz / 20.0) - 1.0;
+    for (std::size_t i = 1; i < samples.size(); ++i) {
+        const double change = static_cast<double>(samples[i] / samples[i - 1]) - 1.0;
+        ASSERT_LE(std::abs(change), 1.5 * perSample + 2e-7) << i;
+    }
+    EXPECT_LT(samples.back(), 140.0F);
 }
 
 TEST(ExposureGuardTest, TheDailyExposureApproachesItsLimitAndDoesNotPassIt) {
@@ -289,6 +305,39 @@ TEST(ExposureGuardTest, AResetKeepsTheExposure) {
     EXPECT_EQ(guard.report().dailyMps2, before.dailyMps2);
 }
 
+TEST(ExposureGuardTest, NonFiniteSamplesBecomeZeroAndDoNotCount) {
+    ExposureGuard guard(voiceRateHz);
+    std::vector<float> samples(8000, 1.0F);
+    samples[5] = std::numeric_limits<float>::quiet_NaN();
+    samples[6] = std::numeric_limits<float>::infinity();
+    samples[7] = -std::numeric_limits<float>::infinity();
+    samples[8] = std::numeric_limits<float>::max();
+    guard.process(samples);
+    EXPECT_EQ(samples[5], 0.0F);
+    EXPECT_EQ(samples[6], 0.0F);
+    EXPECT_EQ(samples[7], 0.0F);
+    for (const float sample : samples) {
+        ASSERT_TRUE(std::isfinite(sample));
+    }
+    EXPECT_TRUE(std::isfinite(guard.report().dailyMps2));
+    EXPECT_TRUE(std::isfinite(guard.report().shortTermMps2));
+    EXPECT_GT(guard.report().gain, 0.0);
+}
+
+TEST(ExposureGuardTest, NothingAllocates) {
+    ExposureGuard guard(48000.0, shortDay());
+    std::vector<float> samples(512, 150.0F);
+    const std::size_t before = haptoflow::testing::allocationCount();
+    for (int block = 0; block < 500; ++block) {
+        guard.setActuatorGain(1.0 + 0.001 * block);
+        guard.process(samples);
+        guard.passSilence(1000);
+        static_cast<void>(guard.report());
+    }
+    guard.reset();
+    EXPECT_EQ(haptoflow::testing::allocationCount(), before);
+}
+
 struct Factor {
     double frequencyHz;
     double weight;
@@ -332,6 +381,18 @@ TEST(HandArmWeightingTest, AConstantOffsetIsRemoved) {
         weighted = weighting.next(100.0);
     }
     EXPECT_NEAR(weighted, 0.0, 1e-6);
+}
+
+TEST(HandArmWeightingTest, AResetClearsTheState) {
+    HandArmWeighting used(48000.0);
+    HandArmWeighting fresh(48000.0);
+    for (int i = 0; i < 1000; ++i) {
+        static_cast<void>(used.next(i % 7));
+    }
+    used.reset();
+    for (int i = 0; i < 100; ++i) {
+        EXPECT_EQ(used.next(i % 5), fresh.next(i % 5));
+    }
 }
 
 }  // namespace

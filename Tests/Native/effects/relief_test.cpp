@@ -1,4 +1,5 @@
 #include "effects/relief.hpp"
+#include "effects/carrier_rendering.hpp"
 
 #include "effects/relief_normals.hpp"
 #include "support/counting_new.hpp"
@@ -177,6 +178,47 @@ TEST(ReliefTest, AnotherMaterialUnderTheTipMakesNoStep) {
     EXPECT_LT(playedWith([](int state) { return state % 2 == 0 ? std::nan("") : -1.0; }), 2.0 * hard);
 }
 
+/// The amplitudes that a motor of one frequency gets for a wave at 48 kHz, one for each frame.
+std::vector<WaveFrame> motorFrames(const std::vector<float>& wave, double frameSeconds) {
+    return framesOf(decimated(wave, 24),
+                    {.frameSeconds = frameSeconds, .minFrequencyHz = 160.0, .maxFrequencyHz = 160.0});
+}
+
+TEST(ReliefTest, AMotorTellsGroovesApartThatATipCrossesEveryTenthOfASecond) {
+    // Four grooves of 4 mm in the tile, 16 mm apart.
+    const ReliefMap map = mapOf([](double x, double) { return std::fmod(x, 0.016) < 0.004 ? 0.0 : 0.0005; }, 0.0005);
+    const std::vector<float> wave = played({.map = &map, .velocityMps = {0.16, 0.0}}, 2.0);
+    const std::vector<WaveFrame> frames = motorFrames(wave, 0.014);
+    // From 1 s on, each tenth of a second has a strong frame and one that is 6 dB weaker at least.
+    for (std::size_t tenth = 10; tenth < 19; ++tenth) {
+        float strongest = 0.0F;
+        float weakest = 1e9F;
+        for (const WaveFrame& frame : frames) {
+            const double seconds = static_cast<double>(frame.firstSample) / WaveFeatures::sampleRateHz;
+            if (seconds >= 0.1 * static_cast<double>(tenth) && seconds < 0.1 * static_cast<double>(tenth + 1)) {
+                strongest = std::max(strongest, frame.amplitudeMps2);
+                weakest = std::min(weakest, frame.amplitudeMps2);
+            }
+        }
+        EXPECT_GT(strongest, 2.0F * weakest) << tenth;
+        EXPECT_GT(strongest, 1.0F) << tenth;
+    }
+}
+
+TEST(ReliefTest, ForAMotorRibsAreOneSteadyAmplitudeThatGrowsWithTheSpeedUpToTheResonance) {
+    const ReliefMap map = sineMap(32.0, 0.0);
+    float before = 0.0F;
+    for (const double speed : {0.05, 0.07, 0.1}) {
+        const std::vector<WaveFrame> frames =
+            motorFrames(played({.map = &map, .velocityMps = {speed, 0.0}}, 1.5), 0.014);
+        const auto settledFrames = std::span(frames).subspan(frames.size() / 2, frames.size() / 3);
+        const auto [weakest, strongest] = std::ranges::minmax_element(settledFrames, {}, &WaveFrame::amplitudeMps2);
+        EXPECT_LT(strongest->amplitudeMps2, 1.2F * weakest->amplitudeMps2) << speed;
+        EXPECT_GT(weakest->amplitudeMps2, 1.2F * before) << speed;
+        before = strongest->amplitudeMps2;
+    }
+}
+
 TEST(ReliefTest, AtEveryOutputRateTheLevelIsTheSame) {
     const ReliefMap map = sineMap(32.0, 0.0);
     const double expected = rms(settled(played({.map = &map, .velocityMps = {0.1, 0.0}}, 2.0)));
@@ -210,6 +252,16 @@ TEST(ReliefTest, AStepIsFeltMoreStronglyWhereItIsHigherAndWhereTheTipIsFaster) {
         EXPECT_GT(peak, 1.5 * before) << speed;
         before = peak;
     }
+}
+
+TEST(ReliefTest, AStepIsAsStrongInAFinerMap) {
+    const auto step = [](double x, double) { return x < 0.016 ? 0.0 : 0.0003 * (0.064 - x) / 0.048; };
+    const ReliefMap coarse = mapOf(step, 0.0005, 512);
+    const ReliefMap fine = mapOf(step, 0.0005, 1000);
+    const auto peakOf = [](const ReliefMap& map) {
+        return largest(played({.map = &map, .velocityMps = {0.1, 0.0}}, 0.6));
+    };
+    EXPECT_NEAR(decibels(peakOf(fine) / peakOf(coarse)), 0.0, 2.0);
 }
 
 ReliefMap noiseMap(double tipRadiusMetres = 0.0005) {

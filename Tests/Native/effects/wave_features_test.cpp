@@ -148,6 +148,25 @@ TEST(WaveFeaturesTest, ANarrowDeviceKeepsTheOrderOfTextures) {
     EXPECT_EQ(medianCarrierHz(featureSine(320.0, 5.0, 0.5), options), 200.0);
 }
 
+TEST(WaveFeaturesTest, ASteadyTextureHasASteadyAmplitudeAndFrequency) {
+    std::vector<double> amplitudeSteps;
+    std::vector<double> frequencySteps;
+    const std::vector<WaveFrame> frames = steadyFrames(textureNoise(5.0, 20.0, 1), {});
+    for (std::size_t i = 1; i < frames.size(); ++i) {
+        const auto step = [&](float WaveFrame::*member) {
+            return std::abs(
+                decibelsBetween(static_cast<double>(frames[i].*member), static_cast<double>(frames[i - 1].*member)));
+        };
+        amplitudeSteps.push_back(step(&WaveFrame::amplitudeMps2));
+        frequencySteps.push_back(step(&WaveFrame::frequencyHz));
+    }
+    std::ranges::sort(amplitudeSteps);
+    std::ranges::sort(frequencySteps);
+    const std::size_t rank = 95 * amplitudeSteps.size() / 100;
+    EXPECT_LT(amplitudeSteps[rank], 3.5);
+    EXPECT_LT(frequencySteps[rank], 1.0) << "an eighth, half of what a hand notices";
+}
+
 TEST(WaveFeaturesTest, ATapOnATextureArrivesInItsOwnFrameAtFullHeight) {
     for (const double frequencyHz : {80.0, 150.0, 250.0}) {
         for (std::size_t start = 2000; start < 2010; ++start) {
@@ -328,6 +347,23 @@ TEST(WaveFeaturesTest, ANewDeviceRangeAppliesFromTheNextFrameOn) {
         features.setDeviceRange(low, high);
         ASSERT_GE(features.process(wave, frames).frames, 1U);
         EXPECT_EQ(frames[0].frequencyHz, 200.0F) << low << " to " << high;
+    }
+}
+
+TEST(WaveFeaturesTest, AResetClearsTheHistory) {
+    WaveFeatures used;
+    std::vector<WaveFrame> before(2000);
+    static_cast<void>(used.process(featureNoise(50.0, 3.0, 5), before));
+    used.reset();
+    WaveFeatures fresh;
+    const std::vector<float> wave = featureSine(120.0, 3.0, 0.3);
+    const std::vector<WaveFrame> first = allFrames(used, wave, 28);
+    const std::vector<WaveFrame> second = allFrames(fresh, wave, 28);
+    ASSERT_EQ(first.size(), second.size());
+    for (std::size_t i = 0; i < first.size(); ++i) {
+        ASSERT_EQ(first[i].intensity, second[i].intensity);
+        ASSERT_EQ(first[i].firstSample, second[i].firstSample);
+        ASSERT_EQ(first[i].transient.amplitudeMps2, second[i].transient.amplitudeMps2);
     }
 }
 

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -31,6 +32,8 @@ constexpr double seedSpeedMps = 0.1;
 /// Cycles per millimetre; at 0.1 m/s, the tip crosses 20 ribs per second.
 constexpr float coarse = 0.2F;
 constexpr float fine = 0.35F;
+/// The first segment fades in over 5 ms.
+constexpr std::size_t fadeInSamples = 14;
 
 double cyclesPerSample(std::span<const float> waveVector, const std::array<float, 3>& motion) {
     return (static_cast<double>(waveVector[0]) * static_cast<double>(motion[0]) +
@@ -98,7 +101,79 @@ protected:
         speedsMps_.clear();
         turns_.clear();
     }
+
+    static std::optional<ContactState> slide(double) { return onLabel(0); }
+
+    /// Once the first segment sounds, without its beginning.
+    static std::size_t firstSample(const SimulatedDevice& device) {
+        return static_cast<std::size_t>(device.waveform.seams.at(0)) + fadeInSamples;
+    }
+
+    /// The largest difference between the played waveform and the sinusoid of the ribs since touch-down, at constant
+    /// speed.
+    static float largestError(const SimulatedDevice& device, double firstPhase, double cycles) {
+        const std::vector<float>& played = device.waveform.samples;
+        float largest = 0.0F;
+        for (std::size_t i = firstSample(device); i < played.size(); ++i) {
+            // The output is three samples late, which is anticipated; two of them are read ahead at the onset.
+            largest =
+                std::max(largest, std::abs(played[i] - ribWave(firstPhase + cycles * static_cast<double>(i + 1))));
+        }
+        return largest;
+    }
 };
+
+TEST_F(RibPhaseTest, AtConstantSpeedTheRibsContinueTheSeedsWithoutAJump) {
+    for (const double updateHz : {30.0, 72.0, 120.0}) {
+        for (const double latency : {0.002, 0.012, 0.045}) {
+            DeviceSettings settings;
+            settings.updateHz = updateHz;
+            settings.latencySeconds = [latency](double) { return latency; };
+            SimulatedDevice device(model_, generator_, settings);
+            device.run(2.0, slide);
+            ASSERT_GT(device.waveform.samples.size(), 3000U);
+            ASSERT_GT(device.counters().inferences, 20U);
+            EXPECT_LT(largestError(device, seedPhase, 0.01), 2e-3F) << updateHz << " Hz, " << latency;
+        }
+    }
+}
+
+TEST_F(RibPhaseTest, OnALargerScaleTheRibsAreCrossedAtTheSpeedDividedByIt) {
+    for (const float scale : {2.0F, 0.5F, 4.0F}) {
+        SimulatedDevice device(model_, generator_);
+        device.run(0.5, [scale](double) {
+            ContactState state = onLabel(0);
+            state.spatialScale = scale;
+            return state;
+        });
+        ASSERT_GT(device.waveform.samples.size(), 800U);
+        EXPECT_LT(largestError(device, seedPhase, 0.01 / static_cast<double>(scale)), 2e-3F) << scale;
+        EXPECT_FLOAT_EQ(speedsMps_.back(), 0.1F / scale);
+    }
+}
+
+TEST_F(RibPhaseTest, AReversedStrokeCrossesTheSameRibsBackwards) {
+    SimulatedDevice device(model_, generator_);
+    device.run(1.0, slide);
+    std::size_t turn = 0;
+    device.run(0.9, [&](double) {
+        if (turn == 0) {
+            turn = static_cast<std::size_t>(device.voice().renderer.voice().waveform().head() - device.waveform.origin);
+        }
+        return onLabel(0, -static_cast<float>(seedSpeedMps));
+    });
+    const auto back = std::ranges::find_if(speedsMps_, [](float speed) { return speed < 0.0F; });
+    ASSERT_EQ(device.counters().dropped, 0U) << "every request must have a seam";
+    // Until the first segment backwards, the last one forwards is heard.
+    const auto seam = static_cast<std::size_t>(
+        device.waveform.seams.at(static_cast<std::size_t>(std::distance(speedsMps_.begin(), back))));
+    const std::vector<float>& played = device.waveform.samples;
+    ASSERT_GT(played.size(), turn + 1500);
+    ASSERT_LT(seam, turn + 40);
+    for (std::size_t n = seam - turn + 5; n < 1500; ++n) {
+        ASSERT_NEAR(played[turn + n], played[turn - n], 3e-3F) << n << " samples from the turn";
+    }
+}
 
 TEST_F(RibPhaseTest, SpeedChangesAtEveryUpdateMakeNoPhaseJump) {
     for (const std::size_t blockFrames : {64U, 256U, 1024U}) {
@@ -136,6 +211,41 @@ TEST_F(RibPhaseTest, ATouchBeginsWithThePhaseOfItsSeed) {
     const double expected = otherSeedPhase + 0.00525 * static_cast<double>(device.waveform.seams.front() + 1);
     EXPECT_NEAR(phases_.front()[0], expected - std::floor(expected), 1e-5);
     EXPECT_NEAR(phases_.front()[1], 0.125F, 1e-6F) << "the tip does not move along the second wave vector";
+}
+
+TEST_F(RibPhaseTest, AFailedRunLeavesThePhaseAlone) {
+    int runs = 0;
+    FakeGenerator failing([&](const SegmentRequest& request, std::span<float> segment) {
+        if (++runs % 3 == 0) {
+            throw inference::InferenceError("a test says so");
+        }
+        ribsOf(request, segment);
+    });
+    SimulatedDevice device(model_, failing);
+    device.run(2.0, slide);
+    ASSERT_GT(device.counters().failures, 20U);
+    EXPECT_LT(largestError(device, seedPhase, 0.01), 2e-3F);
+}
+
+TEST_F(RibPhaseTest, LiveVoiceAndOfflineRendererHaveTheSameRibPhases) {
+    const auto hand = [](double t) {
+        return onLabel(0, 0.1F + 0.06F * static_cast<float>(std::sin(2.0 * std::numbers::pi * t)));
+    };
+    const std::vector<TimedContactState> states = testing::statesOf(2.0, hand);
+    const OfflineRender offline = renderOffline(model_, generator_, states, {.leadMs = 8.0});
+    DeviceSettings settings;
+    settings.fixedLeadSamples = 16;
+    settings.blockFrames = 48;
+    SimulatedDevice device(model_, generator_, settings);
+    device.run(2.0, hand);
+    const std::size_t common = std::min(offline.waveformMps2.size(), device.waveform.samples.size());
+    ASSERT_GT(common, 3500U);
+    // With blocks of 1 ms, the tip may be up to a sixtieth of a rib further.
+    float largest = 0.0F;
+    for (std::size_t i = firstSample(device); i < common; ++i) {
+        largest = std::max(largest, std::abs(offline.waveformMps2[i] - device.waveform.samples[i]));
+    }
+    EXPECT_LT(largest, std::numbers::sqrt2_v<float> * 2.0F * std::numbers::pi_v<float> * 0.05F);
 }
 
 // The noise of a voice belongs to the place: whatever the blocks, the frames and the latencies, a place is heard with

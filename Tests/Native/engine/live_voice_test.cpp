@@ -226,6 +226,16 @@ TEST_F(LiveVoiceTest, TheSplicesOfASteadySlideAreInaudible) {
     EXPECT_GT(device.waveform.seams.size(), 100U);
 }
 
+TEST_F(LiveVoiceTest, AStoppedDeviceEndsInference) {
+    SimulatedDevice device(model_, tone_);
+    device.run(0.3, slide);
+    const std::uint64_t inferences = device.counters().inferences;
+    for (int update = 0; update < 200; ++update) {
+        device.publish(testing::sliding());
+    }
+    EXPECT_LE(device.counters().inferences, inferences + 1);
+}
+
 class StallTest : public LiveVoiceTest, public ::testing::WithParamInterface<double> {};
 
 TEST_P(StallTest, ALateWorkerMakesNoStepAndTheVoiceRecovers) {
@@ -275,6 +285,27 @@ INSTANTIATE_TEST_SUITE_P(Device, LeadTest,
                          [](const auto& blocks) {
                              return std::to_string(blocks.param.frames) + "x" + std::to_string(blocks.param.burst);
                          });
+
+TEST_F(LiveVoiceTest, AChangeOfTheOutputRateCausesOnlyAFade) {
+    SimulatedDevice device(model_, tone_);
+    device.run(0.5, slide);
+    const std::uint64_t onsets = device.counters().onsets;
+    const float ordinaryStep = testing::largestStep(device.output);
+    device.setRate(24000.0);
+    const std::size_t begin = device.output.size();
+    device.run(0.5, slide);
+    EXPECT_EQ(device.counters().rateChanges, 1U);
+    EXPECT_EQ(device.counters().onsets, onsets) << "the touch continues";
+    EXPECT_LE(testing::largestStep(from(device, begin - 1)), 3.0F * ordinaryStep);
+    const auto settled = from(device, begin + 2400);
+    EXPECT_GT(testing::peak(settled), 0.9F / 60.0F);
+    int crossings = 0;
+    for (std::size_t i = 1; i < settled.size(); ++i) {
+        crossings += (settled[i - 1] < 0.0F) != (settled[i] < 0.0F) ? 1 : 0;
+    }
+    const double seconds = static_cast<double>(settled.size()) / 24000.0;
+    EXPECT_NEAR(crossings / seconds, 2.0 * testing::toneHz, 10.0) << "the tone keeps its pitch";
+}
 
 struct Device {
     double rateHz;

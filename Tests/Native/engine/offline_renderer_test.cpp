@@ -75,6 +75,7 @@ TEST_F(OfflineRendererTest, AStreamedRenderArrivesPerUpdateAndHasTheSameStatisti
     EXPECT_EQ(streamed.rmsMps2, whole.rmsMps2);
     EXPECT_EQ(streamed.peak, whole.peak);
     EXPECT_EQ(streamed.segments, states.size());
+    EXPECT_EQ(streamed.underruns, 0U);
     EXPECT_EQ(streamed.seamStatistics.jumpRatio, whole.seamStatistics.jumpRatio);
 }
 
@@ -101,6 +102,36 @@ TEST_F(OfflineRendererTest, InvalidStatesAreSanitisedAndCountedAndTheOutputIsFin
     const OfflineRender render = renderOffline(model_, noise_, states, {});
     EXPECT_GT(render.sanitised, 60U);
     EXPECT_TRUE(std::ranges::all_of(render.samples, [](float sample) { return std::abs(sample) < 1.0F; }));
+}
+
+TEST_F(OfflineRendererTest, AfterAFailedRunTheOutputFadesAndTheFailureIsCounted) {
+    int calls = 0;
+    FakeGenerator generator([&calls](const inference::SegmentRequest& request, std::span<float> segment) {
+        if (++calls > 20 && calls <= 40) {
+            throw inference::InferenceError("refused by the test");
+        }
+        testing::continueTone(request, segment);
+    });
+    const OfflineRender render = renderOffline(model_, generator, statesOfSlide(1.0), {});
+    EXPECT_EQ(render.failures, 20U);
+    EXPECT_GT(render.underruns, 0U);
+    EXPECT_EQ(render.nonFinite, 0U);
+}
+
+TEST_F(OfflineRendererTest, MissingUpdatesSilenceTheVoiceUntilSlidingResumes) {
+    std::vector<TimedContactState> states = statesOfSlide(1.0);
+    for (std::size_t i = 36; i < states.size(); ++i) {
+        states[i].timeSeconds += 0.5;
+    }
+    const OfflineRender render = renderOffline(model_, tone_, states, {});
+    const auto quietFrom = static_cast<std::size_t>((states[35].timeSeconds + 0.1055) * 48000.0);
+    const auto quietTo = static_cast<std::size_t>(states[36].timeSeconds * 48000.0);
+    ASSERT_LT(quietFrom, quietTo);
+    for (std::size_t i = quietFrom; i < quietTo; ++i) {
+        ASSERT_EQ(render.samples[i], 0.0F) << "sample " << i;
+    }
+    EXPECT_EQ(render.onsets, 1U) << "the resumed slide belongs to the same touch";
+    EXPECT_NE(render.samples[quietTo + 480], 0.0F);
 }
 
 TEST_F(OfflineRendererTest, SettingsOutOfRangeAreRejected) {

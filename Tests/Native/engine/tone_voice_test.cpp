@@ -69,6 +69,21 @@ TEST_F(ToneVoiceTest, WithoutAToneTheFilterDoesNotRun) {
     EXPECT_EQ(plain.counters().requestedEffects & effects::maskOf(EffectKind::tone), 0U);
 }
 
+TEST_F(ToneVoiceTest, ATiltChangesTheGainAtTheSoundingFrequency) {
+    SimulatedDevice plain(model_, tone_);
+    SimulatedDevice dark(model_, tone_);
+    plain.run(1.0, [](double) { return sliding(); });
+    dark.run(1.0, [](double) {
+        ContactState state = sliding();
+        state.toneDbPerOctave = 6.0F;
+        return state;
+    });
+    const double octaves = std::log2(testing::toneHz / 150.0);
+    const std::span<const float> played(plain.waveform.samples);
+    const std::span<const float> tilted(dark.waveform.samples);
+    EXPECT_NEAR(20.0 * std::log10(rms(tilted.last(1000)) / rms(played.last(1000))), 6.0 * octaves, 0.5);
+}
+
 TEST_F(ToneVoiceTest, AMaterialsToneAppliesFromTheSeedsFirstSampleAndNotToThePast) {
     SimulatedDevice plain(model_, tone_);
     SimulatedDevice toned(model_, tone_);

@@ -171,6 +171,48 @@ TEST_F(VoiceEffectsTest, ALandingWithinATouchGivesAnImpactAndTheTextureContinues
     EXPECT_EQ(device.counters().onsets, 1U);
 }
 
+TEST_F(VoiceEffectsTest, AnImpactWhileSlidingAddsToTheTexture) {
+    const auto play = [this](float approachSpeedMps) {
+        testing::DeviceSettings settings;
+        settings.fixedLeadSamples = 16;
+        SimulatedDevice device(model_, tone_, settings);
+        device.run(0.4, [approachSpeedMps](double seconds) {
+            ContactState state = testing::sliding();
+            state.effects = texture | impact;
+            state.touchCounter = seconds < 0.2 ? 1U : 2U;
+            state.approachSpeedMps = seconds < 0.2 ? 0.0F : approachSpeedMps;
+            return state;
+        });
+        return device.output;
+    };
+    const std::vector<float> without = play(0.0F);
+    const std::vector<float> with = play(0.05F);
+    std::vector<float> event(with.size());
+    std::ranges::transform(with, without, event.begin(), std::minus<>());
+    EXPECT_EQ(testing::peak(std::span<const float>(event).first(9000)), 0.0F);
+    const double peak = 60.0 * static_cast<double>(testing::peak(event));
+    const double expected =
+        0.05 * static_cast<double>(impactResponse(model_.header().labels[0]).modes[0].gainPerSecond);
+    EXPECT_GT(peak, 0.6 * expected);
+    EXPECT_LT(peak, 1.01 * expected);
+}
+
+TEST_F(VoiceEffectsTest, APanicSilencesAnImpactAndTheNextTouchSounds) {
+    SimulatedDevice device(model_, tone_);
+    device.publish(landing(0.5F, impact, 1));
+    device.renderBlock();
+    EXPECT_GT(testing::peak(device.output), 0.01F);
+    device.voice().channels.panic();
+    device.renderBlock();
+    const std::size_t after = device.output.size();
+    device.publish(landing(0.5F, impact, 1));
+    renderBlocks(device, 10);
+    EXPECT_EQ(testing::peak(from(device, after)), 0.0F);
+    device.publish(landing(0.5F, impact, 2));
+    renderBlocks(device, 2);
+    EXPECT_GT(testing::peak(from(device, after)), 0.01F);
+}
+
 TEST_F(VoiceEffectsTest, OnARoundedRimTheEdgeUsesTheSpeedBeforeIt) {
     // On the rim, the normal points along the motion for a few states, so the speed along the surface is zero.
     const auto peakAt = [this](float speedMps, bool leaves) {
@@ -337,6 +379,20 @@ TEST_F(ProcessorsTest, AGuardSwitchedOffAndOnRemembersTheDay) {
             EXPECT_LT(testing::largestStep(device.output), 0.02F) << "no click";
         }
     }
+}
+
+TEST_F(ProcessorsTest, AfterARateChangeTheProcessorsApplyFromTheFirstSound) {
+    SimulatedDevice device(model_, tone_);
+    ask(device, [](ProcessorSettings& settings) { settings.hasExposureGuard = true; });
+    device.run(0.5, slide);
+    const double before = device.voice().channels.exposureDailyMps2;
+    EXPECT_GT(before, 0.0);
+    device.setRate(24000.0);
+    device.run(0.3, slide);
+    EXPECT_GE(device.voice().channels.exposureDailyMps2, before) << "the exposure of the same hand continues";
+    const std::uint64_t runs = of(device, EffectKind::exposureGuard).runs;
+    device.run(0.1, slide);
+    EXPECT_GT(of(device, EffectKind::exposureGuard).runs, runs);
 }
 
 TEST_F(ProcessorsTest, LiftOffActsBeforeTheDelay) {

@@ -118,6 +118,26 @@ TEST(ContactTrackerTest, CrossingABoxEdgeRollsTheNormalOverInsteadOfFlippingIt) 
     EXPECT_NEAR(readings.back().normal.x, 1.0, 1e-12);
 }
 
+TEST(ContactTrackerTest, ATipThatPassesThroughAClosedMeshKeepsTouchingAndTurnsItsNormalOnce) {
+    const Shape slab = testing::meshOf(testing::rawBoxMesh({0.05, 0.2, 0.2}));
+    for (const double offCentreMetres : {0.0, 0.013}) {
+        ContactTracker tracker(sceneOf({surfaceOf(slab)}, 0.002));
+        const auto readings = play(tracker, sampledPath(1.0, 90.0, [&](double time) {
+                                       return glm::dvec3(0.1 * time - 0.05, offCentreMetres, -offCentreMetres);
+                                   }));
+        int cycles = 0;
+        for (std::size_t frame = 0; frame < readings.size(); ++frame) {
+            ASSERT_TRUE(readings[frame].touching);
+            ASSERT_TRUE(isSane(readings[frame]));
+            cycles += frame > 0 && glm::dot(readings[frame].normal, readings[frame - 1].normal) < 0.99 ? 1 : 0;
+        }
+        EXPECT_EQ(cycles, 1);
+        EXPECT_NEAR(readings.front().normal.x, -1.0, 1e-12);
+        EXPECT_NEAR(readings.back().normal.x, 1.0, 1e-12);
+        EXPECT_EQ(readings.back().touchCounter, 1U);
+    }
+}
+
 TEST(ContactTrackerTest, NoFrameOfContactAllocates) {
     std::vector<SceneSurface> surfaces{surfaceOf(Plane{}, {{0.0, -0.1, 0.0}, {1.0, 0.0, 0.0, 0.0}})};
     const std::vector<Shape> shapes{Box{glm::dvec3(0.03)}, Sphere{0.02}, Capsule{0.01, 0.05},

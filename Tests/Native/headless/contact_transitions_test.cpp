@@ -253,6 +253,27 @@ TEST(ContactTransitionsTest, ATipAtRestInACornerHasNoEventsInSpiteOfTrackerNoise
     EXPECT_EQ(events.edges, 0U);
 }
 
+TEST(ContactTransitionsTest, ARotatedSceneHasTheSameEvents) {
+    const glm::dquat turn = turned(73.0, {1.0, -2.0, 0.5});
+    const glm::dvec3 shift(3.0, -1.0, 7.0);
+    std::vector<SceneSurface> surfaces{blockAt({-0.1, -0.05, 0.0}, {0.2, 0.1, 0.1}),
+                                       blockAt({0.3, 0.3, 0.0}, {0.6, 1.0, 1.0})};
+    for (SceneSurface& surface : surfaces) {
+        surface.pose.positionMetres = shift + turn * surface.pose.positionMetres;
+        surface.pose.rotation = turn;
+    }
+    for (const double depth : {0.0006, 0.005}) {
+        // Along the block's top against the wall behind it, back, and off the block's other end.
+        const Events events = eventsOf(sceneOf(surfaces), 2.0, 90.0, [&](double time) {
+            const double x = time < 0.6 ? -0.14 + 0.3 * time : 0.04 - 0.3 * (time - 0.6);
+            return shift + turn * glm::dvec3(x, tipRadius - depth, 0.0);
+        });
+        EXPECT_EQ(events.landings, 1U) << depth;
+        EXPECT_NEAR(events.approach, 0.3, 0.003);
+        EXPECT_EQ(events.edges, 1U) << depth;
+    }
+}
+
 TEST(ContactTransitionsTest, TeleportsLostTrackingAndClockRestartsAreNoEdges) {
     const Scene scene =
         sceneOf({blockAt({-0.5, -0.05, 0.0}, {1.0, 0.1, 1.0}), blockAt({0.5, 0.0, 0.0}, {0.6, 1.0, 1.0})});
