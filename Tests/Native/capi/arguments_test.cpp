@@ -31,6 +31,9 @@ TEST(LibraryApiTest, EveryStatusHasANameAndOtherNumbersHaveNone) {
     EXPECT_STREQ(haptoflow_status_name(HAPTOFLOW_INFERENCE_FAILED), "HAPTOFLOW_INFERENCE_FAILED");
     EXPECT_STREQ(haptoflow_status_name(HAPTOFLOW_CANCELLED), "HAPTOFLOW_CANCELLED");
     EXPECT_STREQ(haptoflow_status_name(HAPTOFLOW_TIER_TOO_SLOW), "HAPTOFLOW_TIER_TOO_SLOW");
+    EXPECT_STREQ(haptoflow_status_name(HAPTOFLOW_MATERIAL_MISMATCH), "HAPTOFLOW_MATERIAL_MISMATCH");
+    EXPECT_STREQ(haptoflow_status_name(HAPTOFLOW_MATERIAL_INVALID), "HAPTOFLOW_MATERIAL_INVALID");
+    EXPECT_STREQ(haptoflow_status_name(HAPTOFLOW_RECORDING_UNUSABLE), "HAPTOFLOW_RECORDING_UNUSABLE");
     for (const haptoflow_status status : {-1, 5, 9, 24, INT32_MAX, INT32_MIN}) {
         EXPECT_STREQ(haptoflow_status_name(status), "HAPTOFLOW_UNKNOWN_STATUS");
     }
@@ -283,6 +286,25 @@ TEST(ArgumentTest, NullPointersAreRefusedByEveryFunction) {
     EXPECT_EQ(haptoflow_generator_close(&generator), HAPTOFLOW_OK);
     EXPECT_EQ(haptoflow_wave_features_close(&features), HAPTOFLOW_OK);
     EXPECT_EQ(haptoflow_device_wave_close(&deviceWave), HAPTOFLOW_OK);
+}
+
+TEST(ArgumentTest, ClosingANullHandleIsFine) {
+    haptoflow_runtime* runtime = nullptr;
+    haptoflow_model* model = nullptr;
+    haptoflow_generator* generator = nullptr;
+    haptoflow_engine* engine = nullptr;
+    haptoflow_cancellation* cancellation = nullptr;
+    haptoflow_voice voice = 0;
+    EXPECT_EQ(haptoflow_cancellation_close(&cancellation), HAPTOFLOW_OK);
+    EXPECT_EQ(haptoflow_runtime_close(&runtime), HAPTOFLOW_OK);
+    EXPECT_EQ(haptoflow_model_close(&model), HAPTOFLOW_OK);
+    haptoflow_material* material = nullptr;
+    EXPECT_EQ(haptoflow_material_close(&material), HAPTOFLOW_OK);
+    EXPECT_EQ(haptoflow_generator_close(&generator), HAPTOFLOW_OK);
+    EXPECT_EQ(haptoflow_engine_close(&engine), HAPTOFLOW_OK);
+    EXPECT_EQ(haptoflow_voice_destroy(&voice), HAPTOFLOW_OK);
+    haptoflow_relief relief = 0;
+    EXPECT_EQ(haptoflow_relief_destroy(&relief), HAPTOFLOW_OK);
 }
 
 class HandleTest : public WithTinyModel {};

@@ -100,6 +100,18 @@ TEST_F(ClipApiTest, TheWaveComesBackInMetresPerSecondSquaredAtAnyRate) {
     }
 }
 
+TEST_F(ClipApiTest, AFasterWaveGivesTheSameClip) {
+    haptoflow_clip* fast = create(hum(0.5, 48000.0), 48000);
+    std::array<float, 9> slowCurve{};
+    std::array<float, 9> fastCurve{};
+    EXPECT_EQ(haptoflow_clip_curves(humming, 9, slowCurve.data(), nullptr), HAPTOFLOW_OK);
+    EXPECT_EQ(haptoflow_clip_curves(fast, 9, fastCurve.data(), nullptr), HAPTOFLOW_OK);
+    for (std::size_t i = 1; i < 8; ++i) {
+        EXPECT_NEAR(fastCurve[i], slowCurve[i], 0.02F) << i;
+    }
+    EXPECT_EQ(haptoflow_clip_close(&fast), HAPTOFLOW_OK);
+}
+
 TEST_F(ClipApiTest, WhatIsNoClipIsRefusedWithTheKey) {
     haptoflow_clip* read = nullptr;
     const std::string text = R"({"version":{"major":3},"signals":{}})";

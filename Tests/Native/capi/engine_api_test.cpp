@@ -380,6 +380,9 @@ protected:
         EXPECT_EQ(found.quality_steps_up, 0U);
         EXPECT_EQ(found.last_round_ms, 0.0);
         EXPECT_EQ(found.worker_is_alive, 1U);
+        if (!GetParam()) {
+            EXPECT_EQ(found.priority_was_refused, 0U) << "without worker no priority is requested";
+        }
         EXPECT_NEAR(found.budget_ms, 250.0 / 72.0, 1e-9);
         uint32_t tiers = 0;
         ASSERT_EQ(haptoflow_model_tier_count(open_.model, &tiers), HAPTOFLOW_OK);

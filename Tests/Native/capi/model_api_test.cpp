@@ -277,6 +277,25 @@ TEST_F(LoadingApiTest, ARunningLoadEndsWhenItIsCancelled) {
     canceller.join();
 }
 
+TEST_F(LoadingApiTest, ACancellationAlsoEndsLaterLoads) {
+    ASSERT_EQ(haptoflow_cancellation_create(&cancellation_), HAPTOFLOW_OK);
+    haptoflow_engine_options options = engineOptions(HAPTOFLOW_QUALITY_DRAFT);
+    options.cancellation = cancellation_;
+    haptoflow_engine* engine = open(options);
+    ASSERT_EQ(haptoflow_cancellation_cancel(cancellation_), HAPTOFLOW_OK);
+    expectRefused(options, HAPTOFLOW_CANCELLED, "cancelled");
+    haptoflow_generator_options generatorOptions{};
+    generatorOptions.struct_size = sizeof(generatorOptions);
+    generatorOptions.runtime = runtime_;
+    generatorOptions.model = model_;
+    generatorOptions.cancellation = cancellation_;
+    haptoflow_generator* generator = nullptr;
+    EXPECT_EQ(haptoflow_generator_create(&generatorOptions, &generator), HAPTOFLOW_CANCELLED);
+    EXPECT_EQ(haptoflow_engine_set_quality(engine, HAPTOFLOW_QUALITY_STANDARD), HAPTOFLOW_OK)
+        << "the cancellation was for the creation only: " << message();
+    EXPECT_EQ(haptoflow_cancellation_cancel(cancellation_), HAPTOFLOW_OK);
+}
+
 TEST_F(LoadingApiTest, AClosedCancellationIsRefused) {
     ASSERT_EQ(haptoflow_cancellation_create(&cancellation_), HAPTOFLOW_OK);
     haptoflow_cancellation* const closed = cancellation_;

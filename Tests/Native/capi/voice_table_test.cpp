@@ -266,6 +266,15 @@ TEST_F(VoiceSumTest, TwoVoicesPassTheCurveOnceAsASumAndAreNotClipped) {
     EXPECT_LT(peak(sum), 1.0F);
 }
 
+TEST_F(VoiceSumTest, ThreeVoicesOfDifferentFullScalesEachKeepTheirOwn) {
+    const std::vector<float> wave = waveMps2();
+    const std::vector<float> sum = sumOf({slidingVoice(loudMps2), slidingVoice(4.0), slidingVoice(linearMps2)});
+    const std::vector<float> expected = limited(wave, 1.0F + 0.25F + static_cast<float>(1.0 / linearMps2));
+    for (std::size_t i = 0; i < frames; ++i) {
+        ASSERT_NEAR(sum[i], expected[i], 1e-5F) << i;
+    }
+}
+
 TEST_F(VoiceSumTest, TheLowestCeilingLimitsTheSumAndACeilingOf0SilencesItsOwnVoiceOnly) {
     EXPECT_LT(peak(sumOf({slidingVoice(loudMps2), slidingVoice(loudMps2, 0.25F)})), 0.25F);
     const std::vector<float> own = alone(slidingVoice(loudMps2));

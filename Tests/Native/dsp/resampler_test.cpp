@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <numbers>
 #include <stdexcept>
@@ -108,6 +109,17 @@ std::vector<float> resample(const std::vector<float>& input, double outputRateHz
     return output;
 }
 
+std::complex<double> kernelPhase(double frequencyHz) {
+    constexpr int pointsPerSample = 64;
+    std::complex<double> sum = 0.0;
+    for (std::size_t i = 0; i < MinimumPhaseKernel::lengthInputSamples * pointsPerSample; ++i) {
+        const double t = static_cast<double>(i) / pointsPerSample;
+        const double cycles = frequencyHz / static_cast<double>(inputRateHz) * t;
+        sum += std::polar(MinimumPhaseKernel::shared().at(t), -2.0 * std::numbers::pi * cycles);
+    }
+    return sum / std::abs(sum);
+}
+
 class ResamplerSpectrumTest : public ::testing::TestWithParam<std::size_t> {};
 
 TEST_P(ResamplerSpectrumTest, PassbandIsFlatWithinATenthOfADecibelAndImagesLieBelowMinus80Decibels) {
@@ -130,6 +142,21 @@ TEST_P(ResamplerSpectrumTest, PassbandIsFlatWithinATenthOfADecibelAndImagesLieBe
     EXPECT_GT(decibels(lowest), -0.05);
     EXPECT_LT(decibels(highest), 0.05);
     EXPECT_LT(decibels(image), -80.0);
+}
+
+TEST_P(ResamplerSpectrumTest, EveryLineIsThatOfTheInputToMinus80DecibelsAfterPhaseCorrection) {
+    const std::size_t rate = GetParam();
+    const std::vector<float> input = wholeHertzNoise(5, 1, 900, inputRateHz, 12);
+    const auto ours = lineSpectrum(resample(input, static_cast<double>(rate), 3 * rate), 2 * rate, rate);
+    // A perfect resampler keeps the lines of noise with a period of one second.
+    const auto reference = lineSpectrum(input, 2 * inputRateHz, inputRateHz);
+
+    double worst = 0.0;
+    for (std::size_t k = 1; k <= 900; ++k) {
+        worst = std::max(worst, std::abs(ours[k] - reference[k] * kernelPhase(static_cast<double>(k))));
+    }
+    RecordProperty("worst_db", std::to_string(decibels(worst)));
+    EXPECT_LT(decibels(worst), -80.0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Rates, ResamplerSpectrumTest,

@@ -78,6 +78,15 @@ TEST(LoadLimitsTest, AGraphThatAcceptsOnlyOneRequestIsRejectedWhileLoading) {
                 ::testing::HasSubstr("a fixed batch of 1; the batch must be free"));
 }
 
+TEST(LoadLimitsTest, LevelsAreTabulatedInRunsOf256ForAnyBatchSize) {
+    OnnxSegmentGenerator generator = loadDraft(tinyModel());
+    const std::vector<SegmentRequest> requests(640, goldenBatch().requests().front());
+    std::vector<float> levels(requests.size());
+    generator.levels(requests, levels);
+    EXPECT_EQ(generator.runCounts().level, 3U);
+    EXPECT_THAT(levels, ::testing::Each(levels.front()));
+}
+
 TEST(LoadLimitsTest, ACancelledLoadThrows) {
     const auto cancellation = std::make_shared<Cancellation>();
     cancellation->cancel();

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 
 namespace haptoflow::learning {
@@ -187,16 +188,18 @@ TEST_F(LearnerTest, GivenWaveVectorsReplaceTheEstimation) {
     EXPECT_FALSE(model::parseMaterial(learn(made.view(), settings).materialJson).label.wavelengthMetres.has_value());
 }
 
-TEST_F(LearnerTest, AConstantMotionIsLearntWithAWarning) {
+TEST_F(LearnerTest, AConstantMotionAndAMissingStretchAreLearntWithWarnings) {
     MadeRecording made({}, {.minimumSpeedMps = 0.08, .maximumSpeedMps = 0.08});
     made.velocity.clear();
     made.force.clear();
     made.constantVelocity = {0.08, 0.0};
     made.constantForce = 0.8;
+    std::fill_n(made.acceleration.begin() + 10'000, 400, std::numeric_limits<float>::quiet_NaN());
     LearningSettings settings = brief();
     settings.segmentBudget = 2000;
     const LearntMaterial learnt = learn(made.view(), settings);
     EXPECT_THAT(learnt.report.warnings, ::testing::Contains(HasSubstr("the speed hardly changes")));
+    EXPECT_THAT(learnt.report.warnings, ::testing::Contains(HasSubstr("was left out"))) << "a missing stretch";
     const model::MaterialFile material = model::parseMaterial(learnt.materialJson);
     EXPECT_GT(material.label.speedLevelExponent, 0.5);
 }

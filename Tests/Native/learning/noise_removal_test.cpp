@@ -29,6 +29,17 @@ SensorNoise remove(NoisyTexture& texture) {
     return removeSensorNoise(texture.wave, texture.motion, texture.isUsable);
 }
 
+/// Mean power of the frames in these samples, summed over the bins from `first` to before `end`.
+double bandPower(std::span<const float> wave, std::size_t first, std::size_t end) {
+    const SpectrumCells power = ShortTimeSpectrum(wave).power();
+    double sum = 0.0;
+    for (std::size_t cell = 0; cell < power.size(); ++cell) {
+        const std::size_t bin = cell % ShortTimeSpectrum::bins;
+        sum += bin >= first && bin < end ? power[cell] : 0.0;
+    }
+    return sum;
+}
+
 /// Step number `step` of a staircase, without its edges.
 std::span<const float> stepOf(const std::vector<float>& wave, std::size_t step) {
     const auto length = static_cast<std::size_t>(secondsEach * rateHz);
@@ -55,6 +66,26 @@ TEST_P(NoisyStaircase, TheLevelOfSlowAndFastSlidingIsThatOfTheTextureAlone) {
         const double after = decibels(meanSquareOf(stepOf(texture.wave, step)), truth);
         EXPECT_NEAR(after, 0.0, speeds[step] >= 0.05 ? 0.1 : 1.0) << speeds[step];
         EXPECT_GT(before, speeds[step] > 0.005 ? 0.0 : 5.0);
+    }
+}
+
+TEST_P(NoisyStaircase, TheSpectrumIsThatOfTheTextureAlone) {
+    constexpr std::array edges{1, 4, 7, 10, 13, 20, 26, 39, 58};
+    const NoisyTexture measured = texture;
+    (void)remove(texture);
+    for (std::size_t step = 1; step < speeds.size(); ++step) {
+        double meanBefore = 0.0;
+        double meanAfter = 0.0;
+        for (std::size_t band = 0; band + 1 < edges.size(); ++band) {
+            const auto inBand = [&](const std::vector<float>& wave) {
+                return bandPower(stepOf(wave, step), static_cast<std::size_t>(edges[band]),
+                                 static_cast<std::size_t>(edges[band + 1]));
+            };
+            const double truth = inBand(texture.clean);
+            meanBefore += std::abs(decibels(inBand(measured.wave), truth)) / (edges.size() - 1);
+            meanAfter += std::abs(decibels(inBand(texture.wave), truth)) / (edges.size() - 1);
+        }
+        EXPECT_LT(meanAfter, 0.4 * meanBefore + 0.05) << speeds[step];
     }
 }
 

@@ -9,7 +9,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
 #include <iterator>
+#include <set>
+#include <sstream>
+#include <string>
 
 // Checks of a graph before ONNX Runtime loads it.
 
@@ -75,6 +79,20 @@ TEST(OnnxCheckTest, OperatorsThatContainGraphsOrDeriveSizesFromValuesAreNotInThe
           "RandomNormal", "StringNormalizer", "Optional", "", "loop", "Loop "}) {
         expectGraphRefusal(levelGraph().apply(type, {"weighted"}, {"log_level"}).model(), "uses the operator");
     }
+}
+
+TEST(OnnxCheckTest, TheDocumentationListsTheOperatorsAndNoOthers) {
+    std::ifstream stream(HAPTOFLOW_TEST_DOCUMENTATION_DIR "/model-format.md");
+    const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+    const std::string head = "### Operators\n";
+    const std::size_t begin = text.find(head);
+    ASSERT_NE(begin, std::string::npos);
+    const std::size_t first = text.find("```\n", begin) + 4;
+    const auto wordsOf = [](const std::string& words) {
+        std::istringstream each(words);
+        return std::set<std::string>{std::istream_iterator<std::string>(each), {}};
+    };
+    EXPECT_EQ(wordsOf(text.substr(first, text.find("```", first) - first)), wordsOf(std::string(allowedOperators)));
 }
 
 TEST(OnnxCheckTest, AGraphInsideAnAllowedOperatorIsRefused) {

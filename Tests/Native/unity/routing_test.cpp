@@ -31,6 +31,20 @@ TEST_F(RoutingTest, TheRoutedChannelCarriesTheVoiceAndTheOtherItsInput) {
     EXPECT_GT(voice_.statistics().inferences, 15U);
 }
 
+TEST_F(RoutingTest, ABlockOfAnyLengthIsFilled) {
+    SteppedVoice same(runtime_, model_);
+    HostedEffect effect(definition());
+    effect.set("Channel", 0.0F);
+    voice_.slide();
+    same.slide();
+    Sound expected = Sound::pattern(20000, 2);
+    const Sound output = effect.process(expected, 2);
+    same.renderInto(expected, 0);
+    EXPECT_EQ(output.samples, expected.samples);
+    EXPECT_GT(peak(output.channel(0)), 1e-3F);
+    EXPECT_EQ(voice_.statistics().rendered_frames, 20000U);
+}
+
 TEST_F(RoutingTest, AnEmptyPlaceSilencesOnlyTheRoutedChannel) {
     HostedEffect effect(definition());
     effect.set("Voice", 40.0F);

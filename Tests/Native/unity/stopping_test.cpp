@@ -47,6 +47,8 @@ TEST_P(StoppingFlagsTest, TheVoiceFadesWithin5MsAndIsThenNotRendered) {
         ASSERT_NEAR(output[i], whole[i] * (1.0F - static_cast<float>(i + 1) / stopFrames), 1e-6F) << i;
     }
     EXPECT_THAT(std::span(output).subspan(stopFrames), Each(0.0F));
+    voice_.slide();
+    EXPECT_THAT(effect.process(frameOfAudio).channel(1), Each(0.0F)) << "the next block";
     EXPECT_EQ(rendered(), before + stopFrames);
 }
 
