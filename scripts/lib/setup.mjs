@@ -10,7 +10,7 @@ export const packagesByPurpose = {
     'liblodepng-dev',
   ],
   // ccache makes every build after the first one short.
-  test: ['ccache', 'libgtest-dev', 'libgmock-dev', 'libsoxr-dev', 'libkissfft-dev', 'binutils'],
+  test: ['ccache', 'libgtest-dev', 'libgmock-dev', 'libkissfft-dev', 'binutils'],
   libcxx: ['clang-16', 'libc++-16-dev', 'libc++abi-16-dev'],
   realtime: ['clang-22', 'libclang-rt-22-dev'],
   python: [
