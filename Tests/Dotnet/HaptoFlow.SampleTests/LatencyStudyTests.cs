@@ -3,9 +3,11 @@ using System.Collections.Generic;
 using System.Globalization;
 using System.IO;
 using System.Linq;
+using System.Reflection;
 using HaptoFlow.Model;
 using HaptoFlow.Samples.LatencyStudy;
 using HaptoFlow.Studies;
+using HaptoFlow.Tests.Support;
 using NUnit.Framework;
 using UnityEngine;
 using UnityShim;
@@ -137,6 +139,85 @@ namespace HaptoFlow.SampleTests
             Assert.That(study.Session, Is.Null);
             Assert.That(study.View.Problem, Does.Contain("Disable Unity Audio"));
             Assert.That(Directory.Exists(folder), Is.False);
+        }
+
+        [Test]
+        public void UnreachableLevelsAreRefusedBeforeAnythingIsWritten()
+        {
+            settings.DeviceDelayMilliseconds = 60f;
+            Press(3);
+            Assert.That(study.Session, Is.Null);
+            Assert.That(study.View.Problem, Does.StartWith("the delay level 50, 70 ms cannot be reached").And
+                .Contain("device 60.0"));
+            Assert.That(Directory.Exists(folder), Is.False);
+            settings.levelsMilliseconds = new[] { 90.0, 130.0, 250.0 };
+            Press(3);
+            Assert.That(study.View.Problem, Is.Null);
+            Assert.That(study.Session, Is.Not.Null);
+        }
+
+        [Test]
+        public void TheOperatorSeesConditionAndDelayAndThatTheDeviceDelayIsEstimated()
+        {
+            Begin(1);
+            participant.Until(() => study.Marker.IsMoving);
+            for (int frame = 0; frame < 30; ++frame)
+            {
+                participant.Frame();
+            }
+            string text = string.Join("\n", study.View.Lines);
+            Assert.That(text, Does.Contain("trial 1 of 26 (practice)").And
+                .Contain("turn-on, 50 ms in all = system 26.4 ms").And.Contain("pen moves; from pose to block").And.Contain("artificial 23.6").And.Contain("device delay ESTIMATED").And.Contain("level "));
+        }
+
+        [Test]
+        public void TheStudyRunsWithMouseAndKeyboard()
+        {
+            Begin(1);
+            StudySession session = study.Session!;
+            SimulatedInput.Reset();
+            for (int frame = 0; frame < 900 && session.Phase == StudyPhase.Task; ++frame)
+            {
+                PointAt(camera, study.Marker.transform.position);
+                SimulatedInput.MouseButton = true;
+                World.Frame();
+            }
+            Assert.That(session.Phase, Is.EqualTo(StudyPhase.Question), study.Panel.text);
+            SimulatedInput.SetControl("<Keyboard>/y", 1f);
+            World.Frame();
+            Assert.That(Field(Rows()[0], "answer"), Is.EqualTo("yes"));
+        }
+
+        [Test]
+        public void TheSettingsAssetContainsEveryFieldWithItsDefault()
+        {
+            string[] lines = File.ReadAllLines(SampleFiles.In("LatencyStudy", "LatencyStudySettings.asset"));
+            object fresh = ScriptableObject.CreateInstance<LatencyStudySettings>();
+            FieldInfo[] fields = new[] { typeof(LatencyStudySettings), typeof(StudySettings) }
+                .SelectMany(type => type.GetFields(
+                    BindingFlags.Instance | BindingFlags.DeclaredOnly | BindingFlags.Public | BindingFlags.NonPublic))
+                .Where(field => field.IsPublic || field.GetCustomAttribute<SerializeField>() != null).ToArray();
+            Assert.That(fields, Has.Length.GreaterThan(12));
+            foreach (FieldInfo field in fields)
+            {
+                string key = $"  {field.Name}:";
+                int line = Array.FindIndex(lines, each => each.StartsWith(key, StringComparison.Ordinal));
+                Assert.That(line, Is.GreaterThan(0), field.Name);
+                string expected = field.GetValue(fresh) switch
+                {
+                    double[] levels => string.Join(" ", levels),
+                    Enum choice => Convert.ToInt32(choice).ToString(CultureInfo.InvariantCulture),
+                    bool truth => truth ? "1" : "0",
+                    object value => Convert.ToString(value, CultureInfo.InvariantCulture)!,
+                    null => "",
+                };
+                string found = lines[line].Substring(field.Name.Length + 3).Trim();
+                for (int next = line + 1; next < lines.Length && lines[next].StartsWith("  - "); ++next)
+                {
+                    found += (found.Length > 0 ? " " : "") + lines[next].Substring(4);
+                }
+                Assert.That(found, Is.EqualTo(expected), field.Name);
+            }
         }
 
         [Test]

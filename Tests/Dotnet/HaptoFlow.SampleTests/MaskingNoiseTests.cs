@@ -87,6 +87,11 @@ namespace HaptoFlow.SampleTests
             Assert.That(samples.Take(48).Max(Math.Abs), Is.LessThan(0.04f));
             Assert.That(samples.Skip(4000).Max(Math.Abs), Is.GreaterThan(0.2f));
             Assert.That(AudioDevice.AllocatedBytes, Is.Zero);
+            noise.enabled = false;
+            World.Frames(1);
+            AudioDevice.Forget();
+            World.Frames(30);
+            Assert.That(Channel(0), Has.All.Zero);
         }
 
         [Test]

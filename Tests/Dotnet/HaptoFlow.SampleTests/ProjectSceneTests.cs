@@ -48,6 +48,17 @@ namespace HaptoFlow.SampleTests
             Assert.That(Board(), Does.Contain("no model is chosen"));
         }
 
+        [Test]
+        public void AStrokeOverTheDeskIsWoodAndIsHeard()
+        {
+            Open("Desk.unity");
+            HapticStylus stylus = All<MousePen>().Single().Stylus;
+            Draw(stylus, new Vector3(-0.1f, 0f, 0f), new Vector3(0.1f, 0f, 0f));
+            Assert.That(stylus.Contact.Material!.Label, Is.EqualTo("wood"));
+            Assert.That(Loudest(), Is.GreaterThan(Audible));
+            Assert.That(Board(), Does.StartWith("wood: "));
+        }
+
         [TestCase("Wood", "wood")]
         [TestCase("Jute", "jute")]
         [TestCase("Metal Mesh", "metal mesh")]

@@ -1,5 +1,7 @@
 using System;
 using System.Collections.Generic;
+using System.Globalization;
+using System.IO;
 using System.Linq;
 using HaptoFlow.Samples.SimilarityStudy;
 using HaptoFlow.Studies;
@@ -12,6 +14,76 @@ namespace HaptoFlow.SampleTests
     /// <summary>The procedure of the similarity study, trial by trial.</summary>
     public sealed class SimilarityProcedureTests : SimilarityTest
     {
+        [TestCase(6, 4)]
+        [TestCase(1, 2)]
+        public void AnInterruptedSessionLogsEveryTrialExactlyOnce(int materials, int methods)
+        {
+            // The settings of the project have no model.
+            HaptoFlowSettings.Active.Model = null;
+            SimilarityStudySettings settings = Settings(materials, methods);
+            settings.Simulated = true;
+            inference = new Dictionary<string, double> { ["Ours"] = 9.5, ["Rival"] = 14.25 };
+            Begin(settings);
+            StudyPlan plan = scene.Session!.Plan;
+            Assert.That(plan.Trials, Has.Count.EqualTo(methods + materials * methods));
+            int stopAt = methods + materials * methods / 2;
+            List<StudyPause> pauses = TakePart(stopAt);
+            Crash();
+            Begin(settings);
+            Assert.That((scene.Session!.Trial!.Trial, scene.Session.Attempt), Is.EqualTo((stopAt, 2)));
+            Assert.That(scene.Session.Plan.Seed, Is.EqualTo(plan.Seed));
+            pauses.AddRange(TakePart());
+            int rests = 1 + (materials * methods - 1) / 12;
+            Assert.That(pauses.Count(pause => pause == StudyPause.Rest), Is.EqualTo(rests));
+            Assert.That(pauses.Count(pause => pause == StudyPause.Begin), Is.EqualTo(2));
+            // Every change of the material is a pause, unless a rest or the interruption comes first.
+            int changes = Enumerable.Range(1, plan.Trials.Count - 1).Count(next => !plan.Trials[next].RestBefore &&
+                plan.Trials[next].Trial != stopAt && plan.Trials[next].Material != plan.Trials[next - 1].Material);
+            Assert.That(pauses.Count(pause => pause == StudyPause.Sample), Is.EqualTo(changes));
+
+            List<Dictionary<string, string>> rows = Rows();
+            Assert.That(rows.Select(row => int.Parse(row["trial"], CultureInfo.InvariantCulture)),
+                Is.EqualTo(Enumerable.Range(1, plan.Trials.Count)));
+            foreach ((Dictionary<string, string> row, PlannedTrial trial) in
+                rows.Zip(plan.Trials, (row, trial) => (row, trial)))
+            {
+                string where = $"trial {trial.Trial}";
+                Assert.That((row["block"], row["material"], row["method"]),
+                    Is.EqualTo((trial.Block, trial.Material, trial.Method)), where);
+                Assert.That(row["rating"], Is.EqualTo($"{RatingOf(trial)}"), where);
+                Assert.That(row["attempt"], Is.EqualTo(trial.Trial == stopAt ? "2" : "1"), where);
+                Assert.That(Number(row, "delivered_delay_ms"), Is.EqualTo(Number(row, "delay_ms")), where);
+                Assert.That(Number(row, "system_delay_ms") + Number(row, "artificial_delay_ms"),
+                    Is.EqualTo(Number(row, "delay_ms")).Within(1e-5), where);
+                foreach (string column in new[] { "real_edges_seconds", "virtual_edges_seconds", "free_seconds",
+                    "response_seconds", "contact_seconds", "path_mm", "mean_speed_mmps", "mean_force_newtons" })
+                {
+                    Assert.That(Number(row, column), Is.GreaterThan(0.0), $"{where}, {column}");
+                }
+                // Only the path on the virtual object counts: its perimeter of 0.676 m and a stroke of 0.12 m.
+                Assert.That(Number(row, "path_mm"), Is.InRange(650.0, 850.0), where);
+                Assert.That(row["underruns"], Is.EqualTo("0"), where);
+            }
+            Assert.That(rows.Select(row => row["delay_ms"]).Distinct().Count(), Is.EqualTo(1));
+            Assert.That(rows.Select(row => Number(row, "elapsed_seconds")), Is.Ordered.Ascending);
+            string sidecar = File.ReadAllText(Path.ChangeExtension(Csv, ".json"));
+            Assert.That(sidecar, Does.Contain("\"finished\": true").Or.Contain("\"finished\":true"));
+            Assert.That(sidecar, Does.Match("\"resumptions\": ?1").And.Match("\"simulated\": ?true"));
+            foreach (StudyMethod method in settings.methods)
+            {
+                using var sha256 = System.Security.Cryptography.SHA256.Create();
+                string hash = BitConverter.ToString(sha256.ComputeHash(method.model!.File)).Replace("-", "");
+                Assert.That(sidecar, Does.Contain(hash.ToLowerInvariant()));
+                Assert.That(sidecar, Does.Contain(method.model.name + ".haptoflow"));
+            }
+            Assert.That(Directory.GetFiles(folder), Has.Length.EqualTo(2));
+            Assert.That(Log.Lines.Where(line => line.Type != LogType.Log), Is.Empty);
+            if (materials == 6)
+            {
+                RecordedSession.Keep(folder, "similarity");
+            }
+        }
+
         [Test]
         public void AFailingModelPausesTheSessionAndNamesTheMethod()
         {

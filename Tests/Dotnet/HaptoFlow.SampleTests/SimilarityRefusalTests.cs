@@ -2,11 +2,14 @@ using System;
 using System.Collections.Generic;
 using System.IO;
 using System.Linq;
+using System.Reflection;
+using System.Text.RegularExpressions;
 using System.Threading.Tasks;
 using HaptoFlow.Model;
 using HaptoFlow.Samples.SimilarityStudy;
 using HaptoFlow.Studies;
 using HaptoFlow.Tests;
+using HaptoFlow.Tests.Support;
 using NUnit.Framework;
 using UnityEngine;
 using UnityShim;
@@ -16,6 +19,8 @@ namespace HaptoFlow.SampleTests
     /// <summary>Problems that stop the study before it begins, and their messages.</summary>
     public sealed class SimilarityRefusalTests : SimilarityTest
     {
+        private static string Asset => File.ReadAllText(SampleFiles.In("SimilarityStudy", "SimilarityStudySettings.asset"));
+
         private static IEnumerable<TestCaseData> Methods()
         {
             TestCaseData Case(string name, Func<StudyMethod> method, params string[] words) =>
@@ -153,6 +158,64 @@ namespace HaptoFlow.SampleTests
             settings.sampleMetres = new Vector3(width, 0.01f, 0.15f);
             settings.virtualMetres = new Vector3(aside, 0f, 0f);
             Refused(settings, expected);
+        }
+
+        [Test]
+        public void WithoutUnitysAudioTheStudyIsRefusedWithTheReason()
+        {
+            AudioDevice.IsSwitchedOff = true;
+            Open(Settings(1, 2));
+            Prepare();
+            scene.Begin(7);
+            Assert.That(scene.Problem, Does.Contain("Disable Unity Audio"));
+            Assert.That(scene.Session, Is.Null);
+            Assert.That(Directory.Exists(folder), Is.False, "nothing was begun");
+        }
+
+        [Test]
+        public void AFinishedParticipantIsRefusedAndAnotherCanBegin()
+        {
+            SimilarityStudySettings settings = Settings(1, 1);
+            Begin(settings);
+            TakePart();
+            Crash();
+            Open(settings);
+            Prepare();
+            scene.Begin(7);
+            Assert.That(scene.Problem, Does.Contain("participant 7 has finished this study"));
+            scene.Begin(8);
+            Assert.That((scene.Problem, scene.Session!.Plan.Participant), Is.EqualTo(((string?)null, 8)));
+        }
+
+        [TestCase("SimilarityStudyScene.cs")]
+        [TestCase("SimilarityStudySettings.asset")]
+        public void TheSceneFileRefersToItsScriptAndItsSettings(string name)
+        {
+            string meta = File.ReadAllText(SampleFiles.In("SimilarityStudy", name + ".meta"));
+            string guid = Regex.Match(meta, "guid: (\\w{32})").Groups[1].Value;
+            Assert.That(File.ReadAllText(SampleFiles.In("SimilarityStudy", "SimilarityStudy.unity")), Does.Contain(guid));
+        }
+
+        [Test]
+        public void TheSettingsAssetContainsEveryFieldExactlyOnce()
+        {
+            IEnumerable<string> keys = Regex.Matches(Asset, @"^  ([a-z]\w*):", RegexOptions.Multiline)
+                .Select(match => match.Groups[1].Value).Where(key => !key.StartsWith("m_"));
+            Assert.That(keys, Is.EquivalentTo(FieldsOf<SimilarityStudySettings>().Concat(FieldsOf<StudySettings>())));
+            Assert.That(KeysOfEntries("materials"), Is.EquivalentTo(FieldsOf<StudyMaterial>()));
+            Assert.That(KeysOfEntries("methods"), Is.EquivalentTo(FieldsOf<StudyMethod>()));
+        }
+
+        private static IEnumerable<string> FieldsOf<T>() => typeof(T)
+            .GetFields(BindingFlags.Instance | BindingFlags.DeclaredOnly | BindingFlags.Public | BindingFlags.NonPublic)
+            .Where(field => field.IsPublic || field.GetCustomAttribute<SerializeField>() != null).Select(field => field.Name);
+
+        private static IEnumerable<string> KeysOfEntries(string list)
+        {
+            string text = Regex.Match(
+                Asset, $@"^  {list}:\n((?:  [- ] .*\n)+)", RegexOptions.Multiline).Groups[1].Value;
+            return Regex.Matches(text, @"^  [- ] (\w+):", RegexOptions.Multiline)
+                .Select(match => match.Groups[1].Value).Distinct();
         }
 
         private void Refused(SimilarityStudySettings? settings, params string[] words)

@@ -223,6 +223,17 @@ namespace HaptoFlow.SampleTests
         public void RestoreTheBuiltInPipeline() => GraphicsSettings.defaultRenderPipeline = null;
 
         [Test]
+        public void WithTheBuiltInPipelineObjectsKeepTheMaterialOfPrimitives()
+        {
+            OpenTracing(null);
+            foreach (MeshRenderer renderer in Renderers())
+            {
+                Assert.That(renderer.sharedMaterial!.shader, Is.Null, renderer.name);
+            }
+            Assert.That(ColourOf("Table"), Is.EqualTo(Exhibits.All[0].Colour));
+        }
+
+        [Test]
         public void APlayerWithAnotherPipelineUsesTheMaterialThatTheBuildWrote()
         {
             Shader lit = SimulatedPipeline.ShaderNamed("Lit");

@@ -30,6 +30,37 @@ namespace HaptoFlow.SampleTests
         }
 
         [Test]
+        public void RandomNumbersEqualThoseOfPython()
+        {
+            foreach (JsonValue each in Cases("random"))
+            {
+                var random = new SplitMix64(each["seed"].AsUnsigned64());
+                ulong[] expected = each["values"].AsArray().Select(value => value.AsUnsigned64()).ToArray();
+                Assert.That(expected.Select(_ => random.Next()), Is.EqualTo(expected));
+            }
+        }
+
+        [Test]
+        public void ShufflesEqualThoseOfPython()
+        {
+            foreach (JsonValue each in Cases("shuffles"))
+            {
+                Assert.That(SplitMix64.Shuffle(each["count"].AsInteger(), each["seed"].AsUnsigned64()),
+                    Is.EqualTo(Integers(each["order"])));
+            }
+        }
+
+        [Test]
+        public void DesignsEqualThoseOfPython()
+        {
+            foreach (JsonValue each in Cases("williams"))
+            {
+                Assert.That(WilliamsDesign.Rows(each["count"].AsInteger()),
+                    Is.EqualTo(each["rows"].AsArray().Select(Integers)));
+            }
+        }
+
+        [Test]
         public void LatencyPlansEqualThoseOfPython()
         {
             foreach (JsonValue each in Cases("latency"))
@@ -57,6 +88,9 @@ namespace HaptoFlow.SampleTests
                         trial["block"].AsText(), trial["material"].AsText(), trial["method"].AsText()))));
             }
         }
+
+        private static int[] Integers(JsonValue array) =>
+            array.AsArray().Select(each => each.AsInteger()).ToArray();
 
         private static string[] Texts(JsonValue array) => array.AsArray().Select(each => each.AsText()).ToArray();
 

@@ -236,6 +236,8 @@ namespace HaptoFlow.SampleTests
         {
             FinishLoading();
             GalleryScene gallery = Open();
+            Assert.That(gallery.Tiles.Select(tile => tile.Material.Label),
+                Is.EqualTo(HaptoFlowSettings.Active.Model!.Header.Labels.Select(label => label.Name)));
             HapticSurface fur = gallery.Tiles.Single(tile => tile.Material.Label == "fur");
             Assert.That(gallery.Board.Material.Label, Is.Not.EqualTo("fur"));
             PointAt(camera, fur.transform.position);

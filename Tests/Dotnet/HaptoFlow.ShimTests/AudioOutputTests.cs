@@ -1,6 +1,7 @@
 using System;
 using System.Linq;
 using System.Text.RegularExpressions;
+using HaptoFlow.Studies;
 using HaptoFlow.Tests;
 using NUnit.Framework;
 using UnityEngine;
@@ -158,6 +159,19 @@ namespace HaptoFlow.ShimTests
             Assert.That(OVRInput.Waves.Count, Is.GreaterThan(60));
             Assert.That(OVRInput.Waves.Max(wave => wave.Samples.Max(Math.Abs)), Is.GreaterThan(0.01f));
             Assert.That(XrHand.Right.Impulses.Max(each => each.Amplitude), Is.GreaterThan(0.01f));
+        }
+
+        [Test]
+        public void AStudyRefusesWithTheReason()
+        {
+            AudioDevice.IsSwitchedOff = true;
+            Output(out HapticOutput output);
+            output.Channel = 1;
+            MaskingNoise noise = Make("Ears").AddComponent<MaskingNoise>();
+            noise.Output = output;
+            World.Frames(3);
+            Assert.That(noise.Problem, Does.Contain("Disable Unity Audio"));
+            Assert.That(StudyPlayer.BlockMilliseconds, Is.GreaterThan(0.0).And.LessThan(100.0));
         }
 
         [Test]

@@ -1,5 +1,6 @@
 using System;
 using System.Linq;
+using System.Reflection;
 using System.Runtime.CompilerServices;
 using System.Text;
 using HaptoFlow.Tests;
@@ -233,6 +234,70 @@ namespace HaptoFlow.ShimTests
             player.Play();
             player.Stop();
             Assert.That(PeakOf(20), Is.GreaterThan(Audible));
+        }
+
+        [Test]
+        public void ARestartEndsTheClipAndTheNextOneSounds()
+        {
+            Begin();
+            HapticClip clip = Hum(0.3);
+            stylus.Play(clip, 1f, true);
+            World.Frames(10);
+            Haptics.Restart();
+            Assert.That(stylus.Play(clip), Is.False);
+            FinishLoading();
+            World.Frames(5);
+            Assert.That(PeakOf(20), Is.Zero);
+            Assert.That(stylus.Play(clip), Is.True);
+            Assert.That(PeakOf(10), Is.GreaterThan(Audible));
+        }
+
+        [Test]
+        public void AfterARecompilationTheSameAssetPlaysAgain()
+        {
+            Begin();
+            HapticClip clip = Hum(0.5);
+            stylus.Play(clip);
+            // What a domain reload does: fields that are not serialised are lost, and OnEnable follows OnDisable.
+            typeof(HapticClip).GetMethod("OnDisable", BindingFlags.Instance | BindingFlags.NonPublic)!.Invoke(clip, null);
+            stylus.enabled = false;
+            typeof(HapticStylus).GetField("voices", BindingFlags.Instance | BindingFlags.NonPublic)!.SetValue(stylus, null);
+            HapticSession.ShutDown();
+            stylus.enabled = true;
+            FinishLoading();
+            World.Frames(5);
+            Assert.That(stylus.Play(clip), Is.True);
+            Assert.That(PeakOf(20), Is.GreaterThan(Audible));
+        }
+
+        [Test]
+        public void AnotherQualityLeavesTheClipAlone()
+        {
+            Begin();
+            stylus.Play(Hum(0.3), 1f, true);
+            Haptics.SetQuality(HapticQuality.Standard);
+            World.Frames(10);
+            Assert.That(PeakOf(20), Is.GreaterThan(Audible));
+        }
+
+        [Test]
+        public void ALongClipAndAnEmptyOneAreHarmless()
+        {
+            Begin();
+            HapticClip hours = Keep(HapticClip.FromText(
+                "{\"version\":{\"major\":1,\"minor\":0,\"patch\":0},\"signals\":{\"continuous\":{\"envelopes\":{" +
+                "\"amplitude\":[{\"time\":0,\"amplitude\":0.5},{\"time\":599,\"amplitude\":0.5}]}}}}"));
+            Assert.That(hours.Problem, Is.Null);
+            Assert.That(stylus.Play(hours, 1f, true), Is.True);
+            Assert.That(PeakOf(30), Is.GreaterThan(0.001f));
+            stylus.StopClip();
+            World.Frames(5);
+            HapticClip empty = Keep(HapticClip.FromText(
+                "{\"version\":{\"major\":1,\"minor\":0,\"patch\":0},\"signals\":{\"continuous\":{\"envelopes\":{" +
+                "\"amplitude\":[]}}}}"));
+            stylus.Play(empty, 1f, true);
+            Assert.That(PeakOf(20), Is.Zero);
+            Assert.That(tap.BrokenSamples, Is.Zero);
         }
 
         private static ulong ClipsOf(HapticStylus stylus) =>

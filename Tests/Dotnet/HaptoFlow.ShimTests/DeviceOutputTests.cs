@@ -79,6 +79,21 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
+        public void AnAudioOutputWithAChannelAddedLaterReplacesAutoOutput()
+        {
+            OVRPlugin.Connected = OVRPlugin.Controller.RTouch;
+            World.Frames(40);
+            AudioTap tap = Output(out HapticOutput output);
+            output.Channel = 0;
+            World.Frames(2);
+            int before = OVRInput.Waves.Count;
+            World.Frames(40);
+            Assert.That(OVRInput.Waves.Count, Is.EqualTo(before));
+            Assert.That(tap.Peak(), Is.GreaterThan(0.001f));
+            Assert.That(All<AutoOutput>(), Is.Empty);
+        }
+
+        [Test]
         public void AutoOutputIsNotAddedWhenAnOutputNamesTheStylus()
         {
             OVRPlugin.Connected = OVRPlugin.Controller.RTouch;
@@ -177,6 +192,21 @@ namespace HaptoFlow.ShimTests
             int before = OVRInput.Waves.Count;
             World.Frames(72);
             Assert.That(OVRInput.Waves.Count, Is.EqualTo(before), "and nothing follows");
+        }
+
+        [Test]
+        public void AFrameOf200MillisecondsIsAGap()
+        {
+            OVRPlugin.Connected = OVRPlugin.Controller.RTouch;
+            ControllerWaveformOutput output = Add<ControllerWaveformOutput>();
+            World.Frames(72);
+            float[] last = OVRInput.Waves[^1].Samples;
+            Assert.That(last.Length / 2000.0, Is.LessThan(0.03));
+            Assert.That(last[^1], Is.Zero, "every stretch ends with a fade");
+            World.Frame(0.2);
+            World.Frames(10);
+            Assert.That(output.Statistics.Gaps, Is.EqualTo(1));
+            Assert.That(output.Statistics.LatencyMilliseconds, Is.LessThan(40.0));
         }
 
         [Test]

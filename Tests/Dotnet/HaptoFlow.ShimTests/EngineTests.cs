@@ -34,6 +34,7 @@ namespace HaptoFlow.ShimTests
             }
             Assert.That(statistics.Inferences, Is.GreaterThanOrEqualTo(3UL));
             Assert.That(statistics.Failures, Is.Zero);
+            Assert.That(HapticSession.Current.Engine!.Statistics().WorkerIsAlive, Is.True);
             Assert.That(statistics.Onsets, Is.EqualTo(1UL));
             Assert.That(tap.Peak(), Is.GreaterThan(0.001f));
             Assert.That(tap.BrokenSamples, Is.Zero);
@@ -81,6 +82,22 @@ namespace HaptoFlow.ShimTests
             World.Frames(60);
             Assert.That(refused.TryGetStatistics(out _), Is.True);
             Assert.That(Log.Count("has got its voice"), Is.EqualTo(1));
+        }
+
+        [Test]
+        public void AStylusThatIsEnabledAgainAsksAtOnce()
+        {
+            FinishLoading();
+            Board();
+            Output(out _);
+            List<HapticStylus> styluses = Enumerable.Range(0, 65).Select(_ => Circling()).ToList();
+            World.Frames(3);
+            HapticStylus refused = styluses.Single(each => !each.TryGetStatistics(out _));
+            styluses.First(each => each != refused).enabled = false;
+            refused.enabled = false;
+            refused.enabled = true;
+            World.Frame();
+            Assert.That(refused.TryGetStatistics(out _), Is.True);
         }
 
         [Test]
@@ -178,6 +195,22 @@ namespace HaptoFlow.ShimTests
                 }
             }
             Assert.That(stylus.IsTouching, Is.True);
+        }
+
+        [Test]
+        public void TheVoiceOfThePreviousModelIsClosedAfterItsFade()
+        {
+            FinishLoading();
+            using HapticLoadedModel second = Loaded(EditedModel.WithLabelsReversed());
+            HapticEngine before = HapticSession.Current.Engine!;
+            Board();
+            Output(out HapticOutput output);
+            Circling();
+            World.Frames(30);
+            output.GetComponentInChildren<AudioSource>(true).Stop();
+            second.Use();
+            World.Frames(20);
+            Assert.That(before.Statistics().Voices, Is.Zero);
         }
 
         private static HapticLoadedModel Loaded(HapticModelAsset asset)

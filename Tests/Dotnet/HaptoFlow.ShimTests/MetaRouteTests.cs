@@ -68,6 +68,21 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
+        public void ADeviceThatRefusesOneBufferPlaysBuffersAgain()
+        {
+            XrHand.Right.Take("A controller with buffers", true, 500u);
+            World.Frames(72);
+            XrHand.Right.RefusesBuffers = true;
+            World.Frames(288);
+            Assert.That(XrHand.Right.Impulses, Is.Not.Empty, "the motor plays meanwhile");
+            XrHand.Right.RefusesBuffers = false;
+            int count = XrHand.Right.Buffers.Count;
+            World.Frames(72 * 3);
+            Assert.That(XrHand.Right.Buffers.Count, Is.GreaterThan(count + 72));
+            Assert.That(Log.Count("refused", LogType.Warning), Is.EqualTo(1));
+        }
+
+        [Test]
         public void WithoutASessionNothingIsCalled()
         {
             OVRPlugin.hasInputFocus = false;

@@ -38,7 +38,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void MapsAndCollidersOfThePreviousPlayModeAreNotUsed()
+        public void MapsCollidersAndSurfacesOfThePreviousPlayModeAreNotUsed()
         {
             FinishLoading();
             HapticMaterialMap map = ScriptableObject.CreateInstance<HapticMaterialMap>();
@@ -47,13 +47,17 @@ namespace HaptoFlow.ShimTests
             Make("Scope").AddComponent<HapticMaterialMapScope>().Map = map;
             Make("Plank").AddComponent<BoxCollider>();
             HapticStylus stylus = StylusAlong(_ => Vector3.zero);
+            HapticSurface board = Board();
+            board.transform.position = 5f * Vector3.right;
             World.Frames(2);
             Assert.That(stylus.IsTouching, Is.True);
             Assert.That(MappedColliders.Count, Is.EqualTo(1));
+            Assert.That(SurfaceRegistry.Holds(board.GetComponent<Collider>(), board), Is.True);
             // Play mode ends abnormally: the objects are gone without any message to the scripts.
             World.EnterPlayMode();
             Assert.That(MaterialMaps.Any, Is.False);
             Assert.That(MappedColliders.Count, Is.Zero);
+            Assert.That(SurfaceRegistry.Holds(board.GetComponent<Collider>(), board), Is.False);
         }
 
         [Test]
@@ -79,6 +83,18 @@ namespace HaptoFlow.ShimTests
             World.EnterPlayMode();
             World.AddResource("HaptoFlowSettings", settings);
             Assert.That(HaptoFlowSettings.Active, Is.SameAs(settings));
+        }
+
+        [Test]
+        public void NoSampleExceedsTheCeiling()
+        {
+            HaptoFlowSettings.Active.Ceiling = 0.01f;
+            FinishLoading();
+            Board("sandpaper");
+            AudioTap tap = Output(out _);
+            StylusAlong(seconds => new Vector3(0.15f * (float)System.Math.Sin(6.0 * seconds), 0.0005f, 0f));
+            World.Frames(180);
+            Assert.That(tap.Peak(), Is.LessThanOrEqualTo(0.01f).And.GreaterThan(0.005f));
         }
 
         private HapticStylus Touch()

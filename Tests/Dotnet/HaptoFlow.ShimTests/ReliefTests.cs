@@ -38,11 +38,12 @@ namespace HaptoFlow.ShimTests
             triangles = new[] { 0, 1, 2, 0, 2, 3 },
         };
 
-        [Test]
-        public void OnABoxTheMapIsLaidOutInMetresFromTheMiddleOfTheFace()
+        [TestCase(1.0)]
+        [TestCase(4.0, Description = "under a scaled rig metres are those of the world")]
+        public void OnABoxTheMapIsLaidOutInMetresFromTheMiddleOfTheFace(double rigScale)
         {
             Board().Relief = Keep(Ribs());
-            ContactState state = Touch(new Vector3(0.03f, 0.001f, -0.05f));
+            ContactState state = Touch(new Vector3(0.03f, 0.001f, -0.05f), rigScale);
             Expect(state, 0.5f + 0.3f, 0.5f - 0.25f);
             Assert.That(state.ReliefShare, Is.EqualTo(0.5f));
             Assert.That(state.Relief, Is.Not.Zero);
@@ -125,6 +126,8 @@ namespace HaptoFlow.ShimTests
             ground.transform.position = new Vector3(-0.5f, 0f, -0.5f);
             ground.Relief = Keep(Ribs());
             Expect(Touch(new Vector3(0.03f, 0.001f, -0.05f)), 5.3f, 2.25f);
+            ground.Relief.Offset = new Vector2(0.25f, -0.5f);
+            Expect(Touch(new Vector3(0.03f, 0.001f, -0.05f)), 5.55f, 1.75f);
         }
 
         [Test]

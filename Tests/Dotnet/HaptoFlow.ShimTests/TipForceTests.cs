@@ -140,6 +140,16 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
+        public void AConnectingPenIsQueriedAgain()
+        {
+            World.Frames(10);
+            OVRPlugin.Tip = 0.4f;
+            OVRPlugin.Connected = OVRPlugin.Controller.LTouch | OVRPlugin.Controller.RTouch;
+            World.Frames(2);
+            Assert.That(source.TryRead(out _), Is.True);
+        }
+
+        [Test]
         public void ANewActionNameAndAnEnabledComponentAreQueried()
         {
             World.Frames(10);

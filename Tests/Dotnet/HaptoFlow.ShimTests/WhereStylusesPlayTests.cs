@@ -39,6 +39,30 @@ namespace HaptoFlow.ShimTests
                 Does.Contain("Add an Auto Output to the stylus to feel it there too"));
         }
 
+        [Test]
+        public void ANamedOutputTakesAStylusInAHand()
+        {
+            AudioTap tap = Output(out HapticOutput output);
+            Pen.Output = output;
+            World.Frames(72);
+            Assert.That(tap.Peak(), Is.GreaterThan(Audible));
+            Assert.That(OVRInput.Waves, Is.Empty);
+            Pen.Output = null;
+            World.Frames(72);
+            Assert.That(OVRInput.Waves.Count, Is.GreaterThan(60));
+        }
+
+        [Test]
+        public void ASwitchedOffOutputWithAChannelMeansSilence()
+        {
+            Output(out HapticOutput output);
+            output.Channel = 0;
+            output.enabled = false;
+            World.Frames(72);
+            Assert.That(OVRInput.Waves, Is.Empty);
+            Assert.That(Pen.TryGetStatistics(out _), Is.False);
+        }
+
         [TestCase(0)]
         [TestCase(1)]
         public void OfTwoOutputsTheOneWithAChannelPlaysInAnyOrder(int withChannel)

@@ -97,6 +97,37 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
+        public void ADeviceThatReturnsDuringAYieldWaitsForItsEnd()
+        {
+            OVRPlugin.Connected = OVRPlugin.Controller.RTouch;
+            World.Frames(72);
+            double start = Clock.UnscaledSeconds;
+            Haptics.Yield(HapticHand.Right, 0.5f);
+            OVRPlugin.Connected = OVRPlugin.Controller.None;
+            World.Frames(10);
+            OVRPlugin.Connected = OVRPlugin.Controller.RTouch;
+            int before = OVRInput.Waves.Count;
+            World.Frames(72);
+            Assert.That(OVRInput.Waves[before].Seconds - start, Is.InRange(0.5, 0.56));
+        }
+
+        [Test]
+        public void AnImpactDuringAYieldIsNotFeltAfterwards()
+        {
+            XrHand.Right.Take("A controller", true);
+            Add<MotorOutput>().FullScaleMps2 = HaptoFlowSettings.Active.FullScaleMps2;
+            All<HapticSurface>().Single().Material.Effects = HapticEffects.Impact;
+            double start = Clock.Seconds;
+            Pen.GetComponent<HaptoFlow.Tests.PathMover>().Path = _ => new UnityEngine.Vector3(
+                0f, Math.Max(0.001f, 0.3f - (float)Math.Max(0.0, Clock.Seconds - start - 0.5)), 0f);
+            World.Frames(36);
+            Haptics.Yield(HapticHand.Right, 0.5f);
+            World.Frames(72);
+            Assert.That(Pen.IsTouching, Is.True);
+            Assert.That(XrHand.Right.Impulses, Is.Empty, "the landing was 0.2 s before the end");
+        }
+
+        [Test]
         public void ALengthWithoutSenseDoesNotSilenceTheHand(
             [Values(0f, -1f, float.NaN, float.NegativeInfinity)] float seconds)
         {

@@ -22,6 +22,16 @@ namespace HaptoFlow.Tests.Support
                 ? In("node_modules", "com.github.asus4.onnxruntime", "Plugins", "macOS", "arm64", "libonnxruntime.dylib")
                 : In("node_modules", "com.github.asus4.onnxruntime", "Plugins", "Linux", "x64", "libonnxruntime.so");
 
+        /// <summary>Recorded strokes, which are not part of the repository; null where they are missing.</summary>
+        public static string? RealStrokes
+        {
+            get
+            {
+                string path = Path.Combine(Root, "..", "shared", "strokes", "vr-pen-on-surface", "strokes.csv");
+                return File.Exists(path) ? path : null;
+            }
+        }
+
         public static string In(params string[] parts) => Path.Combine(Root, Path.Combine(parts));
 
         private static string ThisFile([CallerFilePath] string path = "") => path;

@@ -58,6 +58,21 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
+        public IEnumerator TwoStylusesShareOneOutput()
+        {
+            HapticStylus first = Circling();
+            HapticStylus second = Circling();
+            yield return Frames(60);
+            Assert.That(tap.Peak(), Is.GreaterThan(Audible));
+            Assert.That(tap.BrokenSamples, Is.Zero);
+            first.TryGetStatistics(out VoiceStatistics ofFirst);
+            second.TryGetStatistics(out VoiceStatistics ofSecond);
+            Assert.That(ofFirst.RenderedFrames, Is.GreaterThan(10000UL));
+            Assert.That(ofSecond.RenderedFrames, Is.EqualTo(ofFirst.RenderedFrames));
+            Assert.That(output.Level, Is.GreaterThan(0f));
+        }
+
+        [UnityTest]
         public IEnumerator OnlyTheStagesThatAnOutputUsesRun()
         {
             output.Processing.Actuator = OutputActuator.VoiceCoil;

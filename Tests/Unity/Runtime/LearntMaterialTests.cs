@@ -80,6 +80,26 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
+        public IEnumerator ALearntMaterialOfARuleIsRegisteredAndFelt()
+        {
+            HapticMaterial material = Learnt("glass", "fur");
+            GameObject plate = Make("Plate");
+            var box = plate.AddComponent<BoxCollider>();
+            box.size = new Vector3(0.4f, 0.02f, 0.4f);
+            box.center = new Vector3(0f, -0.01f, 0f);
+            HapticMaterialMap map = Keep(ScriptableObject.CreateInstance<HapticMaterialMap>());
+            map.Add(HapticMaterialRule.ForName("Plate", material));
+            Make("Scope").AddComponent<HapticMaterialMapScope>().Map = map;
+            FinishLoading();
+            Session.FinishRegistrations();
+            Assert.That(Haptics.LearntMaterials, Is.EqualTo(1), "nothing was touched");
+            HapticStylus stylus = Circling();
+            yield return Frames(20);
+            Assert.That(stylus.IsTouching, Is.True);
+            Assert.That(stylus.Contact.Labels.Label(0), Is.EqualTo(LabelCount));
+        }
+
+        [UnityTest]
         public IEnumerator ACopyOfALearntMaterialStaysLearntAndBlendsWithLabels()
         {
             FinishLoading();

@@ -78,6 +78,21 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
+        public IEnumerator AMaterialDestroyedDuringATouchCausesNoError()
+        {
+            Bare();
+            HapticMaterial wood = Feeling("wood");
+            Map.DefaultMaterial = wood;
+            HapticStylus stylus = Resting();
+            yield return Frames(2);
+            Object.DestroyImmediate(wood);
+            yield return null;
+            HapticMaterialMap.Refresh();
+            yield return null;
+            Assert.That(stylus.IsTouching, Is.False);
+        }
+
+        [UnityTest]
         public IEnumerator ANewNameAppliesAfterARefresh()
         {
             BoxCollider box = Bare();

@@ -101,6 +101,17 @@ namespace HaptoFlow.Tests
             Assert.That(stylus.IsTouching, Is.False);
         }
 
+        [UnityTest]
+        public IEnumerator WithoutAForceSourceGeometryDecides()
+        {
+            Board();
+            HapticStylus stylus = StylusAlong(_ => new Vector3(0f, 0.001f, 0f));
+            stylus.TouchBy = TouchDecision.MeasuredForce;
+            yield return Frames(3);
+            Assert.That(stylus.IsTouching, Is.True);
+            Assert.That(stylus.Contact.PenetrationMetres, Is.EqualTo(0.001f).Within(1e-5f));
+        }
+
         private HapticStylus Pen(Func<double, Vector3> path)
         {
             HapticStylus stylus = StylusAlong(path);

@@ -97,6 +97,23 @@ namespace HaptoFlow.Tests
             Assert.That(stylus.TryGetStatistics(out _), Is.False);
         }
 
+        [UnityTest]
+        public IEnumerator AnOutputOnAnInactiveObjectIsSilentUntilItIsActive()
+        {
+            FinishLoading();
+            Board();
+            GameObject owner = Make("Sleeping");
+            owner.SetActive(false);
+            var output = owner.AddComponent<HapticOutput>();
+            HapticStylus stylus = Circling();
+            yield return Frames(5);
+            Assert.That(Outputs(), Is.EqualTo(new[] { output }));
+            Assert.That(stylus.TryGetStatistics(out _), Is.False);
+            owner.SetActive(true);
+            yield return Frames(5);
+            Assert.That(stylus.TryGetStatistics(out _), Is.True);
+        }
+
         private static HapticOutput[] Outputs() => Object.FindObjectsByType<HapticOutput>(
             FindObjectsInactive.Include, FindObjectsSortMode.None).ToArray();
     }

@@ -52,6 +52,17 @@ namespace HaptoFlow.Tests
         }
 
         [UnityTest]
+        public IEnumerator TheAxesTurnWithTheObject()
+        {
+            HapticSurface board = Board();
+            board.transform.rotation = Quaternion.AngleAxis(90f, Vector3.up);
+            HapticStylus stylus = StylusAlong(seconds => new Vector3(0f, 0.001f, -0.05f * (float)seconds));
+            yield return Frames(30);
+            Assert.That(stylus.Contact.FirstVelocityMps, Is.EqualTo(0.05f).Within(1e-3f));
+            Assert.That(stylus.Contact.SecondVelocityMps, Is.EqualTo(0f).Within(1e-3f));
+        }
+
+        [UnityTest]
         public IEnumerator StiffnessComesFromTheLabelWhereTheSurfaceHasNone()
         {
             FinishLoading();
