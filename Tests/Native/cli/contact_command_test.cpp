@@ -145,6 +145,22 @@ TEST_F(ContactProgramTest, ASurfaceWithoutStiffnessHasThatOfItsLabelsAsInRender)
     }
 }
 
+TEST_F(ContactProgramTest, TheLabelsOfAGivenModelSetTheStiffness) {
+    write("scene.json", R"({"surfaces": [{"name": "table", "shape": {"plane": {}}, "material": "rueld"}]})");
+    const auto unknown = contact();
+    EXPECT_EQ(unknown.exitCode, exitBadInput);
+    EXPECT_THAT(unknown.errors, HasSubstr("'rueld', which the model does not know"));
+    const auto given = contact("--default-stiffness 2000");
+    EXPECT_EQ(given.exitCode, exitDone);
+    EXPECT_THAT(linesOf(given.output).at(1), HasSubstr("0.0005,0,0,0,1"));
+    EXPECT_EQ(contact("--default-stiffness 2000 --model x.haptoflow").exitCode, exitUsage);
+    EXPECT_EQ(contact("--model " + testing::tinyModel).exitCode, exitBadInput);
+    write("scene.json", R"({"surfaces": [{"name": "table", "shape": {"plane": {}}, "material": "ruled"}]})");
+    const auto known = contact("--model " + testing::tinyModel);
+    EXPECT_EQ(known.exitCode, exitDone) << known.errors;
+    EXPECT_THAT(linesOf(known.output).at(1), HasSubstr(",0.0005,0,0,0,0.3"));
+}
+
 TEST_F(ContactProgramTest, WrongOptionsAreUsageErrorsAndWrongFilesAreInputErrors) {
     EXPECT_EQ(run("contact scene.json").exitCode, exitUsage);
     EXPECT_EQ(contact("--default-stiffness -1").exitCode, exitUsage);

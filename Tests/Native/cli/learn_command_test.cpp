@@ -3,9 +3,11 @@
 
 #include "learn_output.hpp"
 #include "learning/made_recording.hpp"
+#include "learning/texture_figures.hpp"
 #include "model/material_file.hpp"
 #include "model/model_file.hpp"
 #include "output_file.hpp"
+#include "recordings/prepared_recording.hpp"
 #include "recordings/recording_reader.hpp"
 
 #include <gmock/gmock.h>
@@ -13,13 +15,16 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 #include <string>
+#include <vector>
 
 namespace haptoflow::cli {
 namespace {
 
 using learning::testing::MadeRecording;
+using learning::testing::MadeSurface;
 using testing::Finished;
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -110,6 +115,72 @@ TEST_F(LearnCommandTest, ATableGivesMaterialReportAndPictureWithEqualBytesEachTi
     const std::string before = read("denim.haptomaterial");
     ASSERT_EQ(learn("denim.csv --licence 'CC BY 4.0' --category fabric --quiet").exitCode, 0);
     EXPECT_EQ(read("denim.haptomaterial"), before);
+}
+
+TEST_F(LearnCommandTest, TheSensorsNoiseTheDistanceOfRibsAndTheAngleOfTheMaterialAreTold) {
+    MadeRecording ribbed({.ribs = {0.8, 0.45}, .ribShare = 0.5}, {});
+    write("ribbed.csv", csvOf(learning::testing::noisy(ribbed)));
+    const Finished finished = learn("ribbed.csv --report ribbed.report.json --quiet");
+    ASSERT_EQ(finished.exitCode, 0) << finished.errors;
+    EXPECT_THAT(finished.output, HasSubstr("m/s^2 RMS, removed; found where the tip rests"));
+    EXPECT_THAT(finished.output, HasSubstr("every 1.09 mm; the material's first axis lies across them, 29 degrees from "
+                                           "the recording's"));
+    EXPECT_NEAR(nlohmann::json::parse(read("ribbed.report.json"))["turn_degrees"].get<double>(), 29.36, 1.0);
+}
+
+/// Third-octave levels in dB of a wave at 2 kHz, from 50 to 400 Hz.
+std::vector<double> bandsOf(const std::vector<float>& wave) {
+    learning::TextureMeter meter(1);
+    for (std::size_t at = 0; at + learning::spectrumSamples <= wave.size(); at += 64) {
+        meter.add(0, std::span(wave).subspan(at).first<learning::spectrumSamples>(), {});
+    }
+    const learning::TextureFigures figures = meter.figures()[0];
+    std::vector<double> bands;
+    for (double centre = 50.0; centre < 450.0; centre *= std::exp2(1.0 / 3.0)) {
+        double power = 0.0;
+        for (std::size_t bin = 1; bin < learning::spectrumBins; ++bin) {
+            const double hertz = static_cast<double>(bin) * learning::hertzPerBin;
+            if (hertz >= centre * std::exp2(-1.0 / 6.0) && hertz < centre * std::exp2(1.0 / 6.0)) {
+                power += figures.power[bin];
+            }
+        }
+        bands.push_back(10.0 * std::log10(power));
+    }
+    return bands;
+}
+
+/// The wave at 2 kHz without its first and last 0.3 s.
+std::vector<float> middleAt2kHz(const std::vector<float>& wave, double waveRateHz) {
+    const std::vector<double> all = recordings::bandPassed(
+        recordings::resampled({.first = wave.data(), .stride = 1, .count = wave.size()}, waveRateHz, 2000.0));
+    return {all.begin() + 600, all.end() - 600};
+}
+
+TEST_F(LearnCommandTest, ALearntMaterialRendersLikeItsRecordingAtAGivenSpeed) {
+    const MadeSurface surface{.levelAtReference = 2.0, .speedExponent = 0.8, .resonanceHz = 240.0};
+    write("tile.csv", csvOf(MadeRecording(surface, {.seconds = 12.0})));
+    const Finished learnt = run("learn tile.csv --quiet");
+    ASSERT_EQ(learnt.exitCode, 0) << learnt.errors;
+
+    write("scene.json", R"({"surfaces": [{"name": "floor", "shape": {"plane": {}}, "material": "tile"}]})");
+    write("stroke.csv", "t,x,y,z,force\n0,0,0.0005,0,0.8\n6,0.54,0.0005,0,0.8\n");
+    const Finished rendered =
+        run("render scene.json --stroke stroke.csv --material tile.haptomaterial -o tile.wav "
+            "--rate 8000 --quiet");
+    ASSERT_EQ(rendered.exitCode, 0) << rendered.errors;
+
+    // The reference: the same surface at 90 mm/s; only its force varies by half.
+    const MadeRecording truth(surface, {.seconds = 12.0, .minimumSpeedMps = 0.09, .maximumSpeedMps = 0.09}, rateHz, 99);
+    std::vector<float> heard = readRecording("the wave", at("tile.wav").string()).samples;
+    std::ranges::transform(heard, heard.begin(), [](float value) { return 200.0F * value; });
+    const std::vector<double> found = bandsOf(middleAt2kHz(heard, 8000.0));
+    const std::vector<double> wanted = bandsOf(middleAt2kHz(truth.acceleration, rateHz));
+    double difference = 0.0;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        EXPECT_NEAR(found[i], wanted[i], 3.5) << "third octave " << i;
+        difference += (found[i] - wanted[i]) / static_cast<double>(found.size());
+    }
+    EXPECT_NEAR(difference, 0.0, 1.5);
 }
 
 TEST_F(LearnCommandTest, TheSidecarOfAWavScalesAndNamesIt) {

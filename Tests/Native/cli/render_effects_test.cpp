@@ -105,6 +105,19 @@ TEST_F(RenderEffectsTest, AJsonOutputHasAFrameEveryFiveMillisecondsAndNeedsNoWav
     }
 }
 
+TEST_F(RenderEffectsTest, TheFramesReportTheErrorOfTheirIntensity) {
+    ASSERT_EQ(run("render scene.json --stroke stroke.csv -o motor.json").exitCode, 0);
+    const nlohmann::json errors = nlohmann::json::parse(read("motor.json")).at("intensity_error_db");
+    for (const char* played : {"frames", "motor_160_hz"}) {
+        const nlohmann::json& error = errors.at(played);
+        EXPECT_GT(error.at("felt_frames"), 20) << played;
+        EXPECT_LT(std::abs(error.at("mean").get<double>()), 3.0) << played;
+        EXPECT_LE(std::abs(error.at("mean").get<double>()), error.at("mean_magnitude").get<double>()) << played;
+        EXPECT_LE(error.at("mean_magnitude").get<double>(), error.at("p95").get<double>()) << played;
+        EXPECT_LT(error.at("p95").get<double>(), 8.0) << played;
+    }
+}
+
 TEST_F(RenderEffectsTest, WrongOptionsAreRefusedByNameAndLeaveNoFile) {
     const std::size_t before = fileCount();
     const auto expectError = [this](int exitCode, const std::string& words, const std::string& message) {
