@@ -62,6 +62,18 @@ namespace HaptoFlow.EditorTests
             Assert.That(Peak(1), Is.GreaterThan(Audible));
         }
 
+        [Test]
+        public void AChannelMakesTheRightChannelAloneVibrate()
+        {
+            MakeFirstScene();
+            EditorScreen.Enter("Channel", 1);
+            InspectorTests.Draw(All<HapticOutput>().Single());
+            EditorSession.Play();
+            PressOverThePlate();
+            Assert.That(Peak(1), Is.GreaterThan(Audible));
+            Assert.That(Peak(0), Is.Zero);
+        }
+
         [TestCase("Right")]
         [TestCase("Left")]
         public void AHeadsetsControllerVibratesAlone(string hand)
@@ -74,6 +86,15 @@ namespace HaptoFlow.EditorTests
             Assert.That(Peak(0), Is.Zero, "the Haptic Output of First Scene is left to loudspeakers");
             Assert.That(BuildCheck.Findings(BuildTarget.StandaloneLinux64).Select(finding => finding.Text),
                 Has.None.Contains("settings"));
+        }
+
+        [Test]
+        public void MxInkVibrates()
+        {
+            OVRPlugin.Take(OVRPlugin.Hand.HandRight, OVRPlugin.MxInkProfile);
+            PlayWithAHeadset();
+            Assert.That(OVRPlugin.Pulses.Count, Is.GreaterThan(20));
+            Assert.That(Peak(0), Is.Zero);
         }
 
         [TestCase(false)]

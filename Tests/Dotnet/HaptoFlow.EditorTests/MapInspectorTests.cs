@@ -28,8 +28,10 @@ namespace HaptoFlow.EditorTests
         {
             HapticMaterialMap map = Map(HapticMaterialRule.ForTag("Finish", null));
             Undo.IncrementCurrentGroup();
+            int before = MaterialMaps.Version;
             EditorScreen.Enter("Tag", "Respawn");
             InspectorTests.Draw(map);
+            Assert.That(MaterialMaps.Version, Is.GreaterThan(before), "at once, in play mode too");
             Assert.That(map.Rules[0].Tag, Is.EqualTo("Respawn"));
             EditorScreen.Enter("Looks At", MaterialRuleSubject.Name);
             InspectorTests.Draw(map);

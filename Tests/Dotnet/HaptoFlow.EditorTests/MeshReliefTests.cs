@@ -39,6 +39,14 @@ namespace HaptoFlow.EditorTests
             Expect(scaled, SineAt, 0.02);
         }
 
+        [Test]
+        public void AScaleAlongTheNormalIsThatOfTheDepth()
+        {
+            HapticRelief relief = Taken(Sine(), new Vector3(1f, 3f, 2f));
+            Assert.That(relief.DepthMillimetres, Is.EqualTo(6f).Within(0.09f));
+            Assert.That(relief.SizeMetres.y, Is.EqualTo(0.2f).Within(1e-5));
+        }
+
         [TestCase(-1f, 1f, 1f)]
         [TestCase(1f, -1f, 1f)]
         [TestCase(-1f, -1f, -1f)]

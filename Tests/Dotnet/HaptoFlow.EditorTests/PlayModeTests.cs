@@ -79,6 +79,20 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
+        public void ALabelChosenInPlayModeIsFelt()
+        {
+            HapticStylus stylus = PlayTouching(out _);
+            HapticSurface surface = stylus.Contact.Surface!;
+            LabelBlend before = surface.LookUp(HapticSession.Current).Labels;
+            EditorScreen.Press("wood");
+            InspectorTests.Draw(surface);
+            UnityEditor.IMGUI.Controls.AdvancedDropdown.Shown!.Pick("sandpaper");
+            Assert.That(surface.LookUp(HapticSession.Current).Labels.Label(0), Is.Not.EqualTo(before.Label(0)));
+            World.Frames(2);
+            Assert.That(stylus.IsTouching, Is.True);
+        }
+
+        [Test]
         public void AStylusShowsItsRunningEffectsAndTheSceneCheckTheirCost()
         {
             HapticStylus stylus = PlayTouching(out HapticOutput output);

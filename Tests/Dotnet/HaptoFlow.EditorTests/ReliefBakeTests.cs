@@ -297,6 +297,15 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
+        public void AReliefWithoutHeightsIsNamed()
+        {
+            var relief = ScriptableObject.CreateInstance<HapticRelief>();
+            relief.name = "Empty";
+            All<HapticSurface>().Single().Relief = relief;
+            Only("Empty has no heights: it is not felt. Press Take from the Object's Material");
+        }
+
+        [Test]
         public void ASceneWhoseOnlyEffectIsAReliefIsFelt()
         {
             HapticSurface table = All<HapticSurface>().Single();

@@ -131,6 +131,8 @@ namespace HaptoFlow.PreviewTests
             Enter("Force [N]", 1f);
             window.Finish();
             Assert.That(Button("Learn").Enabled, Is.True);
+            Assert.That(window.Session!.Recording!.VelocityAt(100).X, Is.EqualTo(0.1).Within(1e-7));
+            Assert.That(window.Session.Recording.ForceAt(100), Is.EqualTo(1.0));
         }
 
         [Test]

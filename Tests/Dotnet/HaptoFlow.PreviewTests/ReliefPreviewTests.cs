@@ -119,6 +119,8 @@ namespace HaptoFlow.PreviewTests
         {
             Assert.That(Of(null, HapticEffects.Nothing).Samples, Is.All.Zero);
             float[] ribs = Of(ReliefPreviews.Ribs(), HapticEffects.Nothing).Samples;
+            Assert.That(Of(ReliefPreviews.Bricks(), HapticEffects.Nothing).Samples.SequenceEqual(ribs), Is.False);
+            Assert.That(Of(null, HapticEffects.Nothing).Samples, Is.All.Zero, "the map was removed");
             // Ribs of 5 mm at 0.1 m/s: 20 Hz and its harmonics.
             float[] middle = ribs.Skip(12000).Take(19200).ToArray();
             Assert.That(middle.Max(Math.Abs), Is.GreaterThan(0.01f));

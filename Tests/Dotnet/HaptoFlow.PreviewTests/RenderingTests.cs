@@ -109,6 +109,8 @@ namespace HaptoFlow.PreviewTests
             using var other = new PreviewWorker();
             float[] again = other.Do(Request(new LabelMix("cotton")), CancellationToken.None).Sounds[0].Sound.Samples;
             Assert.That(again, Is.EqualTo(first));
+            PreviewResult both = Do(Request(new LabelMix("cotton"), new LabelMix("cotton")));
+            Assert.That(both.Sounds.Select(each => each.Sound.Samples), Is.All.EqualTo(first), "what is compared too");
             PreviewRequest reseeded = Request(new LabelMix("cotton"));
             reseeded.Seed = 2;
             Assert.That(Samples(reseeded), Is.Not.EqualTo(first));

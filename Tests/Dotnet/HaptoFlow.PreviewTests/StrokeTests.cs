@@ -94,6 +94,31 @@ namespace HaptoFlow.PreviewTests
         }
 
         [Test]
+        public void ASlowBackAndForthStrokeTurnsAtLeastFourTimes([Values(0.005, 0.1, 2.0)] double speedMps)
+        {
+            StrokeState[] states = Touched(
+                PresetStrokes.Make(StrokePreset.BackAndForth, new StrokeSettings(speedMps, 1.0, 0.0, 2.0)));
+            int turns = Enumerable.Range(1, states.Length - 1)
+                .Count(index => Math.Sign(states[index].VelocityXMps) != Math.Sign(states[index - 1].VelocityXMps));
+            Assert.That(turns, Is.GreaterThanOrEqualTo(4));
+            Assert.That(states.Max(state => state.SpeedMps), Is.EqualTo(speedMps).Within(0.05 * speedMps));
+        }
+
+        [Test]
+        public void ASpiralGrowsThroughEveryDirection()
+        {
+            StrokeState[] states = Touched(
+                PresetStrokes.Make(StrokePreset.Spiral, new StrokeSettings(0.3, 1.0, 0.0, 2.0)));
+            int quarters = states
+                .Select(state => (state.VelocityXMps > 0.0, state.VelocityYMps > 0.0)).Distinct().Count();
+            Assert.That(quarters, Is.EqualTo(4));
+            double[] radii = states.Select(state => Math.Sqrt(
+                Math.Pow(state.XMetres - 0.06, 2.0) + Math.Pow(state.YMetres - 0.04, 2.0))).ToArray();
+            Assert.That(radii, Is.Ordered.Ascending);
+            Assert.That(radii[^1], Is.EqualTo(0.032).Within(0.002));
+        }
+
+        [Test]
         public void TheForceOfAPressingStrokeRisesFromZero()
         {
             StrokeState[] states = Touched(PresetStrokes.Make(StrokePreset.Pressing, Usual));

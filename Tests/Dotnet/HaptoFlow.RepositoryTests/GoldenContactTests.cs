@@ -17,11 +17,16 @@ namespace HaptoFlow.RepositoryTests
         private static readonly Lazy<JsonValue> File = new Lazy<JsonValue>(() =>
             JsonValue.Parse(System.IO.File.ReadAllText(RepositoryFiles.In("Tests", "Golden", "contact", "contact-states.json"))));
 
-        /// <summary>The cases without a mesh, which Unity's physics engine answers for in C#: the tests of kinds of
-        /// colliders hold meshes to boxes.</summary>
-        private static IEnumerable<string> CaseNames() => File.Value["cases"].AsArray()
-            .Where(testCase => testCase["scene"]["surfaces"].AsArray().All(surface => surface["shape"].Find("mesh") == null))
-            .Select(testCase => testCase["name"].AsText());
+        private static IEnumerable<string> CaseNames() =>
+            File.Value["cases"].AsArray().Select(testCase => testCase["name"].AsText());
+
+        [Test]
+        public void TheGoldenFileContainsCases()
+        {
+            Assert.That(File.Value["format"].AsText(), Is.EqualTo("haptoflow contact states"));
+            Assert.That(File.Value["version"].AsInteger(), Is.EqualTo(2));
+            Assert.That(CaseNames().Count(), Is.GreaterThanOrEqualTo(8));
+        }
 
         [TestCaseSource(nameof(CaseNames))]
         public void ContactStatesAgreeWithTheNativeContactModel(string name)
@@ -150,6 +155,7 @@ namespace HaptoFlow.RepositoryTests
     {
         private readonly JsonValue shape;
         private readonly RigidPose restingPose;
+        private readonly GoldenMesh? mesh;
 
         public GoldenSurface(JsonValue surface, JsonValue labelStiffness)
         {
@@ -158,6 +164,7 @@ namespace HaptoFlow.RepositoryTests
             restingPose = new RigidPose(
                 VectorOr(surface.Find("position"), Double3.Zero),
                 rotation == null ? Rotation.Identity : RotationOf(rotation, 0));
+            mesh = shape.Find("mesh") is { } raw ? new GoldenMesh(raw) : null;
             Tracked = new ContactBody(VectorOr(surface.Find("grain"), Double3.Right), StiffnessOf(surface, labelStiffness));
         }
 
@@ -204,7 +211,7 @@ namespace HaptoFlow.RepositoryTests
                 return Shapes.OnCapsule(round.Radius, round.Height, tip, held);
             }
             // Without another shape it is the half-space below y = 0.
-            return new SurfacePoint(tip.With(1, 0.0), Double3.Up, tip.Y);
+            return mesh == null ? new SurfacePoint(tip.With(1, 0.0), Double3.Up, tip.Y) : mesh.Closest(tip, held);
         }
 
         private SurfaceEntry? EntryInto(Double3 from, Double3 tip)
@@ -216,6 +223,10 @@ namespace HaptoFlow.RepositoryTests
             if (RoundSize() is { } round)
             {
                 return Shapes.EntryOfCapsule(round.Radius, round.Height, from, tip);
+            }
+            if (mesh != null)
+            {
+                return mesh.EntryInto(from, tip);
             }
             double share = from.Y / (from.Y - tip.Y);
             return from.Y < 0.0 || tip.Y >= 0.0
@@ -319,6 +330,31 @@ namespace HaptoFlow.RepositoryTests
                 path.Add(frame / 90.0, place, place);
             }
             Assert.That(relative.Of(path).NowMps.X, Is.EqualTo(20.0).Within(1e-9));
+        }
+
+        [Test]
+        public void NoFrameAllocates()
+        {
+            var random = new Random(6);
+            var places = new Double3[2000];
+            for (int frame = 0; frame < places.Length; ++frame)
+            {
+                places[frame] = new Double3(0.01 * Math.Sin(0.2 * frame), 0.0, 0.0) + Noise(random, 1e-4);
+            }
+            Follow(places);
+            Restart();
+            long before = GC.GetAllocatedBytesForCurrentThread();
+            Follow(places);
+            Assert.That(GC.GetAllocatedBytesForCurrentThread() - before, Is.Zero);
+        }
+
+        private void Follow(Double3[] places)
+        {
+            for (int frame = 0; frame < places.Length; ++frame)
+            {
+                path.Add(frame / 500.0, places[frame], places[frame]);
+                relative.Of(path);
+            }
         }
 
         private static TipPath NewPath() => new TipPath(new TrackerNoise());

@@ -258,10 +258,10 @@ namespace HaptoFlow.RepositoryTests
                 ["single"] = 0.1f,
                 ["numbers"] = new object?[] { -1.5, 1e-7, ulong.MaxValue, 3, true, null },
                 ["fields"] = new Dictionary<string, object?>(),
-                ["text"] = "a\"\\ä\u0001",
+                ["a\"\\ä"] = "a\"\\ä\u0001",
             });
             Assert.That(text, Is.EqualTo("{\"whole\":5,\"single\":0.1,\"numbers\":[-1.5,1E-07,18446744073709551615,3," +
-                "true,null],\"fields\":{},\"text\":\"a\\\"\\\\ä\\u0001\"}"));
+                "true,null],\"fields\":{},\"a\\\"\\\\ä\":\"a\\\"\\\\ä\\u0001\"}"));
             Assert.That(JsonText.Of(JsonValue.Parse(text.Replace(":5,", ":5.0,"))), Is.EqualTo(text));
         }
 

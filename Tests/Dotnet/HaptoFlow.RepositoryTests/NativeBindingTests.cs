@@ -255,6 +255,23 @@ namespace HaptoFlow.RepositoryTests
             Assert.That(After(engine, voice, Sliding(1), 48000.0).Silence, Is.EqualTo(HapticSilence.Panic));
             voice.SetPaused(true);
             Assert.That(After(engine, voice, Sliding(2), 48000.0).Silence, Is.EqualTo(HapticSilence.Paused));
+            Assert.That(engine.Statistics().WorkerIsAlive, Is.True, "an engine without a worker lacks none");
+            Assert.That(engine.LastFailure(), Is.Empty);
+        }
+
+        [Test]
+        public void AnUnsupportedRateIsCountedAndReported()
+        {
+            using HapticEngine engine = EngineWithoutWorker();
+            using HapticVoice voice = engine.OpenVoice(48000.0);
+            VoiceStatistics good = After(engine, voice, Sliding(1), 48000.0);
+            Assert.That(good.IsRateSupported, Is.True);
+            Assert.That(good.DeviceRateHz, Is.EqualTo(48000.0));
+            VoiceStatistics bad = After(engine, voice, Sliding(1), 384000.0);
+            Assert.That(bad.IsRateSupported, Is.False);
+            Assert.That(bad.Silence, Is.EqualTo(HapticSilence.Rate));
+            Assert.That(bad.UnsupportedRateBlocks, Is.GreaterThan(0UL));
+            Assert.That(bad.DeviceRateHz, Is.EqualTo(384000.0));
         }
 
         [TestCase(-1)]

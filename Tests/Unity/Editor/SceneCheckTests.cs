@@ -261,6 +261,15 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
+        public void AnOutputWithAChannelIsTakenBeforeOneOnAllChannels()
+        {
+            HapticOutput coil = Output();
+            coil.Channel = 0;
+            Assert.That(Texts(), Is.Empty);
+            Assert.That(Places(ScenesStylus).Audio, Is.EqualTo(coil));
+        }
+
+        [Test]
         public void AMissingVoiceNamesTheOutputThatIsSwitchedOff()
         {
             Assert.That(SilenceWords.OfMissingVoice(ScenesStylus), Is.EqualTo("none yet"));
