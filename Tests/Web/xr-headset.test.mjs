@@ -15,6 +15,13 @@ before(async () => {
 });
 after(() => opened?.close());
 
+function correlation(a, b) {
+  const mean = (values) => values.reduce((sum, value) => sum + value, 0) / values.length;
+  const [ma, mb] = [mean(a), mean(b)];
+  const sum = (of) => a.reduce((total, _, index) => total + of(a[index] - ma, b[index] - mb), 0);
+  return sum((x, y) => x * y) / Math.sqrt(sum((x) => x * x) * sum((_, y) => y * y));
+}
+
 test('entering shows the door, leaving closes it, twice', { skip }, async () => {
   const found = await inPage(async () => {
     const { enter, headsetIsPossible, stroke } = globalThis.tools;
@@ -38,6 +45,108 @@ test('entering shows the door, leaving closes it, twice', { skip }, async () => 
     assert.equal(canvases, 0);
   }
   assert.deepEqual(opened.complaints, []);
+});
+
+test('a stroke over two labels pulses with the envelope of the voice, and not outside contact', { skip }, async () => {
+  const found = await inPage(async () => {
+    const { enter, stroke, pulses, park, pause } = globalThis.tools;
+    const { visit, haptics } = await enter();
+    const voice = haptics.voices[1];
+    const tap = voice.waveTap({ seconds: 2 });
+    const reference = voice.motorTap();
+    const wave = new Float32Array(24000);
+    const frames = [];
+    let written = 0;
+    // Beside every pulse: the loudest 20 ms that ended since the one before, and the motor output's own points.
+    const loudest = (newFrames) => {
+      tap.latest(wave);
+      let most = 0;
+      for (let end = wave.length; end > Math.max(960, wave.length - newFrames); end -= 120) {
+        let sum = 0;
+        for (let index = end - 960; index < end; index += 1) sum += wave[index] ** 2;
+        most = Math.max(most, Math.sqrt(sum / 960));
+      }
+      return most;
+    };
+    globalThis.onPulse = (side, value) => {
+      const count = tap.written - written;
+      written += count;
+      const points = reference.read();
+      const shares = points.map(({ share, transientShare }) => Math.max(share, transientShare));
+      frames.push({ side, value, level: loudest(count), count, share: Math.max(0, ...shares), points: points.length, frame });
+    };
+    const begin = pulses.length;
+    const spans = [];
+    let frame = 0;
+    const span = async (name, seconds, placeOf) => {
+      const from = frame;
+      await stroke(visit, seconds, (...words) => {
+        frame += 1;
+        return placeOf(...words);
+      });
+      spans.push({ name, from, to: frame });
+    };
+    // Over sandpaper, slower and slower; in the air; over the carpet, faster and faster; in the air.
+    await span('air', 0.5, () => [-0.185, 0.03, -0.112]);
+    await span('sandpaper', 2.2, (side, s) => [-0.185 + 0.035 * Math.sin(2 * Math.PI * (1.4 * s - 0.28 * s * s)), 0.0004, -0.112 + 0.02 * Math.sin(s)]);
+    await span('air', 0.7, () => [0, 0.05, -0.112]);
+    await span('carpet', 2.5, (side, s) => [0.185 + 0.035 * Math.sin(2 * Math.PI * (0.15 * s + 0.2 * s * s)), 0.0035, -0.112 + 0.02 * Math.sin(s)]);
+    await span('air', 0.7, () => [0, 0.05, -0.112]);
+    park('right');
+    await pause(100);
+    globalThis.onPulse = null;
+    tap.close();
+    reference.close();
+    const rates = visit.rates();
+    await visit.end();
+    return { frames, spans, pulses: pulses.slice(begin), rates };
+  });
+  const inside = (name) => found.frames.filter(({ frame }) => found.spans.some((span) => span.name === name && frame > span.from && frame <= span.to));
+  assert.ok(inside('sandpaper').length > 20, `${inside('sandpaper').length} pulses on sandpaper, ${found.rates.framesPerSecond} frames a second`);
+  assert.ok(inside('carpet').length > 20);
+  // The first frames in the air may still feel the end of the touch.
+  const late = found.frames.filter(({ frame }) => found.spans.some((span) => span.name === 'air' && frame > span.from + 3 && frame <= span.to));
+  assert.deepEqual(late, []);
+  assert.ok(found.pulses.every(({ side, value, durationMs }) => side === 'right' && value > 0 && value <= 1 && durationMs > 0 && durationMs <= 60));
+  // The first pulse after a pause stands for a longer stretch of wave.
+  const compared = found.frames.filter(({ count, points }) => count < 12000 && points > 0);
+  const motor = correlation(compared.map(({ value }) => value), compared.map(({ share }) => share));
+  // The loudness law of motors has this exponent (NativePlugin/src/effects/device_loudness.cpp).
+  const level = correlation(compared.map(({ value }) => value), compared.map((frame) => frame.level ** 0.41));
+  const fit = `correlation with the motor output ${motor.toFixed(4)}, with the wave's level by the law of motors ${level.toFixed(4)}`;
+  console.log(`# ${compared.length} pulses, ${fit}, ${found.rates.framesPerSecond.toFixed(1)} frames a second`);
+  assert.ok(motor > 0.9, `${motor}`);
+  assert.ok(level > 0.9, `${level}`);
+});
+
+test('ears hear the texture far above its true level, and the wave for the motor keeps that level', { skip }, async () => {
+  const found = await inPage(async () => {
+    const { enter, stroke } = globalThis.tools;
+    const { visit, haptics } = await enter();
+    const analyser = new AnalyserNode(haptics.context, { fftSize: 32768 });
+    haptics.output.connect(analyser);
+    const tap = haptics.voices[1].waveTap();
+    const rms = (samples) => Math.sqrt(samples.reduce((sum, sample) => sum + sample * sample, 0) / samples.length);
+    const levels = {};
+    for (const [label, x, y, z] of [['wood', 0, 0.0004, -0.05], ['sandpaper', -0.185, 0.0014, -0.112]]) {
+      await stroke(visit, 0.9, (side, s) => [x + 0.035 * Math.sin(6 * s), y, z]);
+      const [heard, felt] = [new Float32Array(32768), new Float32Array(32768)];
+      analyser.getFloatTimeDomainData(heard);
+      tap.latest(felt);
+      levels[label] = { heard: rms(heard), felt: rms(felt), peak: heard.reduce((most, sample) => Math.max(most, Math.abs(sample)), 0) };
+    }
+    tap.close();
+    await visit.end();
+    haptics.output.disconnect(analyser);
+    return levels;
+  });
+  const decibels = (value) => Number((20 * Math.log10(value)).toFixed(1));
+  for (const [label, { heard, felt, peak }] of Object.entries(found)) {
+    console.log(`# ${label}: ears ${decibels(heard)} dBFS, motor ${decibels(felt)} dBFS, peak ${peak.toFixed(2)}`);
+  }
+  assert.ok(found.wood.heard > 8 * found.wood.felt && found.sandpaper.heard > 2 * found.sandpaper.felt);
+  assert.ok(found.sandpaper.heard > found.wood.heard);
+  assert.ok(found.wood.peak < 1 && found.sandpaper.peak < 1);
 });
 
 test('the page gets each hand\'s voice before it sounds: an effect that is off there does not run here', { skip }, async () => {
