@@ -112,6 +112,11 @@ test('an output that is gone, but on which time passes for a while, is not taken
     await pass(2);
     assert.deepEqual(states, ['lost']);
     assert.equal(watch.hasLost, true);
+    assert.deepEqual(context.sinkId, { type: 'none' });
+    context.ghosts = 0;
+    context.outputs = 1;
+    await pass(1);
+    assert.deepEqual(states, ['lost', 'back']);
   });
 });
 

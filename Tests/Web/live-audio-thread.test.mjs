@@ -81,6 +81,18 @@ test('a published touch sounds in the next block, before the worker had a turn',
   assert.ok(loudest(engine.play()) > 0);
 });
 
+test('a page that no longer publishes is silent after 100 ms', async () => {
+  const engine = await liveEngine(qualities.sketch);
+  engine.publish({});
+  for (let block = 0; block < 45; block += 1) {
+    engine.generate();
+    engine.play();
+  }
+  assert.equal(loudest(engine.play()), 0);
+  assert.equal(engine.statistics().silence, 2);
+  assert.equal(engine.statistics().staleStops, 1);
+});
+
 test('the worker generates, the audio thread plays it, and nothing is late at the pace of a display', async () => {
   const engine = await liveEngine(qualities.standard);
   const blocksPerState = 5;

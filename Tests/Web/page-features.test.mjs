@@ -64,6 +64,7 @@ const lacks = [
     assert.match(found.copied, /did not allow copying/);
   }],
   ['gamepads that throw', () => { Navigator.prototype.getGamepads = () => { throw new DOMException('denied', 'SecurityError'); }; }, [rumble]],
+  ['gamepads that are null', () => { Navigator.prototype.getGamepads = () => null; }, []],
   ['a gamepad whose motor throws', () => { Navigator.prototype.getGamepads = () => [{ id: 'made', vibrationActuator: { playEffect() { throw new TypeError('no such effect'); } } }]; }, [rumble]],
   ['a gamepad whose motor rejects', () => { Navigator.prototype.getGamepads = () => [{ id: 'made', vibrationActuator: { playEffect: async () => { throw new DOMException('no such effect', 'NotSupportedError'); } } }]; }, [rumble]],
   ['a gamepad whose motor has another interface', () => { Navigator.prototype.getGamepads = () => [{ id: 'made', vibrationActuator: {} }]; }, [rumble]],
@@ -119,6 +120,7 @@ describe('the live page in a browser with', { skip: !hasBrowser }, () => {
     assert.equal(found.sharing, 'ring');
     assert.match(found.note, /^Sound goes through a ring that adds \d+ ms: this browser shares no memory/);
     assert.equal(found.rumble || found.vibration || found.headset, false);
+    assert.match(found.copied, /did not allow copying/);
     assert.deepEqual(opened.complaints, []);
   });
 });

@@ -17,6 +17,16 @@ const tipRadius = scene.stylus.tip_radius;
 const near = (value, expected, tolerance = 1e-9) => assert.ok(Math.abs(value - expected) <= tolerance, `${value} and ${expected}`);
 const nameAt = (x, z) => tops[highestAt(tops, x, z, tipRadius).index]?.name;
 
+test('the table has at least eight labels, one curved, one moving, one turned, and two materials side by side', () => {
+  const labels = new Set(scene.surfaces.map(({ material }) => material));
+  assert.ok(labels.size >= 8, `${labels.size}`);
+  assert.ok(tops.some(({ kind }) => kind !== 'box'));
+  assert.ok(tops.some(({ isMoving }) => isMoving));
+  assert.ok(scene.surfaces.some(({ material, rotation }) => material === 'corduroy' && rotation));
+  const mosaic = scene.surfaces.filter(({ name }) => name.startsWith('mosaic'));
+  assert.equal(new Set(mosaic.map(({ material }) => material)).size, 2);
+});
+
 test('every surface and every label of the scene has a look', () => {
   for (const { name, material } of scene.surfaces) {
     assert.ok(looks.surfaces[name]?.title, name);
@@ -80,6 +90,12 @@ test('preset strokes begin and end at rest, stay on the table, and pass over wha
   const across = presetStrokes[0];
   const names = new Set(Array.from({ length: 300 }, (_, index) => strokeAt(across, index / 100, 1)).map(({ x, z }) => nameAt(x, z)));
   for (const name of ['metal rod', 'sliding grille', 'stone tile', 'desk']) assert.ok(names.has(name), name);
+});
+
+test('the speed scale shortens a stroke and keeps its path', () => {
+  const stroke = presetStrokes[1];
+  near(secondsOf(stroke, 2), secondsOf(stroke, 1) / 2);
+  near(strokeAt(stroke, 0.5, 2).x, strokeAt(stroke, 1, 1).x);
 });
 
 test('the spectrum of a sinusoid has its power in its band', () => {

@@ -2,7 +2,7 @@ import assert from 'node:assert/strict';
 import { writeFileSync } from 'node:fs';
 import path from 'node:path';
 import { test } from 'node:test';
-import { LabelIndices } from '../../Web/engine/js/contact-fields.mjs';
+import { field, fieldCount, LabelIndices, writeState } from '../../Web/engine/js/contact-fields.mjs';
 import { render } from '../../Web/engine/js/offline.mjs';
 import { Relief } from '../../Web/engine/js/relief.mjs';
 import { Scene } from '../../Web/engine/js/scene.mjs';
@@ -100,6 +100,10 @@ test('a scene says where the tip is in the relief of a surface, until it is take
   assert.equal(contact.relief, relief);
   assert.deepEqual(contact.reliefPlace.map((part) => Number(part.toFixed(5))), [0.25, -0.4]);
   assert.equal(contact.reliefShare, 0.25);
+  // A state of one's own that names the relief says the same, without a scene.
+  const fields = new Float64Array(fieldCount);
+  writeState({ touching: true, material: 'wood', relief, reliefPlace: [0.25, -0.4], reliefShare: 0.25 }, 1, fields);
+  assert.deepEqual([field.relief, field.reliefPlace, field.reliefPlace + 1, field.reliefShare].map((at) => fields[at]), [7, 0.25, -0.4, 0.25]);
   scene.setRelief(0, null);
   assert.equal(at(0.02).relief, null);
   assert.throws(() => scene.setRelief('chair', relief), /no surface "chair"/);

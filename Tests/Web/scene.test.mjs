@@ -55,6 +55,9 @@ const over = (seconds, depth = 0.002) => ({ timeSeconds: seconds, positionMetres
 
 test('a surface can change its material, scale and tone; one that does not exist is named', () => {
   const scene = sceneOf(table);
+  const first = scene.update(over(0));
+  assert.deepEqual(first.material, { wood: 0.75, fur: 0.25 });
+  assert.ok(Math.abs(first.penetrationMetres - 0.002) < 1e-9 && Math.abs(first.forceNewtons - 1) < 1e-6);
   scene.setSurface('table', { material: 'glass', spatialScale: 2, toneDbPerOctave: -3 });
   const contact = scene.update(over(0));
   assert.equal(contact.material, 'glass');
