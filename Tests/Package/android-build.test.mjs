@@ -75,6 +75,15 @@ for (const [platform, layout] of Object.entries(systems)) {
       makeNdk(path.join(ndks, '23.1.7779620'));
       assert.equal(findNdk(bare(folder, platform)).ndk, newest);
     }));
+
+  test(`${platform}: without an NDK every place searched is named`, () =>
+    inFolder((folder) => {
+      const { env, hub } = layout(folder);
+      const { ndk, looked } = findNdk(bare(folder, platform, { env }));
+      assert.equal(ndk, null);
+      assert.deepEqual(looked.slice(0, 2), ['ANDROID_NDK_HOME: is not set', `${hub}: is not there`]);
+      assert.match(looked[2], /ndk: is not there$/);
+    }));
 }
 
 test('ANDROID_NDK_HOME takes precedence over installed NDKs, and a wrong one is named and not used', () =>

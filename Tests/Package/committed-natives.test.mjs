@@ -1,7 +1,7 @@
 // The native libraries in git, with which Unity plays a clone, and the record of what they were built from.
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
-import { cpSync, readFileSync, writeFileSync } from 'node:fs';
+import { cpSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import test from 'node:test';
 import { inRepository } from '../../scripts/lib/process.mjs';
@@ -116,6 +116,18 @@ test('every change of what the build reads changes the hash of the sources, and 
       assert.equal(hashOfInterface(folder) !== hashOfInterface(), isOfInterface, what);
       writeFileSync(path.join(folder, name), before);
     }
+  });
+});
+
+test('a source that is added or renamed changes the hash of the sources', () => {
+  inCopy((folder) => {
+    const added = path.join(folder, 'NativePlugin', 'src', 'dsp', 'added.cpp');
+    writeFileSync(added, '');
+    const withOne = hashOfSources(folder);
+    assert.notEqual(withOne, hashOfSources());
+    rmSync(added);
+    writeFileSync(added.replace('added', 'renamed'), '');
+    assert.notEqual(hashOfSources(folder), withOne);
   });
 });
 

@@ -7,7 +7,7 @@ import { inRepository } from '../../scripts/lib/process.mjs';
 import { findNatives, kindOfLibrary, platforms, presetsToBuild } from '../../scripts/pack/natives.mjs';
 import { placeInPackage, studiesName } from '../../scripts/pack/layout.mjs';
 import { stagePackage } from '../../scripts/pack/stage.mjs';
-import { tableOfContents } from '../../scripts/pack/dependency.mjs';
+import { filesOfZip, runtimeBytes, tableOfContents } from '../../scripts/pack/dependency.mjs';
 import { elfOf } from './support/elf.mjs';
 import { inFolder } from './support/folder.mjs';
 
@@ -136,6 +136,12 @@ test('the table has sizes on the device, what a library needs, and the command f
     assert.match(lines[2], /Linux arm64 .* - .*bring ONNX Runtime for it yourself: its package has none/);
     assert.match(lines[3], /^ {2}Windows x86-64 +missing: not built; do this$/);
   });
+});
+
+test('ONNX Runtime takes on each device what its package holds for it: uncompressed from the archive for Android', () => {
+  const mebibytes = (id) => Math.round(runtimeBytes(id) / 2 ** 20);
+  assert.deepEqual(['linux-x64', 'linux-arm64', 'windows-x64', 'macos', 'android-arm64'].map(mebibytes), [27, 0, 15, 41, 31]);
+  assert.throws(() => filesOfZip(Buffer.from('no archive')), /no ZIP archive/);
 });
 
 test('files go to their places in the package or in that of the studies, and other files of the repository are not packed', () => {

@@ -73,6 +73,12 @@ test('the changes of a version are those of its own section', () => {
   assert.throws(() => changesOf(changelog, '2.0.0'), /has no section "## 2\.0\.0"/);
 });
 
+test('the workflow of a release requires the library of every platform, and its checks make each', () => {
+  const [release, ci] = ['release', 'ci'].map((name) => readFileSync(inRepository('.github', 'workflows', `${name}.yml`), 'utf8'));
+  assert.ok(release.includes(`--require ${platforms.map(({ id }) => id).join(',')}`));
+  for (const { id } of platforms) assert.match(ci, new RegExp(`name: native-${id}\n`), id);
+});
+
 const git = (folder, ...words) => {
   const { status, stdout, stderr } = spawnSync('git', ['-C', folder, ...words], { encoding: 'utf8' });
   assert.equal(status, 0, stderr);

@@ -8,6 +8,10 @@ import test from 'node:test';
 import { inRepository } from '../../scripts/lib/process.mjs';
 import { bringDotnet, dotnetEnvironment, findDotnet, missingFromLock, missingPackages, offeredPackages, selectPackages } from '../../scripts/lib/setup.mjs';
 
+test('the demo installs no PyTorch, no test library and no cross compiler', () => {
+  for (const name of selectPackages(['build', 'drawings'])) assert.doesNotMatch(name, /torch|gtest|mingw|aarch64|wine|clang/);
+});
+
 test('a purpose that does not exist is an error', () => {
   assert.throws(() => selectPackages(['tset']), /"tset"/);
 });
@@ -50,6 +54,16 @@ test('a package is offered where apt names a candidate version', () => {
   ].join('\n');
   assert.deepEqual(offeredPackages(['clang-22', 'libclang-rt-22-dev', 'git', 'unknown'], policy), ['clang-22', 'git']);
   assert.deepEqual(offeredPackages(['git'], ''), []);
+});
+
+test('every package of the lock file runs on the Node that the README asks for', () => {
+  const [, oldest] = readFileSync(inRepository('README.md'), 'utf8').match(/Node (\d+)\.\d+/);
+  const { packages } = JSON.parse(readFileSync(inRepository('package-lock.json'), 'utf8'));
+  const tooNew = Object.entries(packages).filter(([, { engines }]) => engines?.node).filter(([, { engines }]) => {
+    const lowest = engines.node.split('||').map((range) => Number(range.match(/\d+/)?.[0] ?? 0));
+    return Math.min(...lowest) > Number(oldest);
+  });
+  assert.deepEqual(tooNew.map(([name, { engines }]) => `${name} needs Node ${engines.node}`), []);
 });
 
 const posixOnly = process.platform === 'win32' ? 'the programs of this test are shell scripts' : false;

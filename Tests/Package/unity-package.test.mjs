@@ -85,6 +85,13 @@ test('a link to a page of the other package becomes the page\'s name', () => {
   assert.ok(studies.names.some((name) => name.endsWith('.md') && /\(`installation\.md` of HaptoFlow\)/.test(studies.text(name))));
 });
 
+test('a player leaves the sample scenes out: nothing but a scene calls into their assembly', () => {
+  const scripts = files.names.filter((name) => name.startsWith('Runtime/SampleScenes/') && name.endsWith('.cs'));
+  for (const name of scripts) assert.doesNotMatch(files.text(name), /AlwaysLinkAssembly|RuntimeInitializeOnLoad|\bPreserve\b/, name);
+  const users = files.names.filter((name) => name.startsWith('Runtime/') && name.endsWith('.asmdef') && JSON.parse(files.text(name)).references.includes('HaptoFlow.SampleScenes'));
+  assert.deepEqual([scripts.length > 0, users], [true, []]);
+});
+
 test('the mixer has the library\'s effect behind the attenuation, on a channel of its own, never suspended, under the names that the code looks for', () => {
   const mixer = files.text('Runtime/Prefabs/HaptoFlow.mixer');
   assert.match(mixer, /m_EnableSuspend: 0/);

@@ -49,13 +49,20 @@ const meta = (number) => `fileFormatVersion: 2\nguid: ${number}\nDefaultImporter
 test('a package folder that is not there is found, with npm ci as the remedy', () => {
   complains('packages', { [manifest]: withVersion('com.github.asus4.onnxruntime', 'file:../node_modules/com.github.asus4.gone') }, /there is no node_modules\/com\.github\.asus4\.gone\/package\.json; run npm ci/);
 });
+test('a package folder with another package is found', () => complains('packages', { [manifest]: withVersion('com.example.other', 'file:../Tests/Unity') }, /"com\.example\.other": Tests\/Unity has another name/));
 test('a dependency of the package that the manifest has in another version is found', () => {
   complains('packages', { [manifest]: withVersion('com.unity.nuget.newtonsoft-json', '3.0.2') }, /needs com\.unity\.nuget\.newtonsoft-json 3\.2\.1; .* gives 3\.0\.2/);
 });
+test('a testable that is no package of the repository is found', () => complains('packages', { [manifest]: (text) => JSON.stringify({ ...JSON.parse(text), testables: ['com.haptoflow.test'] }) }, /testable "com\.haptoflow\.test"/));
 test('a module is missed by a scene and by code', () => {
   complains('modules', { [manifest]: without('com.unity.modules.ai') }, /Assets\/\w+\.unity: an object of class 196 needs com\.unity\.modules\.ai/);
   complains('modules', { [manifest]: without('com.unity.modules.terrain') }, /\.cs: TerrainData needs com\.unity\.modules\.terrain/);
 });
+test('an asset without .meta and a .meta without asset are found', () => {
+  complains('a .meta for everything', { 'Assets/Note.txt': 'x' }, /^Assets\/Note\.txt: has no \.meta/);
+  complains('no .meta for nothing', { 'Assets/Note.txt.meta': meta('0123456789abcdef0123456789abcdef') }, /^Assets\/Note\.txt\.meta: belongs to no file/);
+});
+test('a GUID that the project shares with the package is found', () => complains('GUIDs', { 'Assets/Note.txt': 'x', 'Assets/Note.txt.meta': meta(guid) }, /has the GUID of/));
 test('a script that nothing has is found', () => {
   complains('targets of references', { 'Assets/Desk.unity': replaced(/(m_Script: \{fileID: 11500000, guid: )\w{31}/, '$1bad0bad0bad0bad0bad0bad0bad0bad') }, /^Assets\/Desk\.unity:\d+: GUID bad0\w+: no file/);
 });
@@ -121,6 +128,13 @@ test('MX Ink and the Touch controllers are on for both platforms, Quest for Andr
   const pens = ['com.haptoflow.input.mxink', 'com.unity.openxr.feature.input.oculustouch'];
   assert.deepEqual(enabled('Standalone').sort(), pens);
   assert.deepEqual(enabled('Android').sort(), [...pens, 'com.unity.openxr.feature.metaquest'].sort());
+  assert.match(files.text(feature), /const string Id = "com\.haptoflow\.input\.mxink"/);
+});
+
+// OpenXR opens its page Project Validation, also for what it calls optional, where these are missing.
+test('the controls of OpenXR are those that its validation asks for', () => {
+  const defines = 'USE_INPUT_SYSTEM_POSE_CONTROL;USE_STICK_CONTROL_THUMBSTICKS';
+  assert.ok(files.text('ProjectSettings/ProjectSettings.asset').includes(`  scriptingDefineSymbols:\n    Android: ${defines}\n    Standalone: ${defines}\n`));
 });
 
 const git = (...words) => spawnSync('git', words, { cwd: inRepository('.'), encoding: 'utf8' });
