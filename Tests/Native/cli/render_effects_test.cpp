@@ -82,6 +82,20 @@ TEST_F(RenderEffectsTest, AVoiceCoilIsCompensatedAndReported) {
     EXPECT_NE(read("coil.wav"), read("plain.wav"));
 }
 
+TEST_F(RenderEffectsTest, ADelayedRenderEqualsTheOriginalShiftedInTime) {
+    ASSERT_EQ(run("render scene.json --stroke stroke.csv -o plain.wav").exitCode, 0);
+    ASSERT_EQ(run("render scene.json --stroke stroke.csv -o late.wav --delay-ms 100").exitCode, 0);
+    const std::vector<float> plain = wave("plain.wav");
+    const std::vector<float> late = wave("late.wav");
+    ASSERT_GE(late.size(), plain.size() + 4000);
+    double difference = 0.0;
+    for (std::size_t i = 0; i + 4800 < late.size() && i < plain.size(); ++i) {
+        difference = std::max(difference, std::abs(static_cast<double>(late[i + 4800] - plain[i])));
+    }
+    // The delay is before the limiter's look-ahead and the gates, which open and close at other samples.
+    EXPECT_LT(difference, 0.02 * static_cast<double>(std::ranges::max(plain)));
+}
+
 TEST_F(RenderEffectsTest, AJsonOutputHasAFrameEveryFiveMillisecondsAndNeedsNoWav) {
     ASSERT_EQ(run("render scene.json --stroke taps.csv -o motor.json --effects impact").exitCode, 0);
     ASSERT_EQ(run("render scene.json --stroke taps.csv -o felt.wav -o both.json --effects impact").exitCode, 0);

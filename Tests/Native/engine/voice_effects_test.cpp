@@ -245,7 +245,58 @@ TEST_F(VoiceEffectsTest, OnARoundedRimTheEdgeUsesTheSpeedBeforeIt) {
     }
 }
 
-using ProcessorsTest = VoiceEffectsTest;
+/// Inverts the signal and counts its instances.
+class Inverter final : public effects::Effect {
+public:
+    explicit Inverter(int& alive, float gain = -1.0F) : alive_(alive), gain_(gain) { ++alive_; }
+    ~Inverter() override { --alive_; }
+    void process(std::span<float> samples) noexcept override {
+        std::ranges::transform(samples, samples.begin(), [this](float sample) { return gain_ * sample; });
+    }
+    void reset() noexcept override {}
+    [[nodiscard]] bool isIdle() const noexcept override { return true; }
+
+private:
+    int& alive_;
+    float gain_;
+};
+
+class ProcessorsTest : public VoiceEffectsTest {
+protected:
+    void offer(SimulatedDevice& device, float gain, double rateHz = 48000.0) {
+        auto fresh = std::make_unique<Processors>();
+        fresh->version = ++version_;
+        fresh->rateHz = rateHz;
+        if (gain != 0.0F) {
+            fresh->compensation = std::make_unique<Inverter>(alive_, gain);
+        }
+        device.voice().channels.processors.offer(std::move(fresh));
+    }
+    static void collect(SimulatedDevice& device) { device.voice().channels.processors.collect(); }
+
+    int alive_ = 0;
+    std::uint64_t version_ = 0;
+};
+
+TEST_F(ProcessorsTest, ProcessorsAreSwitchedOnAndOffWithoutAClick) {
+    SimulatedDevice device(model_, tone_);
+    device.run(0.3, slide);
+    const float tone = testing::largestStep(device.output);
+    for (const float gain : {-1.0F, 0.5F, -1.0F, 0.0F}) {
+        offer(device, gain);
+        device.run(0.1, slide);
+        collect(device);
+        device.run(0.1, slide);
+        collect(device);
+    }
+    EXPECT_LT(testing::largestStep(device.output), 1.3F * tone);
+    EXPECT_EQ(alive_, 0);
+    EXPECT_EQ(of(device, EffectKind::compensation).prepared, 3U);
+    const std::uint64_t runs = of(device, EffectKind::compensation).runs;
+    EXPECT_GT(runs, 100U);
+    device.run(0.3, slide);
+    EXPECT_EQ(of(device, EffectKind::compensation).runs, runs) << "a processor that is switched off must not run";
+}
 
 /// Changes the processors like LiveEngine::changeProcessors.
 void ask(SimulatedDevice& device, const std::function<void(ProcessorSettings&)>& change) {
