@@ -1,12 +1,14 @@
 import assert from 'node:assert/strict';
-import { chmodSync, mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { chmodSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
 import test from 'node:test';
-import { CommandError } from '../../scripts/lib/process.mjs';
+import { longTestsOf } from '../../scripts/lib/long_tests.mjs';
+import { leftOut } from '../../scripts/lib/platform_tests.mjs';
+import { CommandError, inRepository } from '../../scripts/lib/process.mjs';
 import { complaintsAboutCore, withoutReadOnlyMarks } from '../../scripts/lib/runtime_tests.mjs';
 import { closingLine, countsOfJunit, countsOfTap, countsOfTrx, exitCodeOf, filterOf, judged, judgePrograms, results, runRunners } from '../../scripts/lib/test_results.mjs';
-import { chosenRunners, purposesOf, runners } from '../../scripts/lib/test_runners.mjs';
+import { chosenRunners, nativePrograms, purposesOf, runners, sanitized } from '../../scripts/lib/test_runners.mjs';
 
 // How `./run test` runs its runners and sums what they found.
 const posixOnly = process.platform === 'win32' ? 'the stand-in is a shell script' : false;
@@ -105,6 +107,25 @@ test('the default form runs no long runner and installs no cross compiler, the l
   assert.throws(() => chosenRunners({ only: 'nothing', all: false }), /--only nothing: expected one of native,/);
   for (const name of chosenRunners({ all: false })) assert.ok(!purposesOf(name, false).includes('platforms'), name);
   assert.ok(purposesOf('sanitizers', true).includes('realtime') && !purposesOf('sanitizers', false).includes('realtime'));
+});
+
+/** The text of every file of the native tests with this ending. */
+const nativeTexts = (ending) => readdirSync(inRepository('Tests', 'Native'), { recursive: true })
+  .filter((file) => file.endsWith(ending)).map((file) => readFileSync(inRepository('Tests', 'Native', file), 'utf8'));
+
+test('every native test program is run, and every pattern that chooses or leaves out native tests names one', { skip: process.platform !== 'linux' || process.arch !== 'x64' }, () => {
+  const built = nativeTexts('CMakeLists.txt').flatMap((text) => [...text.matchAll(/haptoflow_add_test\(\s*(\w+)_tests\b/g)].map(([, name]) => name));
+  assert.deepEqual([...nativePrograms()].sort(), built.sort());
+  const found = nativeTexts('_test.cpp').flatMap((text) => [...text.matchAll(/^TEST(_F|_P)?\(\s*(\w+),\s*(\w+)/gm)]);
+  // The names of a parameter's values are made when the program runs.
+  const names = found.map(([, kind, suite, name]) => ({ suite, name: `${suite}.${name}`, hasValues: kind === '_P' }));
+  const patterns = [...sanitized.flatMap(({ tests = [], except = [] }) => [...tests, ...except]), ...longTestsOf('native'), ...Object.values(leftOut).flat().flatMap(({ tests }) => tests)];
+  const expression = (pattern) => new RegExp(`^${pattern.replaceAll('.', '\\.').replaceAll('*', '.*')}$`);
+  const isOf = (pattern) => {
+    const [, plain] = /^(?:\w+\/)?(.*)$/.exec(pattern);
+    return names.some(({ suite, name, hasValues }) => expression(plain).test(name) || (hasValues && expression(plain.split('.')[0]).test(suite)));
+  };
+  assert.deepEqual(patterns.filter((pattern) => !isOf(pattern)), []);
 });
 
 /** The metadata of an assembly with two streams and these signatures. */
