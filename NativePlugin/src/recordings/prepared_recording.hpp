@@ -55,8 +55,7 @@ struct Channel {
 
 /// Resamples a signal from one rate to another, both 1 kHz or more, with a Kaiser-windowed sinc without delay: -6 dB at
 /// half of the lower rate, flat to 95 % of it, -66 dB 5 % above it. Sample 0 stays sample 0; the signal is zero beyond
-/// its ends. Home-made: libsoxr would be one more library to ship with the plugin on every platform (the tests of dsp
-/// compare with it).
+/// its ends. Home-made: libsoxr would be one more library to ship with the plugin on every platform.
 [[nodiscard]] std::vector<double> resampled(const Channel& channel, double fromHz, double toHz);
 
 /// 10 Hz high-pass and 1 kHz low-pass filter at 2 kHz with the magnitudes of fourth-order Butterworth filters run
