@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from scipy import signal
 
 from haptoflow_training.native_library import native_library
-from haptoflow_training.preprocessing.signals import dft321
+from haptoflow_training.preprocessing.dft321 import dft321
 from haptoflow_training.recordings.native_recording import as_native
 
 RATE_HZ = 8000

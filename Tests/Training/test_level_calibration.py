@@ -99,7 +99,7 @@ def test_a_recording_is_compared_with_a_render_of_its_own_specimen() -> None:
     specimens[0, :, 1] = (-5.0, -1.0, 0.0, 6.0)
     levels = closed_loop_levels(
         OfSpecimens((0.0, 0.0)), np.zeros((1, 64), dtype=np.float32), replace(store, recordings=two_pieces),
-        still_surfaces(1), HeldOut(), specimens=specimens,
+        still_surfaces(1), HeldOut(), embedding_of=lambda labels, pieces: specimens[labels, pieces],
     )  # fmt: skip
     assert offsets_db(levels, 1) == pytest.approx([0.0], abs=0.1)
 

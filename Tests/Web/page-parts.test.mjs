@@ -5,7 +5,8 @@ import { test } from 'node:test';
 import { largestForceNewtons, penForce, Press } from '../../Web/page/table/press.mjs';
 import { presetStrokes, secondsOf, strokeAt } from '../../Web/page/table/preset-strokes.mjs';
 import { Spectrum } from '../../Web/page/spectrum.mjs';
-import { orientationOf, strokeTable, wavBytes } from '../../Web/page/recorder.mjs';
+import { strokeTable, wavBytes } from '../../Web/page/recorder.mjs';
+import { orientationOf } from '../../Web/page/table/hand.mjs';
 import { highestAt, topOf } from '../../Web/page/table/tops.mjs';
 import { repository } from './support/engine.mjs';
 

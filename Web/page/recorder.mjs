@@ -98,17 +98,6 @@ export function strokeTable(rows) {
   return `${['t,x,y,z,force', isOriented ? ',qx,qy,qz,qw' : '', '\n'].join('')}${lines.map((line) => `${line}\n`).join('')}`;
 }
 
-/** A pen's turn from upright, from its tilt towards x and y of the screen in degrees, as x, y, z, w in the scene's frame. */
-export function orientationOf(/** @type {number} */ tiltXDegrees, /** @type {number} */ tiltYDegrees) {
-  const towardsX = Math.tan((tiltXDegrees * Math.PI) / 180);
-  const towardsZ = -Math.tan((tiltYDegrees * Math.PI) / 180);
-  const lean = Math.hypot(towardsX, towardsZ);
-  if (lean < 1e-9) return [0, 0, 0, 1];
-  const half = Math.atan(lean) / 2;
-  // The axis is up x lean, in a left-handed frame: y towards x is a negative turn about z.
-  return [(Math.sin(half) * towardsZ) / lean, 0, (-Math.sin(half) * towardsX) / lean, Math.cos(half)];
-}
-
 /**
  * A WAV file of one channel of 32-bit floats.
  * @param {Float32Array} samples @param {number} rateHz @returns {Uint8Array}

@@ -106,7 +106,7 @@ export const leftOut = {
   'linux-arm64': [
     {
       because: 'a trained network generates seconds of sound, or a level for each of hundreds of motions',
-      tests: ['Label/*', 'OnModel/*', '*Shipped*', 'BlendSoundTest.*', 'RangeSweepTest.*',
+      tests: ['Label/*', 'OnModel/*', '*Shipped*', 'BlendSoundTest.*', 'AddedLabelTest.*', 'RangeSweepTest.*',
         'LoadingApiTest.ATierThatIsTooSlow*'],
     },
     {

@@ -1,6 +1,7 @@
 #include "learning/learner.hpp"
 #include "learning/made_recording.hpp"
 #include "learning/sliding.hpp"
+#include "recordings/dft321.hpp"
 #include "recordings/prepared_recording.hpp"
 
 #include <gmock/gmock.h>

@@ -14,6 +14,7 @@ from scipy.interpolate import CubicSpline
 
 from haptoflow_training.errors import InputError
 from haptoflow_training.preprocessing import signals
+from haptoflow_training.preprocessing.dft321 import dft321
 from haptoflow_training.preprocessing.plausibility import implausible
 from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.recordings.native_recording import NO_NOISE, SensorNoise, remove_sensor_noise
@@ -210,10 +211,7 @@ def _waveform(
     uniform = CubicSpline(time[first:last], axes, axis=0)(clamped)
     uniform = signals.zero_phase_high_pass(uniform, settings.high_pass_hz, settings.high_rate_hz)
     one_axis = uniform.shape[1] == 1
-    combined = (
-        uniform[:, 0] if one_axis
-        else signals.dft321(uniform, settings.high_rate_hz, settings.dft321_frame_seconds)
-    )
+    combined = uniform[:, 0] if one_axis else dft321(uniform, settings.high_rate_hz, settings.dft321_frame_seconds)
     combined = signals.zero_phase_low_pass(combined, settings.low_pass_hz, settings.high_rate_hz)
     return signals.decimate(combined, settings.high_rate_hz, settings.sample_rate_hz)
 

@@ -173,11 +173,11 @@ def run_closed_loop(
     update_rate_hz: float,
     seed: int,
     advance: Callable[[int], None] = lambda count: None,
-    offsets: _Floats | None = None,
+    own_embeddings: _Floats | None = None,
 ) -> ClosedLoopRun:
     """Renders n waveforms from silence, one for each of `motions` [n, samples, 3]. labels: for each an index into
-    `embeddings` [labels, 64], [n]; or [n, hops] where a waveform changes its label. offsets [n, 64]: of each waveform's
-    specimen from its label.
+    `embeddings` [labels, 64], [n]; or [n, hops] where a waveform changes its label. own_embeddings [n, 64]: of each
+    waveform's specimen, in place of its label's.
 
     The condition of each segment is the mean motion of the hop before it, because a tracker knows no more. The phases
     are integrated from the same motions, as in the engine; statistics: of the surfaces, by label. Segments that overlap
@@ -197,7 +197,7 @@ def run_closed_loop(
     for hop, start in enumerate(starts):
         track.advance(condition, int(start - before))
         label = labels if labels.ndim == 1 else labels[:, hop]
-        embedding = embeddings[label] if offsets is None else embeddings[label] + offsets
+        embedding = embeddings[label] if own_embeddings is None else own_embeddings
         known = motions[:, before:start] if start > before else motions[:, :1]
         past = out[:, :, start : start + SEGMENT_SAMPLES].copy()
         noise = surface_noise[:, start : start + source.noise_before + SEGMENT_SAMPLES].copy()

@@ -44,6 +44,10 @@ _SPEED_BORDERS_MPS = (0.02, 0.05, 0.1, 0.2, 0.4, 0.8, 1.6)
 _MINIMUM_WINDOWS = 10
 
 
+# From label indices [n] and specimens [n], -1 for the label itself, to embeddings [n, 64].
+EmbeddingOf = Callable[[NDArray[np.int64], NDArray[np.int64]], _Floats]
+
+
 @dataclass(frozen=True)
 class Extent:
     """How much is compared: recordings of each label, and the samples of each recording from its beginning (None for
@@ -89,12 +93,12 @@ def closed_loop_levels(
     advance: Callable[[int], None] = lambda count: None,
     extent: Extent = Extent(),
     labels_wanted: frozenset[int] | None = None,
-    specimens: _Floats | None = None,
+    embedding_of: EmbeddingOf | None = None,
 ) -> ClosedLoopLevels:
     """The levels that `source` generates for the motion of training recordings in closed loop at 72 Hz, with the
     recorded ones. embeddings [labels, 64]; statistics: of the surfaces, by label. labels_wanted: only
-    these label indices; None for all. specimens [labels, specimens, 64]: offsets of the recorded pieces from their
-    label, so that each recording is compared with a render of its own piece; None where none are known.
+    these label indices; None for all. embedding_of: so that each recording is compared with a render of its own
+    specimen; None to compare all with their label.
 
     Recordings of the test split are not used, and windows with a sample in a held-out band are not compared.
     """
@@ -102,15 +106,13 @@ def closed_loop_levels(
     longest = max(_length(recording, extent) for recording in chosen)
     motions = np.stack([_padded(store.motion[_span(recording, extent)], longest) for recording in chosen])
     labels = np.array([recording.label_index for recording in chosen])
-    pieces = np.array([_specimen_of(recording) for recording in chosen])
-    known = specimens is not None and specimens.shape[1] > 0
-    offsets = np.where(pieces[:, None] >= 0, specimens[labels, pieces], np.float32(0.0)) if known else None
+    specimens = np.array([_specimen_of(recording) for recording in chosen])
     run = run_closed_loop(
         source, embeddings, motions, labels, statistics, update_rate_hz=UPDATE_RATE_HZ, seed=_SEED, advance=advance,
-        offsets=offsets,
+        own_embeddings=None if embedding_of is None else embedding_of(labels, specimens),
     )  # fmt: skip
-    made, recorded_powers, speeds, forces, owners, windows_of = [], [], [], [], [], []
-    for recording, wave in zip(chosen, run.waves, strict=True):
+    made, recorded_powers, speeds, forces, owners, pieces = [], [], [], [], [], []
+    for recording, specimen, wave in zip(chosen, specimens, run.waves, strict=True):
         recorded = store.waveform[_span(recording, extent)] * store.peak_mps2
         motion = store.motion[_span(recording, extent)]
         count = len(motion) // _WINDOW_SAMPLES
@@ -123,13 +125,13 @@ def closed_loop_levels(
         speeds.append(speed.mean(axis=1)[compared])
         forces.append(motion[: count * _WINDOW_SAMPLES, 2].reshape(count, _WINDOW_SAMPLES).mean(axis=1)[compared])
         owners.append(np.full(len(speeds[-1]), recording.label_index))
-        windows_of.append(np.full(len(speeds[-1]), _specimen_of(recording)))
+        pieces.append(np.full(len(speeds[-1]), specimen))
     return ClosedLoopLevels(
         np.stack([np.concatenate(made), np.concatenate(recorded_powers)], axis=1),
         np.concatenate(speeds),
         np.concatenate(forces),
         np.concatenate(owners),
-        np.concatenate(windows_of),
+        np.concatenate(pieces),
     )
 
 
@@ -184,10 +186,13 @@ class TierSource:
         self._tier = tier
         self.pasts, self.noise_before = tier.model.pasts, tier.model.noise_before
         self.embeddings: _Floats = tier.model.embedding.weight.detach().numpy()
-        offsets: _Floats = tier.model.embedding.offsets.detach().numpy()
-        # The wave vectors belong to the label.
-        self.specimens: _Floats = np.pad(offsets, ((0, 0), (0, 0), (0, self.embeddings.shape[1] - offsets.shape[2])))
         self._tables = {self.embeddings[label].tobytes(): table for label, table in (tables or {}).items()}
+
+    @torch.no_grad()
+    def embedding_of(self, labels: NDArray[np.int64], specimens: NDArray[np.int64]) -> _Floats:
+        """As `EmbeddingOf`."""
+        embedding: _Floats = self._tier.model.embedding(torch.from_numpy(labels), torch.from_numpy(specimens)).numpy()
+        return embedding
 
     @torch.no_grad()
     def generate(
@@ -297,7 +302,7 @@ def measured_levels(folder: Path, source: Source, extent: Extent = Extent()) -> 
         wanted = frozenset(tables) or None
         with tqdm(total=hops(source.store, extent), unit="hop", desc="levels") as bar:
             return closed_loop_levels(
-                made, made.embeddings, source.store, statistics, held_out, bar.update, extent, wanted, made.specimens
+                made, made.embeddings, source.store, statistics, held_out, bar.update, extent, wanted, made.embedding_of
             )
 
     levels = measure({})

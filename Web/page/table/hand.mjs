@@ -1,12 +1,22 @@
 import { Press, penForce } from './press.mjs';
 import { secondsOf, strokeAt } from './preset-strokes.mjs';
-import { orientationOf } from '../recorder.mjs';
 
 // Who moves the tips: pointers, keys and preset strokes. Times are seconds on the page's clock since `epochMs`.
 
 const keyMps = 0.12;
 const keyLiftSeconds = 0.15;
 const arrows = /** @type {Record<string, [number, number]>} */ ({ ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] });
+
+/** A pen's turn from upright, from its tilt towards x and y of the screen in degrees, as x, y, z, w in the scene's frame. */
+export function orientationOf(/** @type {number} */ tiltXDegrees, /** @type {number} */ tiltYDegrees) {
+  const towardsX = Math.tan((tiltXDegrees * Math.PI) / 180);
+  const towardsZ = -Math.tan((tiltYDegrees * Math.PI) / 180);
+  const lean = Math.hypot(towardsX, towardsZ);
+  if (lean < 1e-9) return [0, 0, 0, 1];
+  const half = Math.atan(lean) / 2;
+  // The axis is up x lean, in a left-handed frame: y towards x is a negative turn about z.
+  return [(Math.sin(half) * towardsZ) / lean, 0, (-Math.sin(half) * towardsX) / lean, Math.cos(half)];
+}
 
 /** A pointer measures its pressure if it is a pen, or a finger whose pressure is neither of the two values that stand for none. */
 const hasPressure = (/** @type {PointerEvent} */ event) =>
