@@ -103,7 +103,19 @@ describe('a voice and clips', { skip: !hasBrowser }, () => {
         tap.latest(wave);
         return 200 * Math.max(...wave.map(Math.abs));
       };
-      Object.assign(globalThis, { texts, loudestOf, started, hand, pause });
+      /** Until `work` is done: on a busy machine it takes longer than a clip goes on without states. */
+      const handDuring = async (voice, work) => {
+        let isDone = false;
+        const done = work.finally(() => { isDone = true; });
+        while (!isDone) await hand(voice, 0.02, () => ({ touching: false }));
+        return done;
+      };
+      /** Plays, and waits for `seconds` after an engine that lacks the clip has it. */
+      const playAndWait = async (voice, clip, options, seconds) => {
+        await handDuring(voice, voice.playClip(clip, options));
+        await hand(voice, seconds, () => ({ touching: false }));
+      };
+      Object.assign(globalThis, { texts, loudestOf, started, hand, handDuring, playAndWait, pause });
     }, { loud: haptic([[0, 0.6], [0.3, 0.6]]), soft: haptic([[0, 0.1], [0.3, 0.1]]), long: haptic(Array.from({ length: 6001 }, (_, index) => [index / 10, 0.3 + 0.2 * (index % 2)])), nothing: haptic([[0, 0]]) });
   });
   after(() => opened.close());
@@ -117,7 +129,7 @@ describe('a voice and clips', { skip: !hasBrowser }, () => {
         const [loud, soft] = await Promise.all([haptics.readClip(globalThis.texts.loud), haptics.readClip(globalThis.texts.soft)]);
         const levels = {};
         const play = async (clip, options) => {
-          await Promise.all([voice.playClip(clip, options), globalThis.hand(voice, 0.4, () => ({ touching: false }))]);
+          await globalThis.playAndWait(voice, clip, options, 0.4);
           return globalThis.loudestOf(voice, tap, 0.6);
         };
         levels.loud = await play(loud, { isLoop: true });
@@ -125,11 +137,11 @@ describe('a voice and clips', { skip: !hasBrowser }, () => {
         levels.quiet = await play(loud, { isLoop: true, gain: 0 });
         levels.once = await play(loud, {});
         // A first play that still loads gives way to a later one, and to a stop.
-        const late = await haptics.readClip(globalThis.texts.loud);
+        const late = await globalThis.handDuring(voice, haptics.readClip(globalThis.texts.loud));
         const loading = voice.playClip(late, { isLoop: true });
         voice.playClip(soft, { isLoop: true });
-        // States go on meanwhile: on a busy machine loading takes longer than a clip goes on without them.
-        await Promise.all([loading, globalThis.hand(voice, 0.2, () => ({ touching: false }))]);
+        await globalThis.handDuring(voice, loading);
+        await globalThis.hand(voice, 0.2, () => ({ touching: false }));
         levels.replaced = await globalThis.loudestOf(voice, tap, 0.5);
         voice.stopClip();
         levels.stopped = await globalThis.loudestOf(voice, tap, 0.4);
@@ -172,19 +184,19 @@ describe('a voice and clips', { skip: !hasBrowser }, () => {
       const { haptics, voice, events } = await globalThis.started({ quality: 'sketch' });
       const tap = voice.waveTap();
       const loud = await haptics.readClip(globalThis.texts.loud);
-      await Promise.all([voice.playClip(loud, { isLoop: true }), globalThis.hand(voice, 0.3, () => ({ touching: false }))]);
+      await globalThis.playAndWait(voice, loud, { isLoop: true }, 0.3);
       const recovered = new Promise((resolve) => haptics.addEventListener('recovered', resolve));
       haptics[Symbol.for('haptoflow.worker')].terminate();
       await recovered;
       const lost = await globalThis.loudestOf(voice, tap, 0.4);
-      await Promise.all([voice.playClip(loud, { isLoop: true }), globalThis.hand(voice, 0.5, () => ({ touching: false }))]);
+      await globalThis.playAndWait(voice, loud, { isLoop: true }, 0.5);
       const again = await globalThis.loudestOf(voice, tap, 0.4);
       // Asked for while the engine starts again, it waits for that; states that are published meanwhile are no harm to its memory.
       const told = new Promise((resolve) => haptics.addEventListener('error', resolve));
       haptics[Symbol.for('haptoflow.worker')].terminate();
       await told;
       voice.stopClip();
-      await Promise.all([voice.playClip(loud, { isLoop: true }), globalThis.hand(voice, 2, () => ({ touching: false }))]);
+      await globalThis.playAndWait(voice, loud, { isLoop: true }, 2);
       const later = await globalThis.loudestOf(voice, tap, 0.4);
       await haptics.close();
       return { lost, again, later, errors: events.filter(({ type }) => type === 'error').length };
@@ -215,7 +227,7 @@ describe('a voice and clips', { skip: !hasBrowser }, () => {
       const level = await globalThis.loudestOf(voice, tap, 0.4);
       clearInterval(timer);
       const { memoryBytes } = haptics.statistics();
-      await Promise.all([voice.playClip(await haptics.readClip(globalThis.texts.nothing)), globalThis.hand(voice, 0.4, () => ({ touching: false }))]);
+      await globalThis.playAndWait(voice, await haptics.readClip(globalThis.texts.nothing), {}, 0.4);
       const nothing = await globalThis.loudestOf(voice, tap, 0.4);
       const { underruns } = voice.statistics();
       await haptics.close();
