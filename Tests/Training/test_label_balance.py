@@ -18,7 +18,7 @@ from haptoflow_training.models.rib_comb import PARTIALS
 from haptoflow_training.training.batches import SegmentBatch, SegmentBatches
 from haptoflow_training.training.config import BatchConfig, ModelConfig, RecipeConfig
 from haptoflow_training.training.energy_distance import (
-    LabelBalance, LabelFeatures, energy_distance_loss, envelopes, label_features, spectra
+    FEATURES, LabelBalance, LabelFeatures, energy_distance_loss, envelopes, label_features, spectra
 )
 from haptoflow_training.training.losses import Losses
 from haptoflow_training.training.trainer import Trainer, build_model, load_trained, planned_steps
@@ -79,6 +79,27 @@ def test_the_balance_loss_is_half_the_squared_log_error_and_its_gradient_is_the_
     assert slope.item() == pytest.approx(math.log(1.25) / 1.25 * (1.0 + 0.5 * (1.0 + 9.0)), rel=0.15)
 
 
+def test_rare_impulses_that_are_drawn_as_they_are_recorded_are_made_neither_weaker_nor_stronger() -> None:
+    balance, generator = LabelBalance(1), torch.Generator().manual_seed(4)
+    label, speed_mps, one = torch.zeros(4, dtype=torch.long), torch.full((4,), 0.02), torch.ones(4)
+    gain = torch.tensor(1.0, requires_grad=True)
+
+    def features(gain: torch.Tensor) -> LabelFeatures:
+        """Of rows of which one in fifty has an impulse that is forty times as large as the rest."""
+        struck = (torch.rand(4, 1, generator=generator) < 0.02).float()
+        return LabelFeatures((1.0 + 40.0 * gain * struck).expand(-1, FEATURES), torch.ones(4, FEATURES))
+
+    slopes = []
+    for _ in range(6000):
+        drawn = features(gain), features(gain)
+        loss = balance.loss(label, speed_mps, features(torch.tensor(1.0)), drawn, one)
+        slopes.append(torch.autograd.grad(loss, gain)[0].item() if loss.requires_grad else 0.0)
+    # Averages remember twenty batches: a hundred are independent of the next hundred.
+    blocks = torch.tensor(slopes).reshape(-1, 100).mean(dim=1)
+    error = blocks.std().item() / math.sqrt(len(blocks))
+    assert abs(blocks.mean().item()) < 3.5 * error, f"slope {blocks.mean():.4f}, standard error {error:.4f}"
+
+
 def test_labels_and_speeds_are_averaged_separately_and_too_few_segments_give_no_loss() -> None:
     balance, generator = LabelBalance(2), torch.Generator().manual_seed(3)
     label, flat = torch.zeros(ROWS, dtype=torch.long), torch.ones(ROWS, 201)
@@ -88,6 +109,8 @@ def test_labels_and_speeds_are_averaged_separately_and_too_few_segments_give_no_
         waves = [_noise(generator, rows) for _ in range(3)]
         return _heard(balance, label, speed_mps, waves[0], gain * waves[1], gain * waves[2]).item()
 
+    for own, speed_mps, gain in ((label, 0.05, 2.0), (label, 0.2, 1.0), (label + 1, 0.05, 1.0)):
+        assert loss(own, speed_mps, gain) == 0.0, "nothing is known yet"
     for _ in range(10):
         assert loss(label, 0.05, 2.0) > 0.15
         assert loss(label, 0.2, 1.0) < 0.05

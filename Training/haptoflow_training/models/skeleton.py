@@ -114,22 +114,44 @@ class TailImpulses(nn.Module):
         kernels = (gains.reshape(-1, ATOMS) @ self.placed_atoms).reshape(-1, self.kernels * self.sources, _WINDOW)
         return (excess @ kernels).reshape(-1, 1, self.samples)
 
-    def unstretched(self, driven: Tensor, gains: Tensor) -> tuple[Tensor, Tensor]:
-        """[B, N] each: the size of the noise that, with the impulses' first samples on top of it, drives [B, N]; and
-        the log of how much faster than the noise that grows, which is constant between two thresholds."""
-        first = gains.reshape(len(gains), 2, -1, ATOMS)[..., 0]
-        steps = first * self.scales[:, : len(self.thresholds), 0].unsqueeze(1)
-        slopes = torch.cat([torch.ones_like(steps[..., :1]), 1.0 + steps.cumsum(dim=2)], dim=2).clamp(min=_LEAST_SLOPE)
+    def explained(self, driven: Tensor, gains: Tensor) -> tuple[Tensor, Tensor]:
+        """[B, N] each: the size of the noise that drives [B, N] with the impulses that it excites on top of it, beneath
+        those of the samples before that ring on; and the log of how much faster than the noise that grows, which is
+        constant between two thresholds. What rings on is found anew some times, from the noise found before."""
+        kernels = gains.reshape(len(gains), self.kernels, ATOMS) @ self.atoms
+        noise, log_slope = self._unstretched(driven, kernels)
+        fresh = driven
+        for _ in range(_ROUNDS):
+            likely = torch.copysign(noise.detach().clamp(max=_LARGEST_LIKELY_NOISE), fresh)
+            fresh = driven - self._ringing_on(likely, kernels)
+            noise, log_slope = self._unstretched(fresh, kernels)
+        return noise, log_slope
+
+    def _unstretched(self, fresh: Tensor, kernels: Tensor) -> tuple[Tensor, Tensor]:
+        """As `explained`, with nothing that rings on. kernels [B, 2 * thresholds, 64]."""
+        steps = (kernels[..., 0] * self.scales[0, :, 0]).reshape(len(kernels), self.tails, -1)
+        grown = torch.cat([torch.ones_like(steps[..., :1]), 1.0 + steps.cumsum(dim=2)], dim=2)
+        # Below zero, one sample could come from several of the noise. Slopes fall towards zero instead, so that a gradient
+        # always leads back.
+        slopes = torch.where(grown < 1.0, 1.0 / (2.0 - grown.clamp(max=1.0)), grown)
         edges = torch.cat([torch.zeros_like(self.heights[:, :1, 0]), self.heights[:, :, 0]], dim=1)
         spans = (edges[:, 1:] - edges[:, :-1]).unsqueeze(1) * slopes[..., :-1]
         reached = torch.cat([torch.zeros_like(spans[..., :1]), spans.cumsum(dim=2)], dim=2)
-        tail = (driven < 0.0).long()
-        size = driven.abs()
-        rows = torch.arange(len(driven)).unsqueeze(1)
+        tail = (fresh < 0.0).long()
+        size = fresh.abs()
+        rows = torch.arange(len(fresh)).unsqueeze(1)
         piece = (size.unsqueeze(2) >= reached[rows, tail]).sum(dim=2) - 1
         slope = slopes[rows, tail, piece]
         noise = edges[0][piece] + (size - reached[rows, tail, piece]) / slope
         return noise, slope.log()
+
+    def _ringing_on(self, noise: Tensor, kernels: Tensor) -> Tensor:
+        """[B, N]: the impulses of noise [B, N], each without its first sample."""
+        excess = self._excess(noise.unsqueeze(1).unsqueeze(2))[:, 0] * self.scales[:, :, 0:1]
+        size = noise.shape[1] + TAPS
+        later = nn.functional.pad(kernels[..., 1:], (1, 0))
+        spectrum = (torch.fft.rfft(excess, size) * torch.fft.rfft(later, size)).sum(dim=1)
+        return torch.fft.irfft(spectrum, size)[:, : noise.shape[1]]
 
     def _excess(self, gathered: Tensor) -> Tensor:
         """[B, windows, kernels, sources]: by how much the noise exceeds each threshold."""
@@ -137,8 +159,11 @@ class TailImpulses(nn.Module):
         return torch.stack([up, down], dim=2).flatten(2, 3)
 
 
-# Less than this no sample of the noise moves what it drives, so that every sample comes from one of the noise.
-_LEAST_SLOPE = 0.2
+# So often what rings on is found again: an impulse that another one rings into, itself in another's ring, needs three.
+_ROUNDS = 3
+# One in two million samples is larger. Without a limit, kernels that fit nothing yet would let it grow from round to
+# round.
+_LARGEST_LIKELY_NOISE = 5.0
 
 ORDER = 24
 # The likelihood's part of a segment ends here, 44 ms from its beginning. Over a whole segment a hand changes its speed so
@@ -263,14 +288,13 @@ class Skeleton(nn.Module):
         return (gains.log_drive + swing + 0.5 * beyond.square()).mean(dim=1)
 
     def tail_likelihood(self, segment: Tensor, gains: SkeletonGains, phases: Tensor) -> Tensor:
-        """[B]: negative log-likelihood per sample of what drives the filter in a recorded segment, as noise whose tails
-        the impulses stretch. It moves the impulses' first samples and the noise's share of the gain, and nothing else:
-        how an impulse rings is the filter's matter."""
+        """[B]: negative log-likelihood per sample of what drives the filter in a recorded segment, as noise with the
+        impulses that it excites. It moves the impulses and the noise's share of the gain, and nothing else."""
         heard = slice(ORDER, LIKELIHOOD_END)
         swing = self._swung(gains, self.swing_waves(phases))[:, heard].detach()
         errors = prediction_errors(segment[:, 0, :LIKELIHOOD_END], gains.coefficients.detach())
         driven = errors * torch.exp(-gains.log_gain) - self._lines(gains, phases)[:, heard].detach()
-        noise, log_slope = self.impulses.unstretched(driven * torch.exp(-swing), gains.impulses)
+        noise, log_slope = self.impulses.explained(driven * torch.exp(-swing), gains.impulses)
         return (gains.log_gain - gains.log_drive.detach() + log_slope + 0.5 * noise.square()).mean(dim=1)
 
     def filter_distance(self, segment: Tensor, embedding: Tensor, motion: Tensor, phases: Tensor) -> Tensor:

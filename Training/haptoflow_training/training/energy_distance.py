@@ -294,14 +294,15 @@ class LabelBalance:
     ) -> Tensor:
         """The loss of a batch; label [B], speed [B], weight [B] of the segments, as in the energy distance.
 
-        The averages are updated with the batch before they are compared.
+        The batch is judged by the averages before it. One that drew a rare impulse would find averages with that impulse
+        too high, one that drew none would find them too low and pull at nothing: impulses would become weaker.
         """
         speed_class = torch.bucketize(speed_mps, torch.tensor(_SPEED_BORDERS_MPS))
         group = label * _SPEED_CLASSES + speed_class
         values = 0.5 * (drawn[0].values + drawn[1].values)
         counted = weight.unsqueeze(1) * recorded.counted
-        self._remember(group, counted, recorded.values, values.detach())
         error, mean = self._errors()
+        self._remember(group, counted, recorded.values, values.detach())
         share = (counted / weight.sum()) * _SHARES
         # d/dvalue of (log mean drawn - log mean recorded)^2 / 2, with the batch's share in the mean as weight.
         slope = (error / mean)[group]
