@@ -117,7 +117,7 @@ test('every native test program is run, and every pattern that chooses or leaves
   const built = nativeTexts('CMakeLists.txt').flatMap((text) => [...text.matchAll(/haptoflow_add_test\(\s*(\w+)_tests\b/g)].map(([, name]) => name));
   assert.deepEqual([...nativePrograms()].sort(), built.sort());
   const found = nativeTexts('_test.cpp').flatMap((text) => [...text.matchAll(/^TEST(_F|_P)?\(\s*(\w+),\s*(\w+)/gm)]);
-  // The names of a parameter's values are made when the program runs.
+  // Only the running program knows the whole name of a test with parameters, so a pattern may name its suite.
   const names = found.map(([, kind, suite, name]) => ({ suite, name: `${suite}.${name}`, hasValues: kind === '_P' }));
   const patterns = [...sanitized.flatMap(({ tests = [], except = [] }) => [...tests, ...except]), ...longTestsOf('native'), ...Object.values(leftOut).flat().flatMap(({ tests }) => tests)];
   const expression = (pattern) => new RegExp(`^${pattern.replaceAll('.', '\\.').replaceAll('*', '.*')}$`);

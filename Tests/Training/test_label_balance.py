@@ -85,7 +85,7 @@ def test_rare_impulses_that_are_drawn_as_they_are_recorded_are_made_neither_weak
     gain = torch.tensor(1.0, requires_grad=True)
 
     def features(gain: torch.Tensor) -> LabelFeatures:
-        """Of rows of which one in fifty has an impulse that is forty times as large as the rest."""
+        """Features of four rows. One row in fifty has an impulse, which adds forty times what the others have."""
         struck = (torch.rand(4, 1, generator=generator) < 0.02).float()
         return LabelFeatures((1.0 + 40.0 * gain * struck).expand(-1, FEATURES), torch.ones(4, FEATURES))
 

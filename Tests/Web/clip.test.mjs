@@ -103,14 +103,14 @@ describe('a voice and clips', { skip: !hasBrowser }, () => {
         tap.latest(wave);
         return 200 * Math.max(...wave.map(Math.abs));
       };
-      /** Until `work` is done: on a busy machine it takes longer than a clip goes on without states. */
+      /** Publishes states until `work` is done. Without states a clip ends after 100 ms, and a busy machine loads for longer. */
       const handDuring = async (voice, work) => {
         let isDone = false;
         const done = work.finally(() => { isDone = true; });
         while (!isDone) await hand(voice, 0.02, () => ({ touching: false }));
         return done;
       };
-      /** Plays, and waits for `seconds` after an engine that lacks the clip has it. */
+      /** Plays a clip, and publishes states until the engine has loaded it and for `seconds` more. */
       const playAndWait = async (voice, clip, options, seconds) => {
         await handDuring(voice, voice.playClip(clip, options));
         await hand(voice, seconds, () => ({ touching: false }));

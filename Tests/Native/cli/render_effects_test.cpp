@@ -92,7 +92,7 @@ TEST_F(RenderEffectsTest, ADelayedRenderEqualsTheOriginalShiftedInTime) {
     for (std::size_t i = 0; i + 4800 < late.size() && i < plain.size(); ++i) {
         difference = std::max(difference, std::abs(static_cast<double>(late[i + 4800] - plain[i])));
     }
-    // The delay is before the limiter's look-ahead and the gates, which open and close at other samples.
+    // The two differ a little: the delay comes before limiter and gates, and a gate opens and closes at other samples.
     EXPECT_LT(difference, 0.02 * static_cast<double>(std::ranges::max(plain)));
 }
 
@@ -181,7 +181,7 @@ protected:
     }
     void writeScene(const std::string& relief) {
         write("scene.json", R"({"surfaces": [{"name": "floor", "shape": {"plane": {}}, "material": "wood")" + relief +
-                                "}], \"stylus\": {\"tip_radius\": 0.0001}}");
+                                R"(}], "stylus": {"tip_radius": 0.0001}})");
         std::string stroke = "t,x,y,z,force\n";
         for (int row = 0; row < 250; ++row) {
             stroke += std::to_string(0.004 * row) + "," + std::to_string(0.0004 * row) + ",-0.001,0.01,2\n";

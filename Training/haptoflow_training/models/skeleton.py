@@ -52,7 +52,8 @@ def _excess_deviation(threshold: float) -> float:
     return math.sqrt(2.0 * ((1.0 + threshold * threshold) * tail - threshold * density))
 
 
-# A step of training at 1e-3 would else change by 4 how much faster than the noise an impulse grows.
+# Without it, a step of training at 1e-3 would change the slope of an impulse, by which it grows with its noise, by about
+# 4, as much as many slopes measure.
 _IMPULSE_FACTOR = 0.125
 
 
@@ -119,9 +120,10 @@ class TailImpulses(nn.Module):
         return (excess @ kernels).reshape(-1, 1, self.samples)
 
     def explained(self, driven: Tensor, gains: Tensor) -> tuple[Tensor, Tensor]:
-        """[B, N] each: the size of the noise that drives [B, N] with the impulses that it excites on top of it, beneath
-        those of the samples before that ring on; and the log of how much faster than the noise that grows, which is
-        constant between two thresholds. What rings on is found anew some times, from the noise found before."""
+        """The noise behind what drives a filter, [B, N]: its size, and the log of the slope by which a sample grows with it,
+        which is constant between two thresholds; [B, N] each. A sample is its noise, the impulse which that excites, and
+        what rings on from impulses before. What rings on depends on the noise before, so each round computes it from the
+        noise of the round before."""
         kernels = gains.reshape(len(gains), self.kernels, ATOMS) @ self.atoms
         noise, log_slope = self._unstretched(driven, kernels)
         fresh = driven
@@ -132,7 +134,7 @@ class TailImpulses(nn.Module):
         return noise, log_slope
 
     def _unstretched(self, fresh: Tensor, kernels: Tensor) -> tuple[Tensor, Tensor]:
-        """As `explained`, with nothing that rings on. kernels [B, 2 * thresholds, 64]."""
+        """As `explained`, of samples on which nothing rings on. kernels [B, 2 * thresholds, 64]."""
         steps = (kernels[..., 0] * self.scales[0, :, 0]).reshape(len(kernels), self.tails, -1)
         grown = torch.cat([torch.ones_like(steps[..., :1]), 1.0 + steps.cumsum(dim=2)], dim=2)
         # Below zero, one sample could come from several of the noise. Slopes fall towards zero instead, so that a gradient
@@ -150,8 +152,8 @@ class TailImpulses(nn.Module):
         return noise, slope.log()
 
     def _ringing_on(self, noise: Tensor, kernels: Tensor) -> Tensor:
-        """[B, N]: the impulses of noise [B, N], each without its first sample."""
-        excess = self._excess(noise.unsqueeze(1).unsqueeze(2))[:, 0] * self.scales[:, :, 0:1]
+        """[B, N]: what rings on at each sample, from the impulses that noise [B, N] excited before it."""
+        excess = self._excess(noise[:, None, None])[:, 0] * self.scales
         size = noise.shape[1] + TAPS
         later = nn.functional.pad(kernels[..., 1:], (1, 0))
         spectrum = (torch.fft.rfft(excess, size) * torch.fft.rfft(later, size)).sum(dim=1)
@@ -163,7 +165,7 @@ class TailImpulses(nn.Module):
         return torch.stack([up, down], dim=2).flatten(2, 3)
 
 
-# So often what rings on is found again: an impulse that another one rings into, itself in another's ring, needs three.
+# Each round is right about one more in a row of impulses that ring into one another. Longer rows are rare.
 _ROUNDS = 3
 # One in two million samples is larger. Without a limit, kernels that fit nothing yet would let it grow from round to
 # round.
@@ -292,8 +294,9 @@ class Skeleton(nn.Module):
         return (gains.log_drive + swing + 0.5 * beyond.square()).mean(dim=1)
 
     def tail_likelihood(self, segment: Tensor, gains: SkeletonGains, phases: Tensor) -> Tensor:
-        """[B]: negative log-likelihood per sample of what drives the filter in a recorded segment, as noise with the
-        impulses that it excites. It moves the impulses and the noise's share of the gain, and nothing else."""
+        """[B]: negative log-likelihood per sample of what drives the filter in a recorded segment, taken for noise and the
+        impulses that this noise excites. It trains the impulses and the noise's share of the gain. Filter, lines and
+        swing get no gradient, because `likelihood` fits them."""
         heard = slice(ORDER, LIKELIHOOD_END)
         swing = self._swung(gains, self.swing_waves(phases))[:, heard].detach()
         errors = prediction_errors(segment[:, 0, :LIKELIHOOD_END], gains.coefficients.detach())

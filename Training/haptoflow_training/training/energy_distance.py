@@ -294,8 +294,9 @@ class LabelBalance:
     ) -> Tensor:
         """The loss of a batch; label [B], speed [B], weight [B] of the segments, as in the energy distance.
 
-        The batch is judged by the averages before it. One that drew a rare impulse would find averages with that impulse
-        too high, one that drew none would find them too low and pull at nothing: impulses would become weaker.
+        The averages of earlier batches judge this one, and only then hold it. If they held it first, a batch that drew a
+        rare impulse would raise the average and be pulled down for it, and one without would find the average too low
+        but have no impulse to strengthen. Rare impulses would become weaker than recorded.
         """
         speed_class = torch.bucketize(speed_mps, torch.tensor(_SPEED_BORDERS_MPS))
         group = label * _SPEED_CLASSES + speed_class

@@ -7,14 +7,14 @@ const keyMps = 0.12;
 const keyLiftSeconds = 0.15;
 const arrows = /** @type {Record<string, [number, number]>} */ ({ ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] });
 
-/** A pen's turn from upright, from its tilt towards x and y of the screen in degrees, as x, y, z, w in the scene's frame. */
+/** The quaternion x, y, z, w, in the scene's frame, that turns an upright pen to this tilt towards x and y of the screen. */
 export function orientationOf(/** @type {number} */ tiltXDegrees, /** @type {number} */ tiltYDegrees) {
   const towardsX = Math.tan((tiltXDegrees * Math.PI) / 180);
   const towardsZ = -Math.tan((tiltYDegrees * Math.PI) / 180);
   const lean = Math.hypot(towardsX, towardsZ);
   if (lean < 1e-9) return [0, 0, 0, 1];
   const half = Math.atan(lean) / 2;
-  // The axis is up x lean, in a left-handed frame: y towards x is a negative turn about z.
+  // The pen turns about up x lean. The frame is left-handed, so that a lean towards x is a negative turn about z.
   return [(Math.sin(half) * towardsZ) / lean, 0, (-Math.sin(half) * towardsX) / lean, Math.cos(half)];
 }
 
