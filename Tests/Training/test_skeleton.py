@@ -12,10 +12,10 @@ import scipy.signal
 import torch
 
 from haptoflow_training.models.all_pole_filter import PredictedFilter, burg_reflection
-from haptoflow_training.models.level_model import PREVIOUS_LIMIT, LevelModel
+from haptoflow_training.models.level_model import LevelModel
 from haptoflow_training.models.refiner import ENTERING, Refiner
 from haptoflow_training.models.skeleton import (
-    IMPULSE_GAINS, LINE_HARMONICS, NOISE_BEFORE, ORDER, OUTPUTS, SWING_HARMONICS, Skeleton, SkeletonGains
+    IMPULSE_GAINS, LINE_HARMONICS, NOISE_BEFORE, ORDER, OUTPUTS, SKELETON_LIMIT, SWING_HARMONICS, Skeleton, SkeletonGains
 )
 from haptoflow_training.models.haptoflow_model import SkeletonModel
 from haptoflow_training.models.label_embedding import FAMILIES, SurfaceWaves, advanced
@@ -163,7 +163,7 @@ def test_a_skeleton_goes_on_exactly_amid_lines_and_ringing_impulses(later: int, 
     for one, other in ((first.impulses, second.impulses), (first.segment, second.segment)):
         torch.testing.assert_close(other[:, :, : 200 - later], one[:, :, later:], rtol=0.0, atol=1e-9)
     assert first.impulses[:, :, :10].abs().max() > 0.01 and second.impulses[:, :, :10].abs().max() > 0.01
-    assert first.segment.abs().max() < PREVIOUS_LIMIT
+    assert first.segment.abs().max() < SKELETON_LIMIT
 
 
 def test_the_swing_modulates_the_drive_within_its_limit() -> None:
@@ -175,7 +175,7 @@ def test_the_swing_modulates_the_drive_within_its_limit() -> None:
         gains.swing[0, 0, COSINE, 0, 0], gains.swing[0, 0, SINE, 1, 0] = size, -0.5 * size
         swing = 2.0 * torch.tanh(0.5 * size * (angle.cos() - 0.5 * (2.0 * angle).sin()))
         made = SKELETON.parts(noise, SILENCE, gains, phases).segment
-        expected = (noise[0, 0, NOISE_BEFORE:] * swing.exp()).clamp(-PREVIOUS_LIMIT, PREVIOUS_LIMIT)
+        expected = (noise[0, 0, NOISE_BEFORE:] * swing.exp()).clamp(-SKELETON_LIMIT, SKELETON_LIMIT)
         torch.testing.assert_close(made[0, 0], expected, rtol=2e-3, atol=1e-3)
         assert swing.abs().max() <= 2.0
 
@@ -366,7 +366,7 @@ def test_lines_in_a_recording_do_not_count_as_errors_of_prediction() -> None:
     gains, plain = (gains._replace(swing=0.3 * gains.swing, lines=share * gains.lines) for share in (0.2, 0.0))
     many = phases.expand(4, 6)
     with_lines, without = (SKELETON.parts(_noise(4, 22), _wave(4, 21), each, many).segment for each in (gains, plain))
-    assert (with_lines - without).abs().max() > 0.5 and with_lines.abs().max() < PREVIOUS_LIMIT
+    assert (with_lines - without).abs().max() > 0.5 and with_lines.abs().max() < SKELETON_LIMIT
     found = SKELETON.likelihood(with_lines, gains, many)
     torch.testing.assert_close(found, SKELETON.likelihood(without, plain, many), rtol=0.0, atol=1e-4)
     assert (SKELETON.likelihood(with_lines, plain, many) > found + 0.1).all()

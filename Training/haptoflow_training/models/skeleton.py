@@ -21,7 +21,6 @@ from haptoflow_training.models.all_pole_filter import (
 )
 from haptoflow_training.models.conditioning import ConditionPerceptron
 from haptoflow_training.models.label_embedding import FAMILIES, RATE_FEATURES, SurfaceWaves, rate_features
-from haptoflow_training.models.level_model import PREVIOUS_LIMIT
 from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
 # Rare events from Gaussian noise: samples beyond four thresholds, each passed through a kernel of its own.
@@ -37,6 +36,8 @@ _RINGS_HZ = (50.0, 90.0, 160.0, 280.0, 500.0, 800.0)
 _RING_DECAY = 0.4
 # A delta, then cosine and sine of each ring.
 ATOMS = 1 + 2 * len(_RINGS_HZ)
+# Limit of the output in unit scale. A slow tip on concrete is struck with 62 times its level.
+SKELETON_LIMIT = 64.0
 # The convolution is a product of matrices, one window of the segment at a time.
 _WINDOW = 25
 # A kernel of 64 taps reaches into three windows before a window.
@@ -279,7 +280,7 @@ class Skeleton(nn.Module):
         swung = noise[:, 0, NOISE_BEFORE:] * self._swung(gains, waves).exp()
         drive = gain * (swung + self._lines(gains, phases)) + impulses[:, 0]
         filtered = self.filter(drive, gains.coefficients.detach(), own[:, 0, -ORDER:])
-        return SkeletonParts(filtered.clamp(-PREVIOUS_LIMIT, PREVIOUS_LIMIT).unsqueeze(1), impulses, *waves)
+        return SkeletonParts(filtered.clamp(-SKELETON_LIMIT, SKELETON_LIMIT).unsqueeze(1), impulses, *waves)
 
     def likelihood(self, segment: Tensor, gains: SkeletonGains, phases: Tensor) -> Tensor:
         """[B]: Gaussian negative log-likelihood per sample of the one-step prediction errors of a recorded segment [B,
