@@ -320,9 +320,8 @@ def taught() -> Taught:
         power = np.array([np.square(10.0 * store.waveform[start : start + 100]).mean() for start in starts])
         motion = np.array([store.motion[start : start + 100].mean(axis=0) for start in starts])
         labels = torch.tensor([entry.label_index for entry in picked])
-        loss = level_loss(
-            level(embedding[labels], torch.from_numpy(motion).float()), torch.from_numpy(power).float().unsqueeze(1)
-        )
+        log_level = level(embedding[labels], torch.from_numpy(motion).float())
+        loss = level_loss(log_level, torch.from_numpy(power).float().unsqueeze(1)).mean()
         optimiser.zero_grad()
         loss.backward()
         optimiser.step()

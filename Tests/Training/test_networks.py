@@ -78,7 +78,7 @@ def test_the_level_model_learns_a_power_law_of_speed_and_force() -> None:
         speed, force = 0.02 * 30.0 ** torch.rand(64), 0.3 * 10.0 ** torch.rand(64)
         motion = torch.stack([speed, torch.zeros(64), force], dim=1)
         target = (2.0 * speed * force**0.3).unsqueeze(1)
-        loss = level_loss(model(embedding.expand(64, -1), motion), target.square())
+        loss = level_loss(model(embedding.expand(64, -1), motion), target.square()).mean()
         optimiser.zero_grad()
         loss.backward()
         optimiser.step()

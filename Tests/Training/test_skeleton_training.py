@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import json
+import math
 from pathlib import Path
 
 import numpy as np
@@ -340,6 +341,28 @@ def _losses_and_batch(store: FakeStore) -> tuple[SkeletonModel, SkeletonLosses, 
     assert isinstance(model, SkeletonModel)
     batch = SegmentBatches(store, "train", BatchConfig(), 5).draw(16)  # type: ignore[arg-type]
     return model, SkeletonLosses(model), batch
+
+
+def test_reversals_do_not_teach_the_level_that_slow_motion_is_loud(store: FakeStore) -> None:
+    model, losses, batch = _losses_and_batch(store)
+    path = torch.zeros(16, 11, 3)
+    path[:, :, 0], path[:, :, 2] = 0.01, 1.0
+    # From -0.2 to 0.2 m/s within the level's window, then on.
+    path[8:, :, 0] = torch.linspace(-0.2, 0.6, 11)
+    slow = torch.tensor([[0.01, 0.0, 1.0]]).expand(16, 3)
+    power = torch.full((16, 1), 0.01)
+    power[8:] = 0.25
+    mixed = dataclasses.replace(batch, motion_path=path, level_motion=slow, level_mean_square_mps2=power)
+    optimiser = torch.optim.Adam(model.level.parameters(), lr=1e-2)
+    for _ in range(300):
+        optimiser.zero_grad()
+        losses.level_loss(mixed).backward()
+        optimiser.step()
+    learnt = model.level(model.embedding(batch.label, batch.specimen), slow)[:8]
+    assert (20.0 / math.log(10.0) * (learnt - math.log(0.1))).abs().max() < 0.3
+    trembling = torch.full((1, 6, 3), 0.0)
+    trembling[0, :, 0] = torch.tensor([0.009, 0.011, 0.01, 0.009, 0.011, 0.01])
+    assert skeleton_losses.steady_speed(trembling) > 0.8
 
 
 def _loss(losses: SkeletonLosses, batch: SegmentBatch, objective: str) -> float:

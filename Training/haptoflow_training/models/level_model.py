@@ -69,10 +69,10 @@ def shift_level(level: LevelModel, embedding: Tensor, shift: Tensor) -> None:
 
 
 def level_loss(log_level: Tensor, mean_square_mps2: Tensor) -> Tensor:
-    """Negative log-likelihood of a zero-mean Gaussian wave over a floor of 0.01 m/s^2 RMS:
-    s + 0.5 meansquare exp(-2 s), both [B, 1]."""
+    """[B, 1]: negative log-likelihood of a zero-mean Gaussian wave over a floor of 0.01 m/s^2 RMS,
+    s + 0.5 meansquare exp(-2 s)."""
     power = mean_square_mps2 + LEVEL_FLOOR_MPS2**2
-    return (log_level + 0.5 * power * torch.exp(-2.0 * log_level)).mean()
+    return log_level + 0.5 * power * torch.exp(-2.0 * log_level)
 
 
 def unit_scale(wave_mps2: Tensor, log_level: Tensor) -> Tensor:

@@ -79,6 +79,8 @@ LEVEL_WINDOW_SAMPLES = 100
 SLIP = 2
 # Where inside a segment its motion is stored for the level: every 10 ms, both ends included.
 _KNOTS = np.linspace(0, SEGMENT_SAMPLES - 1, 11).round().astype(np.int64)
+# As many of them lie in the level's window or at its end.
+LEVEL_WINDOW_KNOTS = 6
 
 
 @dataclass(frozen=True)

@@ -18,7 +18,7 @@ from haptoflow_training.models.level_model import level_loss, scaled_previous
 from haptoflow_training.models.all_pole_filter import prediction_errors
 from haptoflow_training.models.rib_comb import PARTIALS
 from haptoflow_training.models.skeleton import LIKELIHOOD_END, ORDER, SkeletonGains
-from haptoflow_training.training.batches import Chain, SegmentBatch
+from haptoflow_training.training.batches import LEVEL_WINDOW_KNOTS, Chain, SegmentBatch
 from haptoflow_training.training.energy_distance import (
     LabelBalance, energy_distance_loss, energy_score, envelope_distance, envelopes, halves_of, label_features, spectra
 )
@@ -27,6 +27,8 @@ from haptoflow_training.waveform import SAMPLE_RATE_HZ, SEGMENT_SAMPLES
 _BALANCE_WEIGHT = 2.0
 # Power of a past in unit scale, and change of the log level within a segment, beyond which the segment weighs less.
 _LOUD_PAST, _UNSTEADY_LOG_LEVEL = 4.0, 0.4
+# Change of the log speed within the level's window beyond which the window weighs less, and what a tracker's noise adds.
+_UNSTEADY_LOG_SPEED, _UNCERTAIN_MPS = 0.3, 0.002
 
 
 @dataclass(frozen=True)
@@ -94,7 +96,8 @@ class Losses(nn.Module):
         if not self._train_level:
             return torch.zeros(())
         embedding = self.model.embedding(batch.label, batch.specimen)
-        return level_loss(self.model.level(embedding, batch.level_motion), batch.level_mean_square_mps2)
+        losses = level_loss(self.model.level(embedding, batch.level_motion), batch.level_mean_square_mps2)
+        return weighted_mean(losses.squeeze(1), steady_speed(batch.motion_path[:, :LEVEL_WINDOW_KNOTS]))
 
     def _scaled(self, batch: SegmentBatch, objective: str, generator: torch.Generator) -> ScaledBatch:
         model = self.model
@@ -285,6 +288,14 @@ def without_waves(rates_hz: Tensor) -> Tensor:
     """[B]: 1 where all families of the surface's waves [B, F] stand still, else 0. Burg's method takes their lines for
     resonances."""
     return (rates_hz.abs() <= MINIMUM_HZ).all(dim=1).to(rates_hz.dtype)
+
+
+def steady_speed(motion_path: Tensor) -> Tensor:
+    """[B]: the weight of a window with these motions [B, K, 3] in the level's loss, near 1 where the speed hardly changes.
+    In a reversal, the mean velocity is small and the vibration is not. A weight by motion alone biases no level."""
+    speed = motion_path[:, :, 0:2].norm(dim=2) + _UNCERTAIN_MPS
+    change = (speed.amax(dim=1) / speed.amin(dim=1)).log()
+    return 1.0 / (1.0 + (change / _UNSTEADY_LOG_SPEED).pow(4))
 
 
 def weighted_mean(values: Tensor, weight: Tensor) -> Tensor:
