@@ -25,8 +25,8 @@ constexpr std::size_t restoredTailSamples = 400;
 
 using FrameSpectrum = std::array<Complex, frameBins>;
 
-/// A discrete Fourier transform of a length that is not a power of two, computed by its definition: frames are few and
-/// short.
+/// Discrete Fourier transform of a windowed frame and its inverse. Computed by its definition, since frames are few and
+/// 70 samples long.
 class FrameTransform {
 public:
     FrameTransform() {
@@ -69,7 +69,7 @@ FrameSpectrum combined(const std::array<FrameSpectrum, 3>& axes) {
         const double magnitude = std::sqrt(std::norm(axes[0][bin]) + std::norm(axes[1][bin]) + std::norm(axes[2][bin]));
         Complex direction = axes[0][bin] + axes[1][bin] + axes[2][bin];
         if (std::abs(direction) <= 1e-9 * magnitude) {
-            // If the axes cancel exactly, their sum has no phase; the phase of the strongest one is used.
+            // Axes that cancel have a sum without a phase: the strongest axis gives it.
             direction = std::max({axes[0][bin], axes[1][bin], axes[2][bin]},
                                  [](Complex one, Complex other) { return std::norm(one) < std::norm(other); });
         }

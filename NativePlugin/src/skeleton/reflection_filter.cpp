@@ -81,7 +81,7 @@ void ReflectionFilter::run(std::array<double, filterOrder>& past, std::span<cons
         const double y = (static_cast<double>(drive[n]) - earlier) - coefficients[0] * last[0];
         last = {y, last[0], last[1], last[2]};
         wave[filterOrder + n] = y;
-        filtered[n] = limitedOrZero(static_cast<float>(y), unitLimit);
+        filtered[n] = limitedOrZero(static_cast<float>(y), skeletonLimit);
     }
     std::copy_n(wave.begin() + static_cast<std::ptrdiff_t>(drive.size()), filterOrder, past.begin());
 }

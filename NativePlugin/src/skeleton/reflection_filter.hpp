@@ -20,7 +20,7 @@ struct ReflectionFilter {
     [[nodiscard]] static ReflectionFilter of(std::span<const float, filterOrder> reflections, float gain) noexcept;
 
     /// Filters at most 32 samples of `drive`, continuing from `past`, the 24 samples before it, which become those
-    /// before the next call. Writes the result limited to +-16, what is not a number as 0; the recursion itself is not
+    /// before the next call. Writes the result limited to +-64, what is not a number as 0; the recursion itself is not
     /// limited. No allocation.
     void run(std::array<double, filterOrder>& past, std::span<const float> drive,
              std::span<float> filtered) const noexcept;

@@ -27,8 +27,10 @@ inline constexpr std::size_t familyCount = ribCount + 1;
 /// Kernels that a threshold's impulses are made of.
 inline constexpr std::size_t atomCount = 13;
 
-/// Largest magnitude of a sample in unit scale: m/s^2 divided by the level.
+/// Largest magnitude of what a network is given in unit scale: m/s^2 divided by the level.
 inline constexpr float unitLimit = 16.0F;
+/// Largest magnitude of the skeleton's own samples in unit scale: a slow tip on concrete is struck with 62.
+inline constexpr float skeletonLimit = 64.0F;
 /// Largest magnitude of the noise; no number of skeleton::fillStandardNormal reaches it.
 inline constexpr float noiseLimit = 9.0F;
 

@@ -24,7 +24,7 @@ void Synthesis::begin(std::span<const float, filterOrder> past) noexcept {
 }
 
 void Synthesis::limitPast() noexcept {
-    constexpr auto limit = static_cast<double>(unitLimit);
+    constexpr auto limit = static_cast<double>(skeletonLimit);
     for (double& sample : past_) {
         sample = std::isnan(sample) ? 0.0 : std::clamp(sample, -limit, limit);
     }
@@ -58,7 +58,7 @@ void Synthesis::spliceInto(std::span<float> unit) noexcept {
         const float left = static_cast<float>(leavingLeft_) / static_cast<float>(leavingSamples + 1);
         const float come = 1.0F - left;
         const float mixed = left * leaving_[leavingSamples - leavingLeft_] + come * sample;
-        sample = limitedOrZero(mixed / std::sqrt(left * left + come * come), unitLimit);
+        sample = limitedOrZero(mixed / std::sqrt(left * left + come * come), skeletonLimit);
         --leavingLeft_;
     }
 }

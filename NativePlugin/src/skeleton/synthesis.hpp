@@ -15,9 +15,9 @@ class Synthesis {
 public:
     /// Begins with a past that this filter could have, made of standard normal numbers.
     void begin(const ReflectionFilter& filter, std::span<const float, filterOrder> noise) noexcept;
-    /// Begins with this past in unit scale, limited to +-16.
+    /// Begins with this past in unit scale, limited to +-64.
     void begin(std::span<const float, filterOrder> past) noexcept;
-    /// Limits the past to +-16. Before each change of the filter, it keeps the past bounded for every sequence of
+    /// Limits the past to +-64. Before each change of the filter, it keeps the past bounded for every sequence of
     /// filters.
     void limitPast() noexcept;
     /// Whether the past can go on in another filter. One that it would make ring 3 dB louder than the filter of before
@@ -26,7 +26,7 @@ public:
     /// Begins anew with another filter, across a splice of 4 samples with what rings in the one of before.
     void replace(const ReflectionFilter& before, const ReflectionFilter& now,
                  std::span<const float, filterOrder> noise) noexcept;
-    /// Writes the next samples in unit scale, limited to +-16; at most 32. `noise` is standard normal and is limited to
+    /// Writes the next samples in unit scale, limited to +-64; at most 32. `noise` is standard normal and is limited to
     /// +-9, what is not a number counts as 0. `view`: where to write what the refining graph sees.
     void next(const TailImpulses& tails, const SkeletonParameters& parameters,
               const std::array<FamilyPhase, familyCount>& phases, std::span<const float> noise, std::span<float> unit,

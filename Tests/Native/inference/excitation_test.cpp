@@ -258,14 +258,14 @@ TEST(ReflectionFilterTest, OnlyTheOutputIsLimitedNotTheRecursion) {
     outputs[0] = -1.0F;
     const auto filter = ReflectionFilter::of(outputs, 0.0F);
     Piece drive{};
-    drive[0] = 40.0F;
+    drive[0] = 160.0F;
     Piece filtered{};
     Past past{};
     filter.run(past, drive, filtered);
     const double ratio = std::tanh(1.0) * 0.985;
-    EXPECT_EQ(filtered[0], 16.0F);
-    EXPECT_EQ(filtered[1], 16.0F);
-    EXPECT_NEAR(filtered[5], 40.0 * std::pow(ratio, 5), 1e-5);
+    EXPECT_EQ(filtered[0], 64.0F);
+    EXPECT_EQ(filtered[1], 64.0F);
+    EXPECT_NEAR(filtered[5], 160.0 * std::pow(ratio, 5), 1e-4);
 }
 
 TEST(ReflectionFilterTest, AnyReflectionsDecayAndResonateAtMostFiftyDecibelsAboveTheirMean) {

@@ -50,7 +50,7 @@ protected:
             }
             std::vector<float> unit(1 + random_() % 60);
             stream.next(&skeleton, unit);
-            if (!std::ranges::all_of(unit, [](float sample) { return std::fabs(sample) <= unitLimit; })) {
+            if (!std::ranges::all_of(unit, [](float sample) { return std::fabs(sample) <= skeletonLimit; })) {
                 ADD_FAILURE() << "not bounded at state " << state;
                 return minutesDb;
             }
