@@ -20,12 +20,8 @@ const ofTheModelBefore = [
   'Samples~/Workshop/Workshop.png',
   'Training/haptoflow_paper/results/few-shot.json',
   'Training/haptoflow_paper/results/few-shot.md',
-  'Training/haptoflow_paper/results/place.md',
 ];
-/** Times of the same networks before their levels were measured anew, on which no time depends. */
-const sameNetworks = '768c7fcdbf3cdb4ab963cb5e75bc1d110c3e554d18865f5f9742e77b66393ec4';
-const ofTheSameNetworks = ['Documentation~/images/delay-budget.png', 'Training/results/benchmarks.md', 'Training/results/delay-budget.md'];
-const modelOf = (file) => (ofTheModelBefore.includes(file) ? before : ofTheSameNetworks.includes(file) ? sameNetworks : shipped);
+const modelOf = (file) => (ofTheModelBefore.includes(file) ? before : shipped);
 const sha = (digit) => digit.repeat(64);
 
 /** The SHA-256 in a PNG's text chunk; null where it has none. */
