@@ -1,6 +1,7 @@
 using System;
 using System.IO;
 using System.Linq;
+using System.Text.RegularExpressions;
 using System.Threading;
 using HaptoFlow.Model;
 using HaptoFlow.Preview;
@@ -77,13 +78,20 @@ namespace HaptoFlow.PreviewTests
         [TestCase("haptoflow-sliders", "haptoflow-material", "format is not \"haptoflow-sliders\"")]
         [TestCase("\"direction\": [", "\"direction\": [0,", "sliders[0].direction is not a list of")]
         [TestCase("\"lowest\": [", "\"lowest\": [0,", "lowest is not a list of")]
-        [TestCase("0.192288", "1e7", "sliders[0].direction[0] is not a number from -1000000 to 1000000")]
         [TestCase("\"mean\"", "\"means\"", "has no key \"mean\"")]
         public void AnInvalidFileIsRefusedWithTheNameOfItsKey(string part, string instead, string message)
         {
             Assert.That(Text, Does.Contain(part));
             Assert.That(Assert.Throws<HaptoFlowException>(() => SliderSet.Read(Text.Replace(part, instead)))!.Message,
                 Does.Contain(message));
+        }
+
+        [Test]
+        public void ANumberOutOfItsRangeIsRefusedWithItsPlace()
+        {
+            string first = Regex.Match(Text, "\"direction\": \\[([^,]+),").Groups[1].Value;
+            AnInvalidFileIsRefusedWithTheNameOfItsKey(first, "1e7",
+                "sliders[0].direction[0] is not a number from -1000000 to 1000000");
         }
 
         [Test]
