@@ -70,7 +70,7 @@ def test_recordings_of_one_s_own_train_labels_alone() -> None:
 def test_a_skeleton_s_filter_is_fitted_before_its_likelihood_and_a_refinement_has_none() -> None:
     base, standard = (load_config(CONFIGURATIONS / "default" / f"{name}.toml") for name in ("base", "standard"))
     objectives = [[phase.objective for phase in Trainer.phases(config)] for config in (base, standard)]
-    assert objectives == [["level", "filter", "likelihood", "energy", "energy"], ["energy", "energy"]]
+    assert objectives == [["level", "filter", "likelihood", "energy", "energy", "level"], ["energy", "energy"]]
 
 
 def test_a_configuration_takes_what_it_does_not_set_from_the_one_it_extends(tmp_path: Path) -> None:

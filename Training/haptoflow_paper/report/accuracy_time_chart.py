@@ -204,14 +204,16 @@ def _draw_point(axis: Any, panel: Panel, point: ChartPoint) -> None:
 # Positions of names that would overlap, by panel and row: points right of the marker, points above it, and the
 # horizontal alignment.
 _NAME_PLACES = {
+    ("told_apart_percent", "sketch"): (0.0, 24.0, "center"),
     ("told_apart_percent", "draft"): (2.0, -14.0, "right"),
-    ("told_apart_percent", "standard"): (-4.0, -14.0, "left"),
+    ("told_apart_percent", "standard"): (6.0, -9.0, "left"),
     ("told_apart_percent", "plain-euler-1"): (-8.0, 3.0, "right"),
     ("told_apart_percent", "transformer"): (14.0, -3.0, "left"),
     ("told_apart_percent", "dstn"): (14.0, -16.0, "left"),
     ("told_apart_percent", "ar"): (-8.0, 0.0, "right"),
     ("lsd_db", "draft"): (2.0, -14.0, "right"),
-    ("lsd_db", "standard"): (12.0, 12.0, "left"),
+    ("lsd_db", "sketch"): (0.0, 16.0, "center"),
+    ("lsd_db", "standard"): (12.0, 18.0, "left"),
     ("lsd_db", "plain-euler-1"): (-8.0, -3.0, "right"),
     ("lsd_db", "ar"): (-8.0, 4.0, "right"),
     ("lsd_db", "ar-ribs"): (-10.0, 30.0, "left"),
