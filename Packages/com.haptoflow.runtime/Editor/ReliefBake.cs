@@ -1,6 +1,5 @@
 #nullable enable
 using System;
-using System.IO;
 using System.Linq;
 using HaptoFlow.Numerics;
 using UnityEditor;
@@ -81,8 +80,11 @@ namespace HaptoFlow.Editor
         private static HapticRelief Create(HapticSurface surface, Object from)
         {
             var relief = ScriptableObject.CreateInstance<HapticRelief>();
-            string folder = Path.GetDirectoryName(AssetDatabase.GetAssetPath(from))?.Replace('\\', '/') ?? "";
-            folder = folder.StartsWith("Assets", StringComparison.Ordinal) ? folder : "Assets";
+            // An object that is no asset has an empty path, which Path.GetDirectoryName refuses under Mono.
+            string path = AssetDatabase.GetAssetPath(from);
+            string folder = path.StartsWith("Assets/", StringComparison.Ordinal)
+                ? path.Substring(0, path.LastIndexOf('/'))
+                : "Assets";
             AssetDatabase.CreateAsset(
                 relief, AssetDatabase.GenerateUniqueAssetPath($"{folder}/{from.name} Relief.asset"));
             Undo.RegisterCreatedObjectUndo(relief, "Create the Relief");
