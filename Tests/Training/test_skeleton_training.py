@@ -347,7 +347,7 @@ def test_reversals_do_not_teach_the_level_that_slow_motion_is_loud(store: FakeSt
     model, losses, batch = _losses_and_batch(store)
     path = torch.zeros(16, 11, 3)
     path[:, :, 0], path[:, :, 2] = 0.01, 1.0
-    # From -0.2 to 0.2 m/s within the level's window, then on.
+    # Reversals: from -0.2 to 0.2 m/s within the level's window, and to 0.6 m/s at the segment's end.
     path[8:, :, 0] = torch.linspace(-0.2, 0.6, 11)
     slow = torch.tensor([[0.01, 0.0, 1.0]]).expand(16, 3)
     power = torch.full((16, 1), 0.01)

@@ -103,7 +103,7 @@ describe('a voice and clips', { skip: !hasBrowser }, () => {
         tap.latest(wave);
         return 200 * Math.max(...wave.map(Math.abs));
       };
-      /** Publishes states until `work` is done. Without states a clip ends after 100 ms, and a busy machine loads for longer. */
+      /** Publishes states until `work` is done: a clip ends 100 ms after the last state, and a busy machine takes longer to load. */
       const handDuring = async (voice, work) => {
         let isDone = false;
         const done = work.finally(() => { isDone = true; });

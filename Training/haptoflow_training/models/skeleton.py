@@ -53,8 +53,8 @@ def _excess_deviation(threshold: float) -> float:
     return math.sqrt(2.0 * ((1.0 + threshold * threshold) * tail - threshold * density))
 
 
-# Without it, a step of training at 1e-3 would change the slope of an impulse, by which it grows with its noise, by about
-# 4, as much as many slopes measure.
+# An impulse's slope says how fast it grows with its noise. Without this factor, one step of training at 1e-3 would change
+# a slope by about 4, and many slopes are no larger than that.
 _IMPULSE_FACTOR = 0.125
 
 
@@ -153,7 +153,8 @@ class TailImpulses(nn.Module):
         return noise, slope.log()
 
     def _ringing_on(self, noise: Tensor, kernels: Tensor) -> Tensor:
-        """[B, N]: what rings on at each sample, from the impulses that noise [B, N] excited before it."""
+        """[B, N]: at each sample, the sum of the impulses that earlier samples of the noise [B, N] excited and that still
+        ring."""
         excess = self._excess(noise[:, None, None])[:, 0] * self.scales
         size = noise.shape[1] + TAPS
         later = nn.functional.pad(kernels[..., 1:], (1, 0))

@@ -79,8 +79,8 @@ LEVEL_WINDOW_SAMPLES = 100
 SLIP = 2
 # Where inside a segment its motion is stored for the level: every 10 ms, both ends included.
 _KNOTS = np.linspace(0, SEGMENT_SAMPLES - 1, 11).round().astype(np.int64)
-# As many of them lie in the level's window or at its end.
-LEVEL_WINDOW_KNOTS = 6
+# The first of them, which span the level's window.
+LEVEL_WINDOW_KNOTS = int(np.count_nonzero(_KNOTS <= LEVEL_WINDOW_SAMPLES))
 
 
 @dataclass(frozen=True)

@@ -27,7 +27,8 @@ from haptoflow_training.waveform import SAMPLE_RATE_HZ, SEGMENT_SAMPLES
 _BALANCE_WEIGHT = 2.0
 # Power of a past in unit scale, and change of the log level within a segment, beyond which the segment weighs less.
 _LOUD_PAST, _UNSTEADY_LOG_LEVEL = 4.0, 0.4
-# Change of the log speed within the level's window beyond which the window weighs less, and what a tracker's noise adds.
+# A window of the level weighs half where its log speed changes by this much. So many m/s are added to each speed first,
+# because a tracker's noise alone changes a slow one.
 _UNSTEADY_LOG_SPEED, _UNCERTAIN_MPS = 0.3, 0.002
 
 
@@ -62,7 +63,7 @@ class ScaledBatch:
         impact. A weight that depended on the segment itself would bias the network towards fewer impacts than
         recorded."""
         loudness = (self.recorded_previous.square().mean(dim=(1, 2)) / _LOUD_PAST).clamp(min=1.0)
-        return loudness.rsqrt() / (1.0 + (self.unsteadiness / _UNSTEADY_LOG_LEVEL).pow(4))
+        return loudness.rsqrt() / weakening(self.unsteadiness, _UNSTEADY_LOG_LEVEL)
 
 
 class Losses(nn.Module):
@@ -290,12 +291,19 @@ def without_waves(rates_hz: Tensor) -> Tensor:
     return (rates_hz.abs() <= MINIMUM_HZ).all(dim=1).to(rates_hz.dtype)
 
 
+def weakening(change: Tensor, limit: float) -> Tensor:
+    """What divides a weight where something changes within a window: 1 without a change, 2 at the limit."""
+    return 1.0 + (change / limit).pow(4)
+
+
 def steady_speed(motion_path: Tensor) -> Tensor:
-    """[B]: the weight of a window with these motions [B, K, 3] in the level's loss, near 1 where the speed hardly changes.
-    In a reversal, the mean velocity is small and the vibration is not. A weight by motion alone biases no level."""
+    """[B]: how much windows with the motions [B, K, 3] count in the level's loss: 1 at a constant speed, less where the
+    speed changes. In a reversal the mean velocity is small although the tip moves fast, so that such windows would teach
+    that slow motion is loud. The weight depends on the motion alone: loud and quiet windows of one motion count alike,
+    and the level has no bias."""
     speed = motion_path[:, :, 0:2].norm(dim=2) + _UNCERTAIN_MPS
     change = (speed.amax(dim=1) / speed.amin(dim=1)).log()
-    return 1.0 / (1.0 + (change / _UNSTEADY_LOG_SPEED).pow(4))
+    return 1.0 / weakening(change, _UNSTEADY_LOG_SPEED)
 
 
 def weighted_mean(values: Tensor, weight: Tensor) -> Tensor:

@@ -7,7 +7,7 @@ const keyMps = 0.12;
 const keyLiftSeconds = 0.15;
 const arrows = /** @type {Record<string, [number, number]>} */ ({ ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] });
 
-/** The quaternion x, y, z, w, in the scene's frame, that turns an upright pen to this tilt towards x and y of the screen. */
+/** How a pen is turned that leans by these tilts towards x and y of the screen: a quaternion x, y, z, w in the scene's frame. */
 export function orientationOf(/** @type {number} */ tiltXDegrees, /** @type {number} */ tiltYDegrees) {
   const towardsX = Math.tan((tiltXDegrees * Math.PI) / 180);
   const towardsZ = -Math.tan((tiltYDegrees * Math.PI) / 180);
