@@ -96,26 +96,43 @@ describe('a voice and clips', { skip: !hasBrowser }, () => {
     opened = await openPage();
     await opened.page.evaluate((texts) => {
       const { started, hand, pause } = globalThis.tools;
+      let [publishedMs, longestGapMs] = [0, 0];
+      /** Publishes states of a tip in the air for a time. */
+      const hover = (voice, seconds) => hand(voice, seconds, () => {
+        const now = performance.now();
+        longestGapMs = Math.max(longestGapMs, now - publishedMs);
+        publishedMs = now;
+        return { touching: false };
+      });
+      /** What `action` finds while no state is late: a clip ends 100 ms after the last one, and a busy machine may hold the page up. */
+      const steadily = async (action) => {
+        for (let tries = 1; ; tries += 1) {
+          [publishedMs, longestGapMs] = [performance.now(), 0];
+          const found = await action();
+          if (longestGapMs < 80 || tries === 5) return found;
+        }
+      };
       /** The largest value of the last `seconds`, m/s^2, while the tip is in the air. */
       const loudestOf = async (voice, tap, seconds = 0.3) => {
-        await hand(voice, seconds, () => ({ touching: false }));
+        await hover(voice, seconds);
         const wave = new Float32Array(Math.round(0.8 * seconds * tap.sampleRateHz));
         tap.latest(wave);
         return 200 * Math.max(...wave.map(Math.abs));
       };
-      /** Publishes states until `work` is done: a clip ends 100 ms after the last state, and a busy machine takes longer to load. */
+      /** Hovers until `work` is done. */
       const handDuring = async (voice, work) => {
         let isDone = false;
         const done = work.finally(() => { isDone = true; });
-        while (!isDone) await hand(voice, 0.02, () => ({ touching: false }));
+        while (!isDone) await hover(voice, 0.02);
         return done;
       };
       /** Plays a clip, and publishes states until the engine has loaded it and for `seconds` more. */
       const playAndWait = async (voice, clip, options, seconds) => {
         await handDuring(voice, voice.playClip(clip, options));
-        await hand(voice, seconds, () => ({ touching: false }));
+        longestGapMs = 0;
+        await hover(voice, seconds);
       };
-      Object.assign(globalThis, { texts, loudestOf, started, hand, handDuring, playAndWait, pause });
+      Object.assign(globalThis, { texts, loudestOf, started, hover, handDuring, playAndWait, steadily, pause });
     }, { loud: haptic([[0, 0.6], [0.3, 0.6]]), soft: haptic([[0, 0.1], [0.3, 0.1]]), long: haptic(Array.from({ length: 6001 }, (_, index) => [index / 10, 0.3 + 0.2 * (index % 2)])), nothing: haptic([[0, 0]]) });
   });
   after(() => opened.close());
@@ -128,21 +145,24 @@ describe('a voice and clips', { skip: !hasBrowser }, () => {
         const tap = voice.waveTap();
         const [loud, soft] = await Promise.all([haptics.readClip(globalThis.texts.loud), haptics.readClip(globalThis.texts.soft)]);
         const levels = {};
-        const play = async (clip, options) => {
+        const play = (clip, options, act = () => {}) => globalThis.steadily(async () => {
           await globalThis.playAndWait(voice, clip, options, 0.4);
+          act();
           return globalThis.loudestOf(voice, tap, 0.6);
-        };
+        });
         levels.loud = await play(loud, { isLoop: true });
         levels.soft = await play(soft, { isLoop: true });
         levels.quiet = await play(loud, { isLoop: true, gain: 0 });
         levels.once = await play(loud, {});
         // A first play that still loads gives way to a later one, and to a stop.
-        const late = await globalThis.handDuring(voice, haptics.readClip(globalThis.texts.loud));
-        const loading = voice.playClip(late, { isLoop: true });
-        voice.playClip(soft, { isLoop: true });
-        await globalThis.handDuring(voice, loading);
-        await globalThis.hand(voice, 0.2, () => ({ touching: false }));
-        levels.replaced = await globalThis.loudestOf(voice, tap, 0.5);
+        levels.replaced = await globalThis.steadily(async () => {
+          const late = await globalThis.handDuring(voice, haptics.readClip(globalThis.texts.loud));
+          const loading = voice.playClip(late, { isLoop: true });
+          voice.playClip(soft, { isLoop: true });
+          await globalThis.handDuring(voice, loading);
+          await globalThis.hover(voice, 0.2);
+          return globalThis.loudestOf(voice, tap, 0.5);
+        });
         voice.stopClip();
         levels.stopped = await globalThis.loudestOf(voice, tap, 0.4);
         await globalThis.pause(200);
@@ -150,14 +170,13 @@ describe('a voice and clips', { skip: !hasBrowser }, () => {
         const refusal = await voice.playClip(loud, { gain: 5 }).catch(({ code }) => code);
         haptics.forgetClip(loud);
         levels.again = await play(loud, { isLoop: true });
-        haptics.forgetClip(loud);
-        levels.forgotten = await globalThis.loudestOf(voice, tap, 0.5);
+        levels.forgotten = await play(loud, { isLoop: true }, () => haptics.forgetClip(loud));
         await play(loud, { isLoop: true });
         await globalThis.pause(400);
         levels.stale = await globalThis.loudestOf(voice, tap, 0.4);
         await play(loud, { isLoop: true });
         voice.muted = true;
-        await globalThis.hand(voice, 0.2, () => ({ touching: false }));
+        await globalThis.hover(voice, 0.2);
         voice.muted = false;
         levels.muted = await globalThis.loudestOf(voice, tap, 0.4);
         const errors = voice.statistics().failures;
@@ -189,15 +208,17 @@ describe('a voice and clips', { skip: !hasBrowser }, () => {
       haptics[Symbol.for('haptoflow.worker')].terminate();
       await recovered;
       const lost = await globalThis.loudestOf(voice, tap, 0.4);
-      await globalThis.playAndWait(voice, loud, { isLoop: true }, 0.5);
-      const again = await globalThis.loudestOf(voice, tap, 0.4);
+      const play = (seconds) => globalThis.steadily(async () => {
+        await globalThis.playAndWait(voice, loud, { isLoop: true }, seconds);
+        return globalThis.loudestOf(voice, tap, 0.4);
+      });
+      const again = await play(0.5);
       // Asked for while the engine starts again, it waits for that; states that are published meanwhile are no harm to its memory.
       const told = new Promise((resolve) => haptics.addEventListener('error', resolve));
       haptics[Symbol.for('haptoflow.worker')].terminate();
       await told;
       voice.stopClip();
-      await globalThis.playAndWait(voice, loud, { isLoop: true }, 2);
-      const later = await globalThis.loudestOf(voice, tap, 0.4);
+      const later = await play(2);
       await haptics.close();
       return { lost, again, later, errors: events.filter(({ type }) => type === 'error').length };
     });
