@@ -69,7 +69,7 @@ FrameSpectrum combined(const std::array<FrameSpectrum, 3>& axes) {
         const double magnitude = std::sqrt(std::norm(axes[0][bin]) + std::norm(axes[1][bin]) + std::norm(axes[2][bin]));
         Complex direction = axes[0][bin] + axes[1][bin] + axes[2][bin];
         if (std::abs(direction) <= 1e-9 * magnitude) {
-            // Axes that cancel have a sum without a phase: the strongest axis gives it.
+            // Where the axes cancel, their sum is zero and has no phase, so the strongest axis gives the phase.
             direction = std::max({axes[0][bin], axes[1][bin], axes[2][bin]},
                                  [](Complex one, Complex other) { return std::norm(one) < std::norm(other); });
         }

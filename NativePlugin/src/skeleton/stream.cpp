@@ -9,16 +9,10 @@
 namespace haptoflow::skeleton {
 namespace {
 
-constexpr float levelRampSamples = 4.0F;
-constexpr float lowestLevelMps2 = 1e-6F;
+constexpr std::size_t levelRampSamples = 4;
 // A state of a display of 72 Hz.
 constexpr std::size_t correctionSamples = 28;
 constexpr double largestCorrectionCycles = 0.1;
-
-float logOf(float levelMps2) noexcept {
-    const bool isUsable = levelMps2 > lowestLevelMps2 && std::isfinite(levelMps2);
-    return std::log(isUsable ? levelMps2 : lowestLevelMps2);
-}
 
 SurfacePath movedOn(const SurfacePath& path, double samples) noexcept {
     SurfacePath moved = path;
@@ -40,9 +34,8 @@ void Stream::begin(const StreamParameters& parameters, double samplesAhead, cons
     noise_ = {};
     setParameters(parameters, samplesAhead);
     takePhases(parameters, samplesAhead, true);
-    logLevel_ = logLevelTarget_;
-    logLevelStep_ = 0.0F;
     rampedLevelMps2_ = levelMps2_;
+    levelSamplesLeft_ = 0;
     draws_ = 0;
     synthesis_.begin(skeleton_.filter, drawn());
 }
@@ -72,12 +65,20 @@ void Stream::setParameters(const StreamParameters& parameters, double samplesAhe
     } else {
         path_.stepMetres = parameters.path.stepMetres;
     }
-    const float target = logOf(parameters.levelMps2);
-    if (target != logLevelTarget_) {
-        logLevelTarget_ = target;
-        logLevelStep_ = (target - logLevel_) / levelRampSamples;
+    const bool isUsable = parameters.levelMps2 > lowestLevelMps2 && std::isfinite(parameters.levelMps2);
+    rampLevelTo(isUsable ? parameters.levelMps2 : lowestLevelMps2);
+}
+
+void Stream::rampLevelTo(float levelMps2) noexcept {
+    if (levelMps2 == levelMps2_) {
+        return;
     }
-    levelMps2_ = std::exp(target);
+    constexpr float part = 1.0F / static_cast<float>(levelRampSamples);
+    const bool isRising = levelMps2 > rampedLevelMps2_;
+    levelStepMps2_ = isRising ? part * (levelMps2 - rampedLevelMps2_) : 0.0F;
+    levelFactor_ = isRising ? 1.0F : std::pow(levelMps2 / rampedLevelMps2_, part);
+    levelSamplesLeft_ = levelRampSamples;
+    levelMps2_ = levelMps2;
 }
 
 void Stream::takePhases(const StreamParameters& parameters, double samplesAhead, bool isBeginning) noexcept {
@@ -130,10 +131,9 @@ void Stream::advance(std::size_t samples) noexcept {
 }
 
 float Stream::nextRampedLevelMps2() noexcept {
-    if (logLevel_ != logLevelTarget_) {
-        const bool isLast = std::abs(logLevelTarget_ - logLevel_) <= std::abs(logLevelStep_);
-        logLevel_ = isLast ? logLevelTarget_ : logLevel_ + logLevelStep_;
-        rampedLevelMps2_ = std::exp(logLevel_);
+    if (levelSamplesLeft_ > 0) {
+        levelSamplesLeft_ -= 1;
+        rampedLevelMps2_ = levelSamplesLeft_ == 0 ? levelMps2_ : levelFactor_ * rampedLevelMps2_ + levelStepMps2_;
     }
     return rampedLevelMps2_;
 }

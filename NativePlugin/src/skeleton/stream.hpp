@@ -45,7 +45,8 @@ struct StreamParameters {
 
 /// The skeleton's waveform along a touch, sample by sample: a filter that continues its own past, noise of the place,
 /// waves, and impulses that ring on. A new contact state changes its parameters from the next sample on, and its level
-/// along a ramp of 4 samples. A past that does not fit the new filter is left across a splice of as many. A plain
+/// within 4 samples: it rises evenly in amplitude, so that a louder label is heard at once, and falls evenly in
+/// decibels. A past that does not fit the new filter is left across a splice of as many. A plain
 /// value: a copy goes on as the original does. Finite and bounded for every input; allocates nothing.
 class Stream {
 public:
@@ -66,6 +67,8 @@ public:
     [[nodiscard]] Phases phases() const noexcept;
 
 private:
+    static constexpr float lowestLevelMps2 = 1e-6F;
+
     struct Family {
         FamilyPhase phase;
         /// Added to each of the next samples' turns, to reach what the place says.
@@ -73,6 +76,7 @@ private:
     };
 
     void setParameters(const StreamParameters& parameters, double samplesAhead) noexcept;
+    void rampLevelTo(float levelMps2) noexcept;
     void takePhases(const StreamParameters& parameters, double samplesAhead, bool isBeginning) noexcept;
     [[nodiscard]] std::size_t pieceOf(std::size_t wanted) const noexcept;
     [[nodiscard]] std::array<FamilyPhase, familyCount> correctedPhases() const noexcept;
@@ -89,12 +93,12 @@ private:
     std::array<Family, familyCount> families_{};
     WaveVectors ribs_{};
     std::size_t correctedSamplesLeft_ = 0;
-    float levelMps2_ = 0.0F;
-    float rampedLevelMps2_ = 0.0F;
-    // Natural logarithms of m/s^2, and what a sample adds.
-    float logLevel_ = 0.0F;
-    float logLevelTarget_ = 0.0F;
-    float logLevelStep_ = 0.0F;
+    float levelMps2_ = lowestLevelMps2;
+    float rampedLevelMps2_ = lowestLevelMps2;
+    // What a sample of the ramp multiplies and adds.
+    float levelFactor_ = 1.0F;
+    float levelStepMps2_ = 0.0F;
+    std::size_t levelSamplesLeft_ = 0;
 };
 
 }  // namespace haptoflow::skeleton

@@ -26,8 +26,8 @@ public:
     /// Begins anew with another filter, across a splice of 4 samples with what rings in the one of before.
     void replace(const ReflectionFilter& before, const ReflectionFilter& now,
                  std::span<const float, filterOrder> noise) noexcept;
-    /// Writes the next samples in unit scale, limited to +-64; at most 32. `noise` is standard normal and is limited to
-    /// +-9, what is not a number counts as 0. `view`: where to write what the refining graph sees.
+    /// Writes the next samples in unit scale, limited to +-64; at most 32. `noise` is standard normal, limited to +-9;
+    /// a NaN counts as 0. `view`: where to write what the refining graph sees.
     void next(const TailImpulses& tails, const SkeletonParameters& parameters,
               const std::array<FamilyPhase, familyCount>& phases, std::span<const float> noise, std::span<float> unit,
               NetworkView view = {}) noexcept;

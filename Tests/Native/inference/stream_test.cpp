@@ -6,15 +6,20 @@
 #include "skeleton_model.hpp"
 #include "support/counting_new.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
 namespace haptoflow::skeleton::testing {
 namespace {
+
+using ::testing::FloatNear;
+using ::testing::Pointwise;
 
 constexpr NoiseKey key{.seed = 5, .voice = 1, .segment = 2};
 
@@ -124,7 +129,8 @@ TEST_F(StreamTest, ANewLevelIsReachedAfterFourSamplesWhateverRingsOn) {
         const std::vector<float> wanted = read(unchanged, testSkeleton.get(), 100, 32);
         const std::vector<float> found = read(stream, testSkeleton.get(), 100, 32);
         const float change = level / testContact.levelMps2;
-        EXPECT_NEAR(found[0] / wanted[0], std::pow(change, 0.25F), 1e-3F * std::pow(change, 0.25F)) << "no step";
+        const float first = level > testContact.levelMps2 ? 0.75F + 0.25F * change : std::pow(change, 0.25F);
+        EXPECT_NEAR(found[0] / wanted[0], first, 1e-3F * first) << "no step";
         for (std::size_t n = 4; n < found.size(); ++n) {
             ASSERT_NEAR(found[n], change * wanted[n], 1e-3F * change) << n;
         }
@@ -165,20 +171,32 @@ TEST_F(StreamTest, APastThatWouldRingLouderInAnotherFilterIsLeftAcrossASpliceAnd
     EXPECT_NEAR(10.0 * std::log10(squaresAfterAChange(100)), 0.0, 1.5);
 }
 
-TEST_F(StreamTest, WhatIsAddedReachesANewLevelWithinFourSamplesAndNotAtOnce) {
+TEST_F(StreamTest, TheLevelRisesEvenlyInAmplitudeAndFallsEvenlyInDecibelsWithinFourSamples) {
     Stream stream = begun();
+    const auto levelsAfter = [&stream, this](float levelMps2) {
+        testContact.levelMps2 = levelMps2;
+        stream.follow(testContact, 4.0);
+        std::array<float, 5> levels{};
+        std::ranges::generate(levels, [&stream] { return stream.nextRampedLevelMps2(); });
+        return levels;
+    };
     EXPECT_FLOAT_EQ(stream.nextRampedLevelMps2(), 0.5F);
-    testContact.levelMps2 = 8.0F;
-    stream.follow(testContact, 4.0);
-    float before = 0.5F;
-    for (int n = 0; n < 4; ++n) {
-        const float level = stream.nextRampedLevelMps2();
-        EXPECT_NEAR(level / before, 2.0F, 1e-4F) << n;
-        before = level;
-    }
-    EXPECT_NEAR(before, 8.0F, 1e-4F);
-    (void)stream.nextRampedLevelMps2();
-    EXPECT_FLOAT_EQ(stream.nextRampedLevelMps2(), 8.0F);
+    EXPECT_THAT(levelsAfter(8.0F), Pointwise(FloatNear(1e-5F), {2.375F, 4.25F, 6.125F, 8.0F, 8.0F}));
+    EXPECT_THAT(levelsAfter(0.5F), Pointwise(FloatNear(1e-5F), {4.0F, 2.0F, 1.0F, 0.5F, 0.5F}));
+}
+
+TEST_F(StreamTest, AStateOfTheSameLevelLeavesARampAsItIsAndOneOfAnotherBeginsItsOwnThere) {
+    Stream stream = begun();
+    const auto next = [&stream, this](float levelMps2) {
+        testContact.levelMps2 = levelMps2;
+        stream.follow(testContact, 4.0);
+        return stream.nextRampedLevelMps2();
+    };
+    EXPECT_NEAR(next(4.5F), 1.5F, 1e-5F);
+    EXPECT_NEAR(next(4.5F), 2.5F, 1e-5F);
+    EXPECT_NEAR(next(10.5F), 4.5F, 1e-5F);
+    EXPECT_NEAR(next(4.5F), 4.5F, 1e-5F);
+    EXPECT_EQ(next(4.5F), 4.5F);
 }
 
 TEST_F(StreamTest, PhasesAreDrawnToThePlaceByAtMostATenthOfATurnPerState) {
