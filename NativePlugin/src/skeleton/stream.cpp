@@ -60,6 +60,7 @@ void Stream::follow(const StreamParameters& parameters, double samplesAhead) noe
 void Stream::setParameters(const StreamParameters& parameters, double samplesAhead) noexcept {
     skeleton_ = parameters.skeleton;
     surface_ = parameters.surface;
+    noise_.follow();
     if (parameters.isPlaced) {
         path_ = movedOn(parameters.path, samplesAhead);
     } else {

@@ -3,8 +3,10 @@
 #include "skeleton/gaussian_noise.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <utility>
 
 namespace haptoflow::skeleton {
@@ -13,6 +15,9 @@ namespace {
 using Vector = std::array<double, 3>;
 
 constexpr std::size_t directionCount = 12;
+constexpr auto slotsPerSample = static_cast<double>(noiseSlotsPerSample);
+// Half of the samples over which it is made up for: reading never stands still.
+constexpr double longestLagSamples = 4.0;
 constexpr int logCellsPerBlock = 3;
 // A longer coordinate would leave the integers that a double holds exactly.
 constexpr double maximumMetres = 1e6;
@@ -67,6 +72,16 @@ constexpr std::array<Level, BrownianMotion::levelCount> levels{{
     {0x1p-25, 0x1p-11 * rootOfEighth},
 }};
 
+/// Of mean 0 and variance 1: the ones among a byte's bits, which are nearly normal. Impulses come where the noise
+/// exceeds three deviations, so its tails count: uniform bytes leave a fifth of those beyond 3.5 out.
+constexpr std::array<double, 256> numbersOfBytes = [] {
+    std::array<double, 256> numbers{};
+    for (std::size_t byte = 0; byte < numbers.size(); ++byte) {
+        numbers[byte] = (std::popcount(byte) - 4) * (2.0 * rootOfEighth);
+    }
+    return numbers;
+}();
+
 constexpr double dot(const Vector& a, const Vector& b) noexcept {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
@@ -115,10 +130,10 @@ struct Crossing {
 };
 
 /// Adds the cells' increments times `scale` to the slots in which the path passes their middles.
-template <std::size_t stride>
-void addCells(BrownianMotion& motion, std::size_t level, const Crossing& crossing, double scale,
+void addCells(BrownianMotion& motion, const Grid& grid, const Crossing& crossing, double scale,
               std::span<float> slots) noexcept {
-    constexpr std::int64_t perBlock = BrownianMotion::cellsPerBlock / stride;
+    const std::size_t stride = grid.stride;
+    const auto perBlock = static_cast<std::int64_t>(BrownianMotion::cellsPerBlock / stride);
     const std::int64_t endCell = roundedUp(std::max(crossing.start, crossing.end) - 0.5);
     std::int64_t cell = roundedUp(std::min(crossing.start, crossing.end) - 0.5);
     const auto lastSlot = static_cast<double>(slots.size()) - 0.5;
@@ -135,7 +150,7 @@ void addCells(BrownianMotion& motion, std::size_t level, const Crossing& crossin
     double signedScale = signedAs(sheet);
     while (cell < endCell) {
         const std::int64_t block = floorDivided(cell, perBlock);
-        const auto& sums = motion.sumsOf<stride>(level, block);
+        const auto& sums = motion.sumsOf(grid.level, block, stride);
         const std::int64_t blockCell = block * perBlock;
         const auto end = static_cast<std::size_t>(std::min(endCell - blockCell, perBlock));
         double slot = (static_cast<double>(cell) + 0.5 - crossing.start) * crossing.slotsPerCell;
@@ -166,41 +181,37 @@ bool isUsable(const SurfacePath& path) noexcept {
 
 }  // namespace
 
-template <std::size_t stride>
-const BrownianMotion::Sums& BrownianMotion::sumsOf(std::size_t level, std::int64_t block) noexcept {
+const BrownianMotion::Sums& BrownianMotion::sumsOf(std::size_t level, std::int64_t block, std::size_t stride) noexcept {
     Block& known = blocks_[level];
     if (known.index != block || known.stride > stride) {
         known.index = block;
         known.stride = stride;
-        fill<stride>(known, level);
+        fill(known, level);
     }
     return known.sums;
 }
 
-template <std::size_t stride>
 void BrownianMotion::fill(Block& block, std::size_t level) noexcept {
     std::uint64_t random = mixed(key_ + static_cast<std::uint64_t>(block.index) * 0x9E3779B97F4A7C15U +
                                  static_cast<std::uint64_t>(level) * 0xD6E8FEB86659FD93U);
-    // Each byte gives a number that is uniform, with mean 0 and variance (256^2 - 1) / 12, which is 73.9^2. The sum
-    // over levels, cells and directions is normal.
     const auto next = [&random] {
-        const auto byte = static_cast<double>(static_cast<std::int32_t>(random & 0xFFU));
+        const auto byte = static_cast<std::size_t>(random & 0xFFU);
         random >>= 8U;
-        return byte - 127.5;
+        return numbersOfBytes[byte];
     };
     // The increment of half a cell is half the cell's plus or minus a number of half its deviation, which makes the
     // two halves independent.
-    const double cell = levels[level].deviation * (1.0 / 73.900270635041727);
+    const double cell = levels[level].deviation;
     constexpr double rootOfTwo = 4.0 * rootOfEighth;
     Sums& sums = block.sums;
     const double random8 = next();
     sums[8] = level == 0 ? 2.0 * rootOfTwo * cell * random8 : parentIncrement(level, block.index);
     sums[4] = 0.5 * sums[8] + rootOfTwo * cell * next();
-    if constexpr (stride <= 2) {
+    if (block.stride <= 2) {
         sums[2] = 0.5 * sums[4] + cell * next();
         sums[6] = 0.5 * (sums[4] + sums[8]) + cell * next();
     }
-    if constexpr (stride == 1) {
+    if (block.stride == 1) {
         for (std::size_t odd = 1; odd < cellsPerBlock; odd += 2) {
             sums[odd] = 0.5 * (sums[odd - 1] + sums[odd + 1]) + 0.5 * rootOfTwo * cell * next();
         }
@@ -208,40 +219,39 @@ void BrownianMotion::fill(Block& block, std::size_t level) noexcept {
 }
 
 double BrownianMotion::parentIncrement(std::size_t level, std::int64_t cell) noexcept {
-    const Sums& parent = sumsOf<1>(level - 1, cell >> logCellsPerBlock);
+    const Sums& parent = sumsOf(level - 1, cell >> logCellsPerBlock, 1);
     const std::size_t place = static_cast<std::size_t>(cell) % cellsPerBlock;
     return parent[place + 1] - parent[place];
 }
 
-void SurfaceNoise::readCells(std::uint64_t surface, const SurfacePath& path, std::size_t firstSample,
-                             std::span<float> slots) noexcept {
-    constexpr auto slotsPerSample = static_cast<double>(noiseSlotsPerSample);
+void SurfaceNoise::readCells(std::uint64_t surface, const Vector& to, std::span<float> slots) noexcept {
     const auto slotCount = static_cast<double>(slots.size());
-    // The filter is centred on the middle of a sample, and the path is given at its beginning.
-    const double firstSlot =
-        (0.5 - static_cast<double>(noiseReachSamples) + static_cast<double>(firstSample)) * slotsPerSample;
-    std::array<double, directionCount> steps{};
+    const Vector from = std::exchange(readMetres_, to);
+    Vector slotMetres{};
+    for (std::size_t axis = 0; axis < slotMetres.size(); ++axis) {
+        slotMetres[axis] = (to[axis] - from[axis]) / slotCount;
+    }
+    std::array<double, directionCount> ways{};
     double variance = 0.0;
     for (std::size_t k = 0; k < directionCount; ++k) {
-        steps[k] = dot(path.stepMetres, directions[k]);
-        variance += std::abs(steps[k]);
+        ways[k] = dot(slotMetres, directions[k]);
+        variance += std::abs(ways[k]) * slotsPerSample;
     }
     const double scale = 1.0 / std::sqrt(variance);
     for (std::size_t k = 0; k < directionCount; ++k) {
-        const Grid grid(std::abs(steps[k]));
-        const double cellsPerSlot = steps[k] * grid.cellsPerMetre() / slotsPerSample;
+        const Grid grid(std::abs(ways[k]) * slotsPerSample);
+        const double cellsPerSlot = ways[k] * grid.cellsPerMetre();
         const double slotsPerCell = 1.0 / cellsPerSlot;
         // A path across the direction passes no cell.
         if (!(std::abs(slotsPerCell) < 1e6)) {
             continue;
         }
-        const double start = dot(path.startMetres, directions[k]) * grid.cellsPerMetre() + firstSlot * cellsPerSlot;
-        const double sheetsPerSlot = dot(path.stepMetres, across[k]) * (sheetsPerMetre / slotsPerSample);
-        const double sheet = dot(path.startMetres, across[k]) * sheetsPerMetre + 0.5 + firstSlot * sheetsPerSlot;
+        const double sheetsPerSlot = dot(slotMetres, across[k]) * sheetsPerMetre;
+        const double sheet = dot(from, across[k]) * sheetsPerMetre + 0.5;
         // Counted from below the lowest, so that truncation is the floor.
         const std::int64_t lowest = roundedUp(sheet + std::min(0.0, sheetsPerSlot * slotCount)) - 1;
-        const Crossing crossing{.start = start,
-                                .end = start + slotCount * cellsPerSlot,
+        const Crossing crossing{.start = dot(from, directions[k]) * grid.cellsPerMetre(),
+                                .end = dot(to, directions[k]) * grid.cellsPerMetre(),
                                 .slotsPerCell = slotsPerCell,
                                 .lowestSheet = lowest,
                                 .sheet = sheet - static_cast<double>(lowest),
@@ -251,17 +261,53 @@ void SurfaceNoise::readCells(std::uint64_t surface, const SurfacePath& path, std
         if (const std::uint64_t key = mixed(surface * directionCount + k); motion.key() != key) {
             motion = BrownianMotion(key);
         }
-        switch (grid.stride) {
-            case 4:
-                addCells<4>(motion, grid.level, crossing, scale, slots);
-                break;
-            case 2:
-                addCells<2>(motion, grid.level, crossing, scale, slots);
-                break;
-            default:
-                addCells<1>(motion, grid.level, crossing, scale, slots);
-                break;
+        addCells(motion, grid, crossing, scale, slots);
+    }
+}
+
+void SurfaceNoise::readAlong(std::uint64_t surface, const SurfacePath& path, std::span<float> slots) noexcept {
+    // The filter is centred on the middle of a sample, and the path is given at its beginning.
+    constexpr double aheadSamples = static_cast<double>(noiseReachSamples) - 0.5;
+    const auto placeAfter = [&](double samples) {
+        Vector place{};
+        for (std::size_t axis = 0; axis < place.size(); ++axis) {
+            place[axis] = path.startMetres[axis] + path.stepMetres[axis] * samples + lagMetres_[axis];
         }
+        return place;
+    };
+    if (!isPrimed_) {
+        lagSamples_ = 0;
+        lagMetres_ = {};
+        readMetres_ = placeAfter(-aheadSamples);
+    } else if (isNewPath_) {
+        lagMetres_ = {};
+        const Vector wanted = placeAfter(aheadSamples);
+        std::ranges::transform(readMetres_, wanted, lagMetres_.begin(), std::minus());
+        const double wayOfStep = dot(path.stepMetres, path.stepMetres);
+        lagSamples_ = noiseReachSamples;
+        if (!(dot(lagMetres_, lagMetres_) <= longestLagSamples * longestLagSamples * wayOfStep)) {
+            lagSamples_ = 0;
+            lagMetres_ = {};
+            readMetres_ = wanted;
+        }
+    }
+    isNewPath_ = false;
+
+    const std::size_t samples = slots.size() / noiseSlotsPerSample;
+    // Where the first slot begins.
+    const double first = isPrimed_ ? aheadSamples : -aheadSamples;
+    isPrimed_ = true;
+    for (std::size_t done = 0; done < samples;) {
+        std::size_t piece = samples - done;
+        if (lagSamples_ > 0) {
+            piece = std::min(piece, lagSamples_);
+            const double kept = static_cast<double>(lagSamples_ - piece) / static_cast<double>(lagSamples_);
+            std::ranges::for_each(lagMetres_, [kept](double& metres) { metres *= kept; });
+            lagSamples_ -= piece;
+        }
+        readCells(surface, placeAfter(first + static_cast<double>(done + piece)),
+                  slots.subspan(done * noiseSlotsPerSample, piece * noiseSlotsPerSample));
+        done += piece;
     }
 }
 
@@ -282,8 +328,7 @@ void SurfaceNoise::next(std::uint64_t surface, const SurfacePath& path, const No
     const std::size_t known = isPrimed_ ? memorySamples : 0;
     const auto slots = passage.subspan(known * noiseSlotsPerSample);
     std::ranges::fill(slots, 0.0F);
-    readCells(surface, path, known, slots);
-    isPrimed_ = true;
+    readAlong(surface, path, slots);
 
     for (std::size_t n = 0; n < noise.size(); ++n) {
         const float* const passed = passage.data() + n * noiseSlotsPerSample;

@@ -67,8 +67,7 @@ public:
 
     [[nodiscard]] std::uint64_t key() const noexcept { return key_; }
     /// Sums of the increments of a block's cells, known at multiples of `stride` (1, 2 or 4) cells.
-    template <std::size_t stride>
-    [[nodiscard]] const Sums& sumsOf(std::size_t level, std::int64_t block) noexcept;
+    [[nodiscard]] const Sums& sumsOf(std::size_t level, std::int64_t block, std::size_t stride) noexcept;
 
 private:
     struct Block {
@@ -78,7 +77,6 @@ private:
         Sums sums{};
     };
 
-    template <std::size_t stride>
     void fill(Block& block, std::size_t level) noexcept;
     [[nodiscard]] double parentIncrement(std::size_t level, std::int64_t cell) noexcept;
 
@@ -101,7 +99,9 @@ private:
 /// every platform gets the same bytes.
 ///
 /// The filter reaches 7.5 samples ahead: cells are read that long before the tip is there, on the way that it then has.
-/// A plain value: a copy goes on as the original does. Allocates nothing.
+/// On another path, reading goes on from where it is and meets the path after 8 samples, so that no cell is met twice
+/// or passed over; where it is more than 4 samples' way off (a turn, a jump), it goes on from the path. A plain value:
+/// a copy goes on as the original does. Allocates nothing.
 class SurfaceNoise {
 public:
     /// Writes at most `pieceSamples` numbers along a path, whose start is the place of the first. Where a sample's way
@@ -109,6 +109,8 @@ public:
     /// `otherwise`.
     void next(std::uint64_t surface, const SurfacePath& path, const NoiseKey& otherwise,
               std::span<float> noise) noexcept;
+    /// The next path is not the one of before.
+    void follow() noexcept { isNewPath_ = true; }
     /// Goes on by that many numbers that nobody needs.
     void skip(std::size_t samples) noexcept;
 
@@ -118,13 +120,21 @@ private:
     static constexpr std::size_t memorySamples = 2 * noiseReachSamples - 1;
     static constexpr std::size_t memorySlots = memorySamples * noiseSlotsPerSample;
 
-    /// Adds the cells of samples from the `firstSample`th on to `slots`, which begins with that sample's first.
-    void readCells(std::uint64_t surface, const SurfacePath& path, std::size_t firstSample,
-                   std::span<float> slots) noexcept;
+    using Vector = std::array<double, 3>;
+
+    /// Adds the cells that are passed between the last place read and that one to the slots.
+    void readCells(std::uint64_t surface, const Vector& to, std::span<float> slots) noexcept;
+    /// Reads the cells along a path, ahead of it, from the first slot of which nothing is known.
+    void readAlong(std::uint64_t surface, const SurfacePath& path, std::span<float> slots) noexcept;
 
     std::array<BrownianMotion, directionCount> motions_{};
     /// The increments of the cells, summed in slots of the time at which the path passes their middles.
     std::array<float, memorySlots + pieceSamples * noiseSlotsPerSample> passage_{};
+    Vector readMetres_{};
+    /// What the last place read is beside the path, and the samples over which it will have come to it.
+    Vector lagMetres_{};
+    std::size_t lagSamples_ = 0;
+    bool isNewPath_ = false;
     std::uint64_t numbers_ = 0;
     /// The memory holds the cells before the next sample.
     bool isPrimed_ = false;

@@ -25,8 +25,13 @@ void Synthesis::begin(std::span<const float, filterOrder> past) noexcept {
 
 void Synthesis::limitPast() noexcept {
     constexpr auto limit = static_cast<double>(skeletonLimit);
+    double largest = 0.0;
     for (double& sample : past_) {
-        sample = std::isnan(sample) ? 0.0 : std::clamp(sample, -limit, limit);
+        sample = std::isnan(sample) ? 0.0 : std::clamp(sample, -1e100, 1e100);
+        largest = std::max(largest, std::fabs(sample));
+    }
+    if (largest > limit) {
+        std::ranges::for_each(past_, [scale = limit / largest](double& sample) { sample *= scale; });
     }
 }
 

@@ -154,6 +154,7 @@ TEST_F(StreamTest, APastThatWouldRingLouderInAnotherFilterIsLeftAcrossASpliceAnd
     const auto squaresAfterAChange = [&](std::size_t first) {
         double squares = 0.0;
         for (std::uint64_t trial = 0; trial < 400; ++trial) {
+            testContact.surface = trial;
             testContact.skeleton.filter = filters[0];
             Stream stream;
             stream.begin(testContact, 0.0, {.seed = trial});
@@ -333,9 +334,9 @@ TEST_F(StreamTest, LevelAndKurtosisDoNotDependOnHowOftenStatesCome) {
     };
     const auto [seldomDb, seldomKurtosis] = measuresOf(100);
     const auto [oftenDb, oftenKurtosis] = measuresOf(4);
-    // A state of 50 ms before lags behind the speed: .11 dB.
-    EXPECT_NEAR(oftenDb, seldomDb, 0.15);
-    EXPECT_NEAR(oftenKurtosis / seldomKurtosis, 1.0, 0.08) << seldomKurtosis;
+    EXPECT_NEAR(oftenDb, seldomDb, 0.05);
+    // Two strokes whose noise is equal in all but its numbers differ by as much.
+    EXPECT_NEAR(oftenKurtosis / seldomKurtosis, 1.0, 0.2) << seldomKurtosis;
     EXPECT_GT(seldomKurtosis, 3.5) << "without impulses the test says little";
 }
 

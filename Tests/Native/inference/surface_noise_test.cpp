@@ -112,6 +112,64 @@ TEST_P(SpeedTest, AWayBackFindsTheNoiseOfTheWayThere) {
 
 INSTANTIATE_TEST_SUITE_P(FromCreepingToThrowing, SpeedTest, ::testing::Values(0.001, 0.01, 0.0611, 0.128, 1.0, 20.0));
 
+/// Of a stroke between 40 and 160 mm/s, forth and back in two seconds, that is told every so many samples.
+std::vector<float> changingStroke(std::size_t samplesPerState, std::uint64_t surface) {
+    SurfaceNoise surfaceNoise;
+    std::vector<float> noise;
+    std::vector<float> state(samplesPerState);
+    while (noise.size() < 240'000) {
+        const auto sample = static_cast<double>(noise.size());
+        const double turn = std::numbers::pi * sample / 2000.0;
+        surfaceNoise.follow();
+        surfaceNoise.next(surface,
+                          {.startMetres = {5e-5 * sample - 0.06 / std::numbers::pi * std::sin(turn), 0.01, 0.0},
+                           .stepMetres = {(0.1 - 0.06 * std::cos(turn)) / 2000.0, 0.0, 0.0}},
+                          {}, state);
+        noise.insert(noise.end(), state.begin(), state.end());
+    }
+    return noise;
+}
+
+TEST(SurfaceNoiseTest, AStrokeOfChangingSpeedHasTheLevelAndTheTailsOfNormalNoiseHoweverOftenItIsTold) {
+    for (const std::size_t samplesPerState : {4U, 17U, 28U}) {
+        double power = 0.0;
+        double beyond = 0.0;
+        constexpr std::uint64_t surfaces = 16;
+        for (std::uint64_t surface = 0; surface < surfaces; ++surface) {
+            const std::vector<float> noise = changingStroke(samplesPerState, surface);
+            const auto count = static_cast<double>(noise.size()) * surfaces;
+            power += mean(noise, 2) / surfaces;
+            beyond +=
+                static_cast<double>(std::ranges::count_if(noise, [](float z) { return std::abs(z) > 3.5F; })) / count;
+        }
+        EXPECT_NEAR(power, 1.0, 0.005) << samplesPerState;
+        EXPECT_NEAR(beyond, std::erfc(3.5 / std::numbers::sqrt2), 0.09 * beyond) << samplesPerState;
+    }
+}
+
+TEST(SurfaceNoiseTest, AnotherPathIsMetWithinEightSamplesAndATurnAtOnce) {
+    SurfacePath path{.startMetres = {0.01, 0.02, 0.0}, .stepMetres = {5e-5, 0.0, 0.0}};
+    for (const double change : {0.7, 1.2, -1.0}) {
+        SurfaceNoise goingOn;
+        std::array<float, 20> noise{};
+        goingOn.next(object, path, {}, noise);
+        SurfacePath other = path;
+        other.startMetres[0] += 20.0 * path.stepMetres[0];
+        other.stepMetres[0] *= change;
+        goingOn.follow();
+        std::array<float, 32> found{};
+        goingOn.next(object, other, {}, found);
+        SurfaceNoise fresh;
+        std::array<float, 32> wanted{};
+        fresh.next(object, other, {}, wanted);
+        // The filter reaches over 15 samples more.
+        const std::size_t met = change < 0.0 ? 15 : 23;
+        for (std::size_t n = met; n < found.size(); ++n) {
+            EXPECT_NEAR(found[n], wanted[n], 1e-3F) << change << ", " << n;
+        }
+    }
+}
+
 /// The mean of `group` samples each: the noise over longer pieces of the way.
 std::vector<float> coarser(const std::vector<float>& noise, std::size_t group) {
     std::vector<float> sums(noise.size() / group);
