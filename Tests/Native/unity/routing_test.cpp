@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <array>
+#include <list>
 #include <optional>
 
 namespace haptoflow::unity::testing {
@@ -195,7 +196,13 @@ TEST_F(SeveralEffectsTest, AClosedVoiceFadesAndTheNextVoiceAtItsPlaceSounds) {
     EXPECT_LE(largestStepFrom(output.back(), end), usualStep) << "the effect plays the fade";
     EXPECT_GT(peak(end), 1e-3F);
     EXPECT_THAT(effect.process(frameOfAudio).samples, Each(0.0F));
-    second.emplace(runtime_, model_);
+    // Voices of the test before may have left lower places meanwhile.
+    std::list<SteppedVoice> lower;
+    for (second.emplace(runtime_, model_); second->place() != place && lower.size() < 8;) {
+        second.reset();
+        lower.emplace_back(runtime_, model_);
+        second.emplace(runtime_, model_);
+    }
     ASSERT_EQ(second->place(), place);
     SteppedVoice same(runtime_, model_);
     EXPECT_EQ(play(*second, effect, 5).channel(0), reference(same, 5))
