@@ -82,13 +82,13 @@ void BoundsTree::visitNear(const glm::dvec3& point, double squaredLimit, Conside
             limit = consider(order_[node.start + entry]);
         }
         if (node.count == 0) {
-            std::uint32_t near = index + 1;
-            std::uint32_t far = node.start;
-            if (nodes_[far].bounds.squaredDistanceTo(point) < nodes_[near].bounds.squaredDistanceTo(point)) {
-                std::swap(near, far);
+            std::uint32_t nearer = index + 1;
+            std::uint32_t farther = node.start;
+            if (nodes_[farther].bounds.squaredDistanceTo(point) < nodes_[nearer].bounds.squaredDistanceTo(point)) {
+                std::swap(nearer, farther);
             }
-            waiting[count++] = far;
-            waiting[count++] = near;
+            waiting[count++] = farther;
+            waiting[count++] = nearer;
         }
     }
 }
