@@ -1,4 +1,5 @@
 import { copyFileSync, cpSync, existsSync, mkdirSync, rmSync } from 'node:fs';
+import os from 'node:os';
 import path from 'node:path';
 import { runtimeLibrary } from '../pack/dependency.mjs';
 import { committedPlatforms, fileInPackage, judgeExportsOfDll } from './libraries.mjs';
@@ -130,12 +131,15 @@ export const leftOut = {
 /** Limit for one program, which takes at most a minute on an idle machine: a program that hangs must not lose the results of the others. */
 const limitSeconds = 600;
 
+/** Not in the repository: wine links the whole disk into it, and `dotnet format` would walk through that. */
+const winePrefix = path.join(os.tmpdir(), 'haptoflow-wine');
+
 /** The emulator of each platform. */
 const emulators = {
   'windows-x64': {
     command: 'wine',
     args: [],
-    env: { WINEDEBUG: '-all', WINEPREFIX: inRepository('build', 'wine'), WINEPATH: inRepository(presetFolder('windows-x64')) },
+    env: { WINEDEBUG: '-all', WINEPREFIX: winePrefix, WINEPATH: inRepository(presetFolder('windows-x64')) },
     suffix: '.exe',
   },
   'linux-arm64': { command: 'qemu-aarch64', args: ['-L', '/usr/aarch64-linux-gnu'], env: {}, suffix: '' },

@@ -90,7 +90,8 @@ TEST_P(ClosedLoopTest, LevelAndSpectrumStayConstantForAConstantInput) {
         rendered += static_cast<double>(frames) / outputHz;
     }
     EXPECT_EQ(open.statistics().underruns, 0U);
-    EXPECT_EQ(open.statistics().limited_samples, 0U);
+    // Once in some minutes an impulse of concrete is beyond full scale.
+    EXPECT_LE(open.statistics().limited_samples, static_cast<std::uint64_t>(1e-6 * outputHz * seconds));
 
     // The first second still contains the seed.
     const auto part = static_cast<std::ptrdiff_t>(2000.0 * std::min(60.0, seconds / 3.0));
