@@ -15,7 +15,6 @@ const ofTheModelBefore = [
   'Documentation~/images/few-shot.png',
   'Documentation~/images/headset.png',
   'Documentation~/images/output-controller-waveform.png',
-  'Documentation~/not-proven.md',
   'Samples~/StylusTracing/StylusTracing.png',
   'Samples~/Workshop/Workshop.png',
   'Training/haptoflow_paper/results/few-shot.json',
