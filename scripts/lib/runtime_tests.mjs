@@ -91,7 +91,7 @@ export const leftOut = {
 
 const exceptions = (runner) => leftOut[runner].flatMap(({ tests }) => tests).map((name) => `-${name}`);
 
-/** Tests that load the library in git, compare its structs with C#'s, and play; of HaptoFlow.EditorTests. */
+/** Tests that load the library in git, compare its structs with C#'s, and play. Both programs, Mono's and the one compiled ahead of time, have them. */
 const testsOfCommitted = ['EveryStructOfTheHeaderIsComparedWithTheLibrary', 'AVoicePlaysAClipWithoutContactAndPlaysOnAfterItWasDisposed'];
 
 /** The folder of the library in git for this machine. */

@@ -95,7 +95,7 @@ private:
     std::size_t correctedSamplesLeft_ = 0;
     float levelMps2_ = lowestLevelMps2;
     float rampedLevelMps2_ = lowestLevelMps2;
-    // What a sample of the ramp multiplies and adds.
+    // Each level of the ramp is the one before times the factor, plus the step.
     float levelFactor_ = 1.0F;
     float levelStepMps2_ = 0.0F;
     std::size_t levelSamplesLeft_ = 0;

@@ -16,7 +16,7 @@ using Vector = std::array<double, 3>;
 
 constexpr std::size_t directionCount = 12;
 constexpr auto slotsPerSample = static_cast<double>(noiseSlotsPerSample);
-// Half of the samples over which it is made up for: reading never stands still.
+// A lag is made up for within 8 samples. It is at most half of their way, so that reading always moves forward.
 constexpr double longestLagSamples = 4.0;
 constexpr int logCellsPerBlock = 3;
 // A longer coordinate would leave the integers that a double holds exactly.
@@ -72,8 +72,9 @@ constexpr std::array<Level, BrownianMotion::levelCount> levels{{
     {0x1p-25, 0x1p-11 * rootOfEighth},
 }};
 
-/// Of mean 0 and variance 1: the ones among a byte's bits, which are nearly normal. Impulses come where the noise
-/// exceeds three deviations, so its tails count: uniform bytes leave a fifth of those beyond 3.5 out.
+/// A number of mean 0 and variance 1 for each random byte: the count of its one bits, whose distribution is nearly
+/// normal. Large values decide how often impulses come, since an impulse comes where the noise exceeds three
+/// deviations; with bytes as uniform numbers, a fifth of the values beyond 3.5 deviations would be missing.
 constexpr std::array<double, 256> numbersOfBytes = [] {
     std::array<double, 256> numbers{};
     for (std::size_t byte = 0; byte < numbers.size(); ++byte) {

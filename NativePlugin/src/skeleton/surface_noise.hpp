@@ -99,9 +99,11 @@ private:
 /// every platform gets the same bytes.
 ///
 /// The filter reaches 7.5 samples ahead: cells are read that long before the tip is there, on the way that it then has.
-/// On another path, reading goes on from where it is and meets the path after 8 samples, so that no cell is met twice
-/// or passed over; where it is more than 4 samples' way off (a turn, a jump), it goes on from the path. A plain value:
-/// a copy goes on as the original does. Allocates nothing.
+/// When the path changes, the new one does not begin where the cells were last read. Reading goes on from there and
+/// comes to the new path within 8 samples, so that no cell is read twice or left out. If the two places are more than 4
+/// samples' way apart (the tip turned back or jumped), reading begins at once on the new path.
+///
+/// A plain value: a copy goes on as the original does. Allocates nothing.
 class SurfaceNoise {
 public:
     /// Writes at most `pieceSamples` numbers along a path, whose start is the place of the first. Where a sample's way
@@ -109,7 +111,7 @@ public:
     /// `otherwise`.
     void next(std::uint64_t surface, const SurfacePath& path, const NoiseKey& otherwise,
               std::span<float> noise) noexcept;
-    /// The next path is not the one of before.
+    /// Call it when the path given to `next` changes.
     void follow() noexcept { isNewPath_ = true; }
     /// Goes on by that many numbers that nobody needs.
     void skip(std::size_t samples) noexcept;
@@ -122,7 +124,7 @@ private:
 
     using Vector = std::array<double, 3>;
 
-    /// Adds the cells that are passed between the last place read and that one to the slots.
+    /// Adds to the slots the cells that lie between the last place read and `to`.
     void readCells(std::uint64_t surface, const Vector& to, std::span<float> slots) noexcept;
     /// Reads the cells along a path, ahead of it, from the first slot of which nothing is known.
     void readAlong(std::uint64_t surface, const SurfacePath& path, std::span<float> slots) noexcept;
@@ -131,7 +133,7 @@ private:
     /// The increments of the cells, summed in slots of the time at which the path passes their middles.
     std::array<float, memorySlots + pieceSamples * noiseSlotsPerSample> passage_{};
     Vector readMetres_{};
-    /// What the last place read is beside the path, and the samples over which it will have come to it.
+    /// From the path to the last place read, and the number of samples in which reading will have come to the path.
     Vector lagMetres_{};
     std::size_t lagSamples_ = 0;
     bool isNewPath_ = false;

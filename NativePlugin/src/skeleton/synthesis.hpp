@@ -18,8 +18,8 @@ public:
     /// Begins with this past in unit scale, limited to +-64.
     void begin(std::span<const float, filterOrder> past) noexcept;
     /// Scales a past beyond +-64 down to it. Before each change of the filter, it keeps the past bounded for every
-    /// sequence of filters. Its samples are not limited one by one: what a filter makes of such a past may grow again
-    /// and never end.
+    /// sequence of filters. All its samples are scaled alike, because limiting each by itself gives another past, whose
+    /// response may grow to the limit again and never end.
     void limitPast() noexcept;
     /// Whether the past can go on in another filter. One that it would make ring 3 dB louder than the filter of before
     /// (a label's beside that of a rougher one) needs a past of its own.

@@ -90,7 +90,7 @@ TEST_P(ClosedLoopTest, LevelAndSpectrumStayConstantForAConstantInput) {
         rendered += static_cast<double>(frames) / outputHz;
     }
     EXPECT_EQ(open.statistics().underruns, 0U);
-    // Once in some minutes an impulse of concrete is beyond full scale.
+    // The limiter is for exceptions: in ten minutes, one impulse of concrete exceeded full scale, in two samples.
     EXPECT_LE(open.statistics().limited_samples, static_cast<std::uint64_t>(1e-6 * outputHz * seconds));
 
     // The first second still contains the seed.

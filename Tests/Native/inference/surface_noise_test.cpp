@@ -112,7 +112,8 @@ TEST_P(SpeedTest, AWayBackFindsTheNoiseOfTheWayThere) {
 
 INSTANTIATE_TEST_SUITE_P(FromCreepingToThrowing, SpeedTest, ::testing::Values(0.001, 0.01, 0.0611, 0.128, 1.0, 20.0));
 
-/// Of a stroke between 40 and 160 mm/s, forth and back in two seconds, that is told every so many samples.
+/// The noise of a stroke whose speed goes from 40 to 160 mm/s and back every two seconds. A new state, with the speed
+/// of then, comes every `samplesPerState` samples.
 std::vector<float> changingStroke(std::size_t samplesPerState, std::uint64_t surface) {
     SurfaceNoise surfaceNoise;
     std::vector<float> noise;
@@ -162,7 +163,8 @@ TEST(SurfaceNoiseTest, AnotherPathIsMetWithinEightSamplesAndATurnAtOnce) {
         SurfaceNoise fresh;
         std::array<float, 32> wanted{};
         fresh.next(object, other, {}, wanted);
-        // The filter reaches over 15 samples more.
+        // The path is met after 8 samples, or at once after a turn. What was read before leaves the filter 15 samples
+        // later.
         const std::size_t met = change < 0.0 ? 15 : 23;
         for (std::size_t n = met; n < found.size(); ++n) {
             EXPECT_NEAR(found[n], wanted[n], 1e-3F) << change << ", " << n;

@@ -292,7 +292,8 @@ def without_waves(rates_hz: Tensor) -> Tensor:
 
 
 def weakening(change: Tensor, limit: float) -> Tensor:
-    """What divides a weight where something changes within a window: 1 without a change, 2 at the limit."""
+    """The number by which the weight of a window is divided: 1 where nothing changes in it, 2 where the change is as large
+    as the limit. What a window with a change sounds like belongs to no single condition."""
     return 1.0 + (change / limit).pow(4)
 
 
