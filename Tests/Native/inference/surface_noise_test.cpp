@@ -90,7 +90,7 @@ TEST_P(SpeedTest, StrokesInAnyDirectionHaveWhiteStandardNormalNoise) {
                 sums.push_back(static_cast<float>(sum / std::sqrt(static_cast<double>(length))));
                 powers.push_back(static_cast<float>(power / static_cast<double>(length) - 1.0));
             }
-            const double blocks = static_cast<double>(sums.size());
+            const auto blocks = static_cast<double>(sums.size());
             EXPECT_NEAR(mean(sums, 2), 1.0, 5.0 * std::sqrt(2.0 / blocks)) << "sums of " << length;
             EXPECT_NEAR(mean(powers, 2) * static_cast<double>(length), 2.0, 0.2 + 10.0 * std::sqrt(2.0 / blocks))
                 << "powers of " << length;
