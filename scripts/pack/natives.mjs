@@ -4,7 +4,7 @@ import { androidPreset, buildAndroid, findNdk, rebuildAndroid } from '../lib/and
 import { buildNative, presetFolder } from '../lib/native_build.mjs';
 import { CommandError, inRepository } from '../lib/process.mjs';
 import { onDebian, setUp } from '../lib/setup.mjs';
-import { isNewerThan, neededGlibc, needsOf } from './binaries.mjs';
+import { isNewerThan, neededGlibc, needsLibrary } from './binaries.mjs';
 
 /** Where the package keeps its native libraries. */
 export const pluginsFolder = 'Runtime/Plugins';
@@ -39,7 +39,7 @@ const machoMachines = { 0x0100000c: 'arm64', 0x01000007: 'x86-64' };
 function kindOfElf(bytes) {
   const machine = elfMachines[bytes.readUInt16LE(18)];
   if (machine === undefined) return null;
-  return `${needsOf(bytes).libraries.includes('libc.so') ? 'android' : 'elf'}-${machine}`;
+  return `${needsLibrary(bytes, 'libc.so') ? 'android' : 'elf'}-${machine}`;
 }
 
 /** The format and processor of a library by its bytes, such as "elf-x86-64"; null for anything else. */
