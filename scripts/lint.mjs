@@ -2,7 +2,7 @@
 import { buildNative } from './lib/native_build.mjs';
 import { parsed, runMain } from './lib/process.mjs';
 import { setUp } from './lib/setup.mjs';
-import { changedFiles, checkCSharpFormat, checkContent, checkFormat, checkJson, checkNatives, checkPythonSyntax, checkScriptSyntax, checkThreadTags, checkTidy, checkWorkflows, repositoryFiles } from './lib/lint_checks.mjs';
+import { changedFiles, checkCSharpFormat, checkContent, checkFormat, checkJson, checkNatives, checkPythonSyntax, checkScriptSyntax, checkTidy, checkWorkflows, repositoryFiles } from './lib/lint_checks.mjs';
 
 const help = `usage: ./run lint [--all]
 
@@ -25,7 +25,6 @@ await runMain('lint', async (words) => {
     ['syntax of scripts', () => checkScriptSyntax(files)],
     ['workflows', () => checkWorkflows(files)],
     ['JSON', () => checkJson(files)],
-    ['thread tags of the C ABI', () => checkThreadTags(files)],
     ['content', () => checkContent(files)],
     ['native libraries in git', checkNatives],
   ];

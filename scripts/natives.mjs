@@ -28,7 +28,7 @@ await runMain('natives', async () => {
     await buildNative({ preset, targets: ['audioplugin_haptoflow'] });
     built.push({ platform, file: inRepository(presetFolder(preset), path.basename(platform.place)) });
   }
-  const complaints = built.flatMap(({ platform, file }) => complaintsOf(platform, readFileSync(file)));
+  const complaints = built.flatMap(({ platform, file }) => complaintsOf(platform, file));
   if (complaints.length > 0) throw new CommandError(`${complaints.join('\n')}\nnothing was changed`);
   for (const { platform, file } of built) {
     const place = fileInPackage(platform);

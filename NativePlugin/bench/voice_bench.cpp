@@ -5,7 +5,6 @@
 #include "effects/effect.hpp"
 #include "effects/relief_map.hpp"
 #include "engine/relief_table.hpp"
-#include "inference/segment_generator.hpp"
 
 #include <algorithm>
 #include <array>
@@ -344,27 +343,6 @@ namespace {
 
 constexpr int roundCount = 4;
 
-/// Counts the runs and requests of another generator.
-class CountingGenerator final : public inference::SegmentGenerator {
-public:
-    explicit CountingGenerator(std::unique_ptr<inference::SegmentGenerator> behind) : behind_(std::move(behind)) {}
-
-    void generate(std::span<const inference::SegmentRequest> requests, std::span<float> segments) override {
-        runs.fetch_add(1, std::memory_order_relaxed);
-        behind_->generate(requests, segments);
-    }
-    void levels(std::span<const inference::SegmentRequest> requests, std::span<float> levelsMps2) override {
-        runs.fetch_add(1, std::memory_order_relaxed);
-        behind_->levels(requests, levelsMps2);
-    }
-
-    /// Any thread may read these.
-    std::atomic<std::uint64_t> runs{0};
-
-private:
-    std::unique_ptr<inference::SegmentGenerator> behind_;
-};
-
 struct Busy {
     double cpuSeconds = 0.0;
     double wallSeconds = 0.0;
@@ -393,12 +371,8 @@ void pass(double seconds, Busy& busy, Render render, Update update) {
 }  // namespace
 
 nlohmann::ordered_json measureIdle(const Subjects& subjects, const BenchPlan& plan, const Advance& advance) {
-    auto counting = std::make_unique<CountingGenerator>(subjects.generator(*subjects.model, subjects.standard(), 1));
-    const CountingGenerator& counted = *counting;
-    const auto engine = subjects.engineWith(std::move(counting), true);
+    const auto engine = subjects.standardEngine(true);
     const auto voice = engine->addVoice(outputRateHz);
-    // Creating the engine runs the network for levels.
-    const std::uint64_t runsBefore = counted.runs;
     const std::uint64_t wakesBefore = engine->statistics().wakes;
     Busy idle;
     Busy reference;
@@ -412,7 +386,7 @@ nlohmann::ordered_json measureIdle(const Subjects& subjects, const BenchPlan& pl
         advance((round + 1.0) / roundCount);
     }
     return {{"idle",
-             {{"inferences", counted.runs - runsBefore},
+             {{"inferences", voice->channels.counters.inferences.load()},
               {"cpu_percent", idle.percent()},
               {"without_engine_cpu_percent", reference.percent()},
               {"ratio", ratioOf(idle.percent(), reference.percent())},

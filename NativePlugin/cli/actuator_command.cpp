@@ -146,10 +146,7 @@ void runIdentify(const IdentifyOptions& options) {
     const ExponentialSweep sweep = readSweep(options.sweepPath);
     const Recording recording = readRecording("the recording", options.recordingPath, options.channel);
     OutputFile file("-o", options.outputPath);
-    std::optional<OutputFile> plot;
-    if (!options.plotPath.empty()) {
-        plot.emplace("--plot", options.plotPath);
-    }
+    const OptionalOutput plot = optionalOutput("--plot", options.plotPath);
     // Paths may hold bytes that a profile may not.
     constexpr std::size_t maximumNameBytes = 128;
     constexpr std::size_t maximumPathBytes = 2048;
@@ -163,13 +160,9 @@ void runIdentify(const IdentifyOptions& options) {
     const std::string profile = found.profile.toJson();
     (void)ActuatorProfile::parse(profile);
     writeText(file, profile);
-    if (plot) {
-        writeText(*plot, plotOf(found));
-    }
+    writeText(plot, plotOf(found));
     file.commit();
-    if (plot) {
-        plot->commit();
-    }
+    commit(plot);
     describe(found.profile);
     constexpr double noticeablePercent = 10.0;
     if (found.profile.measurement->distortionPercent > noticeablePercent) {
@@ -247,10 +240,7 @@ void runShow(const ShowOptions& options) {
         throw UsageError("--model has no effect without --labels; give both or neither");
     }
     const ActuatorProfile profile = readActuatorProfile(options.profile);
-    std::optional<OutputFile> plot;
-    if (!options.plotPath.empty()) {
-        plot.emplace("--plot", options.plotPath);
-    }
+    const OptionalOutput plot = optionalOutput("--plot", options.plotPath);
     constexpr double shownRateHz = 48000.0;
     const effects::Compensation compensation(profile, shownRateHz, options.compensation);
     describe(profile);
@@ -258,10 +248,8 @@ void runShow(const ShowOptions& options) {
     if (options.labels) {
         describeLabels(options, profile);
     }
-    if (plot) {
-        writeText(*plot, plotOf(profile, compensation));
-        plot->commit();
-    }
+    writeText(plot, plotOf(profile, compensation));
+    commit(plot);
 }
 
 void addSweep(CLI::App& actuator) {

@@ -413,13 +413,9 @@ double distortionPercent(const std::vector<Reading>& readings) {
 }
 
 std::string provenanceOf(const IdentificationSettings& settings, const ExponentialSweep& sweep) {
-    std::string statement = "Measured by `haptoflow actuator identify` from " + settings.recordingName +
-                            ", an exponential sweep of " + fixedDecimals(sweep.fromHz, 0) + " to " +
-                            fixedDecimals(sweep.toHz, 0) + " Hz in " + fixedDecimals(sweep.seconds, 1) +
-                            " s at a level of " + fixedDecimals(sweep.level, 3) + '.';
-    std::ranges::replace_if(
-        statement, [](char letter) { return static_cast<unsigned char>(letter) < 0x20 || letter == 0x7F; }, ' ');
-    return statement;
+    return "Measured by `haptoflow actuator identify` from " + settings.recordingName + ", an exponential sweep of " +
+           fixedDecimals(sweep.fromHz, 0) + " to " + fixedDecimals(sweep.toHz, 0) + " Hz in " +
+           fixedDecimals(sweep.seconds, 1) + " s at a level of " + fixedDecimals(sweep.level, 3) + '.';
 }
 
 }  // namespace

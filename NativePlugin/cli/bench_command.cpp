@@ -56,10 +56,7 @@ nlohmann::ordered_json measure(const BenchCommandOptions& options, const bench::
 void runBench(const BenchCommandOptions& options) {
     const bench::SubjectFiles files = filesOf(options);
     // Checked before minutes of measuring: the file must be writable.
-    std::optional<OutputFile> output;
-    if (!options.outputPath.empty()) {
-        output.emplace("-o", options.outputPath);
-    }
+    const OptionalOutput output = optionalOutput("-o", options.outputPath);
     const nlohmann::ordered_json report = measure(options, files);
     const std::string text = report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
     if (options.json) {
@@ -67,10 +64,8 @@ void runBench(const BenchCommandOptions& options) {
     } else {
         bench::printTables(resultStream(), report);
     }
-    if (output) {
-        writeText(*output, text);
-        output->commit();
-    }
+    writeText(output, text);
+    commit(output);
 }
 
 }  // namespace

@@ -107,11 +107,9 @@ void inspectClip(const std::string& path, bool asJson, const std::string& pictur
         throw InputError(path + ": " + error.what());
     }
     const HapticClip& clip = read.clip;
-    if (!picturePath.empty()) {
-        OutputFile picture("--picture", picturePath);
-        writeText(picture, pictureOf(clip, clip.origin.title.empty() ? path : clip.origin.title));
-        picture.commit();
-    }
+    const OptionalOutput picture = optionalOutput("--picture", picturePath);
+    writeText(picture, pictureOf(clip, clip.origin.title.empty() ? path : clip.origin.title));
+    commit(picture);
     const auto [lowestHz, highestHz] = rangeOf(clip.frequencyHz);
     const double loudest = rangeOf(clip.amplitude).second;
     const effects::IntensityErrors motor = motorErrors(clips::waveOf(clip, effects::WaveFeatures::sampleRateHz));

@@ -173,31 +173,17 @@ void runLearn(const LearnOptions& options) {
     }
     const fs::path outputPath = options.outputPath.empty() ? defaultOutput(options) : fs::path(options.outputPath);
     OutputFile output("--output", outputPath);
-    std::optional<OutputFile> report;
-    std::optional<OutputFile> picture;
-    if (!options.picturePath.empty()) {
-        picture.emplace("--picture", options.picturePath);
-    }
-    if (!options.reportPath.empty()) {
-        report.emplace("--report", options.reportPath);
-    }
+    const OptionalOutput picture = optionalOutput("--picture", options.picturePath);
+    const OptionalOutput report = optionalOutput("--report", options.reportPath);
     try {
         const learning::LearntMaterial learnt =
             learning::learnMaterial(recording.view(), model, tier, openRuntimeFor(model.header().tiers), settings);
         writeText(output, learnt.materialJson);
-        if (report) {
-            writeText(*report, learning::reportJson(learnt.report));
-        }
-        if (picture) {
-            writeText(*picture, learningPicture(learnt.report, settings.name));
-        }
+        writeText(report, learning::reportJson(learnt.report));
+        writeText(picture, learningPicture(learnt.report, settings.name));
         output.commit();
-        if (report) {
-            report->commit();
-        }
-        if (picture) {
-            picture->commit();
-        }
+        commit(report);
+        commit(picture);
         tell(learnt.report, settings.name, outputPath);
     } catch (const recordings::RecordingUnusable& error) {
         throw InputError(options.recordingPath + ": " + error.what());

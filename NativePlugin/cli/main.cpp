@@ -1,6 +1,7 @@
 #include "commands.hpp"
 #include "headless/command_files.hpp"
 #include "messages.hpp"
+#include "option_values.hpp"
 
 #include "inference/load_limits.hpp"
 #include "model/model_error.hpp"
@@ -8,7 +9,6 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <exception>
 #include <iostream>
@@ -40,16 +40,14 @@ void requireSubcommand(const CLI::App& app, const std::vector<std::string>& word
         return;
     }
     std::vector<std::string> names;
-    std::string listed;
     for (const CLI::App* subcommand : subcommandsOf(app)) {
         names.push_back(subcommand->get_name());
-        listed += (listed.empty() ? "" : ", ") + names.back();
     }
-    const std::string meant = haptoflow::headless::likelyWord(words.front(), names);
+    const std::string meant = haptoflow::headless::suggestion(words.front(), names);
     const std::string place = app.get_parent() == nullptr ? "" : app.get_name() + ' ';
     throw haptoflow::cli::UsageError("there is no command '" + place + words.front() + "'; " +
-                                     (meant.empty() ? "" : haptoflow::headless::didYouMean(std::array{meant}) + " ") +
-                                     "The commands are " + listed);
+                                     (meant.empty() ? "" : meant + " ") + "The commands are " +
+                                     haptoflow::cli::listed(names));
 }
 
 /// Prints a suggestion for each misspelt option.
@@ -67,9 +65,8 @@ void suggestOptions(const CLI::App& app, const std::vector<std::string>& words) 
     for (const std::string& word : words) {
         const std::string option = word.substr(0, word.find('='));
         if (option.starts_with("--") && option.size() > 2 && std::ranges::find(known, option) == known.end()) {
-            const std::string meant = haptoflow::headless::likelyWord(option, known);
-            std::cerr << "There is no option '" << option << "'"
-                      << (meant.empty() ? "" : "; " + haptoflow::headless::didYouMean(std::array{meant})) << '\n';
+            const std::string meant = haptoflow::headless::suggestion(option, known);
+            std::cerr << "There is no option '" << option << "'" << (meant.empty() ? "" : "; " + meant) << '\n';
         }
     }
 }

@@ -15,6 +15,8 @@
 #include <sstream>
 #include <utility>
 
+#include <unistd.h>
+
 namespace haptoflow::cli {
 
 std::string fixedDecimals(double value, int digits) {
@@ -54,11 +56,6 @@ std::ostream& resultStream() {
     return headless::isStandardOutputTaken() ? std::cerr : std::cout;
 }
 
-}  // namespace haptoflow::cli
-
-#include <unistd.h>
-
-namespace haptoflow::cli {
 ProgressBar progressLines(std::string_view command, std::function<double()> clockSeconds,
                           std::function<void(const std::string&)> say) {
     constexpr double betweenLinesSeconds = 10.0;

@@ -8,7 +8,6 @@
 #include "recordings/table_rows.hpp"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cstdlib>
 #include <optional>
@@ -183,6 +182,14 @@ std::shared_ptr<const inference::Runtime> openRuntimeFor(std::span<const model::
     return std::ranges::any_of(tiers, &model::Tier::needsOnnxRuntime) ? openRuntime() : nullptr;
 }
 
+std::string listed(std::span<const std::string> words) {
+    std::string text;
+    for (const std::string& word : words) {
+        text += (text.empty() ? "" : ", ") + word;
+    }
+    return text;
+}
+
 const model::Tier& chooseTier(const model::ModelFile& model, const std::string& quality) {
     if (quality.empty()) {
         return model.header().tiers[model.header().defaultTier];
@@ -191,14 +198,10 @@ const model::Tier& chooseTier(const model::ModelFile& model, const std::string& 
         return *tier;
     }
     std::vector<std::string> tiers;
-    std::string listed;
-    for (const model::Tier& tier : model.header().tiers) {
-        tiers.push_back(tier.name);
-        listed += (listed.empty() ? "" : ", ") + tier.name;
-    }
-    const std::string meant = headless::likelyWord(quality, tiers);
-    throw UsageError("--quality " + quality + ": " +
-                     (meant.empty() ? "" : headless::didYouMean(std::array{meant}) + " ") + "This model has " + listed);
+    std::ranges::transform(model.header().tiers, std::back_inserter(tiers), &model::Tier::name);
+    const std::string meant = headless::suggestion(quality, tiers);
+    throw UsageError("--quality " + quality + ": " + (meant.empty() ? "" : meant + " ") + "This model has " +
+                     listed(tiers));
 }
 
 }  // namespace haptoflow::cli

@@ -41,6 +41,9 @@ namespace haptoflow::cli {
 /// Reads a model; errors become InputError.
 [[nodiscard]] model::ModelFile readModel(const std::filesystem::path& path);
 
+/// How the words of a sentence are listed: "a, b".
+[[nodiscard]] std::string listed(std::span<const std::string> words);
+
 /// The tier of this name; the default tier for an empty one. Throws UsageError that lists the model's.
 [[nodiscard]] const model::Tier& chooseTier(const model::ModelFile& model, const std::string& quality);
 

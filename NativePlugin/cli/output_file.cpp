@@ -171,6 +171,22 @@ void writeText(const OutputFile& file, const std::string& text) {
     }
 }
 
+OptionalOutput optionalOutput(const std::string& role, const fs::path& path) {
+    return path.empty() ? nullptr : std::make_unique<OutputFile>(role, path);
+}
+
+void writeText(const OptionalOutput& file, const std::string& text) {
+    if (file) {
+        writeText(*file, text);
+    }
+}
+
+void commit(const OptionalOutput& file) {
+    if (file) {
+        file->commit();
+    }
+}
+
 void requireWavName(const std::string& role, const fs::path& path) {
     const std::string ending = path.extension().string();
     if (ending.empty() || recordings::endingOf(path) == ".wav" || isSpecial(path)) {

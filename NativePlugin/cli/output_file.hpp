@@ -42,6 +42,12 @@ private:
 /// Writes the whole text to the partial file; does not commit. Throws InputError that names the path.
 void writeText(const OutputFile& file, const std::string& text);
 
+/// An output that an option asks for: there is none where its path is empty, and the functions then do nothing.
+using OptionalOutput = std::unique_ptr<OutputFile>;
+[[nodiscard]] OptionalOutput optionalOutput(const std::string& role, const std::filesystem::path& path);
+void writeText(const OptionalOutput& file, const std::string& text);
+void commit(const OptionalOutput& file);
+
 /// Throws UsageError that suggests a name if the extension of a path is not ".wav". Devices, pipes, empty paths and
 /// names without an extension are accepted.
 void requireWavName(const std::string& role, const std::filesystem::path& path);

@@ -61,27 +61,18 @@ struct RenderOptions {
     }
 };
 
-const std::map<std::string, effects::EffectKind>& effectNames() {
-    static const std::map<std::string, effects::EffectKind> names{{"texture", effects::EffectKind::texture},
-                                                                  {"impact", effects::EffectKind::impact},
-                                                                  {"edge", effects::EffectKind::edge}};
-    return names;
-}
-
 /// The effects that every surface requests: the texture by default.
 effects::EffectMask requestedEffects(const std::vector<std::string>& names) {
-    effects::EffectMask mask = names.empty() ? effects::maskOf(effects::EffectKind::texture) : 0U;
+    static const std::map<std::string, effects::EffectMask> masks{
+        {"none", 0U},
+        {"texture", effects::maskOf(effects::EffectKind::texture)},
+        {"impact", effects::maskOf(effects::EffectKind::impact)},
+        {"edge", effects::maskOf(effects::EffectKind::edge)}};
+    effects::EffectMask mask = names.empty() ? masks.at("texture") : 0U;
     for (const std::string& name : names) {
-        mask |= name == "none" ? 0U : effects::maskOf(effectNames().at(name));
+        mask |= masks.at(name);
     }
     return mask;
-}
-
-const std::map<std::string, inference::SolverKind>& solverNames() {
-    static const std::map<std::string, inference::SolverKind> names{{"euler", inference::SolverKind::euler},
-                                                                    {"midpoint", inference::SolverKind::midpoint},
-                                                                    {"heun", inference::SolverKind::heun}};
-    return names;
 }
 
 /// The solver of the options, if the tier can use it.
@@ -98,7 +89,9 @@ inference::SolverSettings chooseSolver(const model::Tier& tier, const std::strin
         throw UsageError("--solver " + solver + " has no effect on the tier '" + tier.name +
                          "', which is always stepped by euler: did you mean --solver euler?");
     }
-    return {.kind = solverNames().at(solver), .steps = *steps};
+    constexpr std::array kinds{inference::SolverKind::euler, inference::SolverKind::midpoint,
+                               inference::SolverKind::heun};
+    return {.kind = *std::ranges::find(kinds, solver, model::solverName), .steps = *steps};
 }
 
 /// The number of touch-downs when every sample of the stroke is processed in addition to the frames: a tap may begin
@@ -142,30 +135,25 @@ std::vector<std::string> labelsIn(const headless::Scene& scene) {
 /// The files of a render: they are written while it runs and appear when all of them are complete.
 class RenderFiles final : public engine::OfflineSink {
 public:
-    explicit RenderFiles(const RenderOptions& options) : fullScaleMps2_(options.engine.fullScaleMps2) {
-        if (!options.outputPath.empty()) {
-            wav_.emplace("-o", options.outputPath);
+    explicit RenderFiles(const RenderOptions& options)
+        : wav_(optionalOutput("-o", options.outputPath)),
+          waveform_(optionalOutput("--waveform", options.waveformPath)),
+          report_(optionalOutput("--report", options.reportPath)),
+          parametric_(optionalOutput("-o", options.parametricPath)),
+          table_(optionalOutput("-o", options.tablePath)),
+          fullScaleMps2_(options.engine.fullScaleMps2) {
+        if (wav_) {
             wavWriter_.emplace(wav_->partial(), static_cast<int>(options.engine.outputRateHz), options.outputPath);
         }
-        if (!options.waveformPath.empty()) {
-            waveform_.emplace("--waveform", options.waveformPath);
+        if (waveform_) {
             waveformWriter_.emplace(waveform_->partial(), static_cast<int>(inference::waveformRateHz),
                                     options.waveformPath);
-        }
-        if (!options.reportPath.empty()) {
-            report_.emplace("--report", options.reportPath);
         }
         if (options.needsFrames()) {
             frames_.emplace(options.engine.outputRateHz);
         }
-        if (!options.parametricPath.empty()) {
-            parametric_.emplace("-o", options.parametricPath);
-        }
-        if (!options.tablePath.empty()) {
-            table_.emplace("-o", options.tablePath);
-        }
         for (const std::string& path : options.clipPaths) {
-            clips_.push_back(std::make_unique<OutputFile>("-o", path));
+            clips_.push_back(optionalOutput("-o", path));
         }
     }
 
@@ -209,32 +197,28 @@ public:
         if (waveformWriter_) {
             waveformWriter_->close();
         }
-        if (report_) {
-            writeText(*report_, report);
-        }
+        writeText(report_, report);
         if (parametric_) {
-            writeText(*parametric_, frames_->toJson());
+            writeText(parametric_, frames_->toJson());
         }
         if (table_) {
-            writeText(*table_, frames_->toCsv());
+            writeText(table_, frames_->toCsv());
         }
-        for (std::optional<OutputFile>* file : {&wav_, &waveform_, &report_, &parametric_, &table_}) {
-            if (*file) {
-                (*file)->commit();
-            }
+        for (const OptionalOutput* file : {&wav_, &waveform_, &report_, &parametric_, &table_}) {
+            commit(*file);
         }
-        std::ranges::for_each(clips_, [](const auto& file) { file->commit(); });
+        std::ranges::for_each(clips_, commit);
     }
 
 private:
-    std::optional<OutputFile> wav_;
+    OptionalOutput wav_;
+    OptionalOutput waveform_;
+    OptionalOutput report_;
+    OptionalOutput parametric_;
+    OptionalOutput table_;
+    std::vector<OptionalOutput> clips_;
     std::optional<WavWriter> wavWriter_;
-    std::optional<OutputFile> waveform_;
     std::optional<WavWriter> waveformWriter_;
-    std::optional<OutputFile> report_;
-    std::optional<OutputFile> parametric_;
-    std::optional<OutputFile> table_;
-    std::vector<std::unique_ptr<OutputFile>> clips_;
     std::optional<ParametricFrames> frames_;
     float fullScaleMps2_;
     std::vector<float> scaled_;
@@ -314,12 +298,8 @@ void explainSilence(const RenderOptions& options, const engine::OfflineFigures& 
 /// What a clip says of the render.
 clips::ClipOrigin originOf(const RenderOptions& options, const std::vector<std::string>& labels,
                            const std::string& modelName, const std::string& quality, const model::ModelHeader& header) {
-    std::string title;
-    for (const std::string& label : labels) {
-        title += (title.empty() ? "" : ", ") + label;
-    }
     const auto nameOf = [](const std::string& path) { return std::filesystem::path(path).filename().string(); };
-    return {.title = title,
+    return {.title = listed(labels),
             .description = nameOf(options.strokePath) + " over " + nameOf(options.scenePath) + "; " +
                            renderedBy(modelName, quality, options.engine.seed, header.provenance.licence),
             .editor = "HaptoFlow " HAPTOFLOW_VERSION,

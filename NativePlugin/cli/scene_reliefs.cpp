@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <memory>
+#include <span>
 #include <stdexcept>
 #include <utility>
 
@@ -25,10 +26,6 @@ struct Image {
     unsigned columns = 0;
     unsigned rows = 0;
     std::vector<float> colours;
-
-    [[nodiscard]] const float* at(unsigned column, unsigned row) const {
-        return colours.data() + 4 * (std::size_t{row} * columns + column);
-    }
 };
 
 Image readImage(const std::string& path) {
@@ -65,27 +62,23 @@ Image readImage(const std::string& path) {
 
 std::vector<float> heightsOf(const Image& image) {
     std::vector<float> heights;
-    heights.reserve(std::size_t{image.columns} * image.rows);
-    for (unsigned row = 0; row < image.rows; ++row) {
-        for (unsigned column = 0; column < image.columns; ++column) {
-            const float* colour = image.at(column, row);
-            heights.push_back((colour[0] + colour[1] + colour[2]) / 3.0F);
-        }
+    heights.reserve(image.colours.size() / 4);
+    for (std::size_t first = 0; first < image.colours.size(); first += 4) {
+        const auto colour = std::span(image.colours).subspan(first, 4);
+        heights.push_back((colour[0] + colour[1] + colour[2]) / 3.0F);
     }
     return heights;
 }
 
 std::vector<float> integrated(const Image& image, const headless::SceneRelief& relief) {
     std::vector<float> normals;
-    normals.reserve(3 * std::size_t{image.columns} * image.rows);
-    for (unsigned row = 0; row < image.rows; ++row) {
-        for (unsigned column = 0; column < image.columns; ++column) {
-            const float* colour = image.at(column, row);
-            // Green leads up the image, and rows lead down.
-            normals.push_back(2.0F * colour[0] - 1.0F);
-            normals.push_back(1.0F - 2.0F * colour[1]);
-            normals.push_back(2.0F * colour[2] - 1.0F);
-        }
+    normals.reserve(3 * image.colours.size() / 4);
+    for (std::size_t first = 0; first < image.colours.size(); first += 4) {
+        const auto colour = std::span(image.colours).subspan(first, 4);
+        // Green leads up the image, and rows lead down.
+        normals.push_back(2.0F * colour[0] - 1.0F);
+        normals.push_back(1.0F - 2.0F * colour[1]);
+        normals.push_back(2.0F * colour[2] - 1.0F);
     }
     std::vector<float> heights =
         effects::heightsOfNormals(normals, image.columns, image.rows, relief.sizeMetres, relief.isTiled);

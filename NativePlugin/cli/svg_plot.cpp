@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <locale>
 #include <map>
-#include <sstream>
 
 namespace haptoflow::cli {
 namespace {
@@ -20,13 +18,9 @@ constexpr double axisHeight = 44.0;
 constexpr double panelGap = 18.0;
 constexpr double pointRadius = 3.5;
 
+/// Rounded to hundredths of a pixel; never "-0".
 std::string svgNumber(double value) {
-    std::ostringstream stream;
-    stream.imbue(std::locale::classic());
-    stream.precision(6);
-    // Rounded to hundredths of a pixel; never "-0".
-    stream << std::round(value * 100.0) / 100.0 + 0.0;
-    return stream.str();
+    return model::shortNumber(std::round(value * 100.0) / 100.0 + 0.0);
 }
 
 std::string svgEscaped(const std::string& text) {

@@ -138,8 +138,7 @@ std::string plain(std::string_view word) {
     return text;
 }
 
-}  // namespace
-
+/// The edit distance of two words. Home-made: CLI11 has no suggestions.
 std::size_t lettersApart(std::string_view one, std::string_view other) {
     const std::string a = plain(one);
     const std::string b = plain(other);
@@ -163,6 +162,8 @@ std::size_t lettersApart(std::string_view one, std::string_view other) {
     }
     return rows[1][b.size()];
 }
+
+}  // namespace
 
 std::vector<std::string> nearestWords(std::string_view word, std::span<const std::string> candidates,
                                       std::size_t count) {
@@ -190,11 +191,11 @@ std::string didYouMean(std::span<const std::string> words) {
     return text + "?";
 }
 
-std::string likelyWord(std::string_view word, std::span<const std::string> candidates) {
+std::string suggestion(std::string_view word, std::span<const std::string> candidates) {
     const std::vector<std::string> nearest = nearestWords(word, candidates, 1);
     const bool isNear =
         !nearest.empty() && lettersApart(word, nearest.front()) <= std::max<std::size_t>(1, word.size() / 3);
-    return isNear ? nearest.front() : std::string();
+    return isNear ? didYouMean(nearest) : std::string();
 }
 
 }  // namespace haptoflow::headless

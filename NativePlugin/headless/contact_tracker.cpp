@@ -86,7 +86,7 @@ bool ContactTracker::acceptSample(const TipSample& sample) {
     }
     const double before = nowSeconds_;
     pathBefore_ = pathStart_;
-    pathStart_ = tipMetres_ ? std::optional(PathStart{before, *tipMetres_}) : std::nullopt;
+    pathStart_ = tipMetres_ ? std::optional(TimedPlace{before, *tipMetres_}) : std::nullopt;
     if (timeUsable) {
         nowSeconds_ = sample.timeSeconds;
     }
@@ -134,9 +134,9 @@ void ContactTracker::followPath(std::size_t surface) {
     }
     pathSurface_ = surface;
     path_.clear();
-    for (const TipHistory::Frame& frame : history_.frames()) {
-        const glm::dvec3 local = scene_.surfaces[surface].poseAt(frame.timeSeconds).pointToLocal(frame.worldMetres);
-        path_.add(frame.timeSeconds, local, frame.worldMetres);
+    for (const TimedPlace& tip : history_.frames()) {
+        const glm::dvec3 local = scene_.surfaces[surface].poseAt(tip.timeSeconds).pointToLocal(tip.placeMetres);
+        path_.add(tip.timeSeconds, local, tip.placeMetres);
     }
 }
 
@@ -181,18 +181,18 @@ std::optional<glm::dvec3> ContactTracker::pathInto(std::size_t surface, const Po
         return std::nullopt;
     }
     const Pose before = scene_.surfaces[surface].poseAt(pathStart_->timeSeconds);
-    const glm::dvec3 from = before.pointToLocal(pathStart_->tipMetres);
+    const glm::dvec3 from = before.pointToLocal(pathStart_->placeMetres);
     const double metres = glm::distance(from, pose.pointToLocal(*tipMetres_));
     const VelocitySettings& velocity = settings_.velocity;
     double speedBefore = std::numeric_limits<double>::infinity();
     if (pathBefore_) {
         const glm::dvec3 earlier =
-            scene_.surfaces[surface].poseAt(pathBefore_->timeSeconds).pointToLocal(pathBefore_->tipMetres);
+            scene_.surfaces[surface].poseAt(pathBefore_->timeSeconds).pointToLocal(pathBefore_->placeMetres);
         speedBefore = glm::distance(earlier, from) /
                       std::max(pathStart_->timeSeconds - pathBefore_->timeSeconds, velocity.minimumJumpSeconds);
     }
     const bool isJump = velocity.isJump(metres, nowSeconds_ - pathStart_->timeSeconds, speedBefore);
-    return !isJump && broadPhase_.passes(surface, pathStart_->tipMetres, before, *tipMetres_, pose)
+    return !isJump && broadPhase_.passes(surface, pathStart_->placeMetres, before, *tipMetres_, pose)
                ? std::optional(from)
                : std::nullopt;
 }
@@ -215,7 +215,7 @@ std::optional<SurfacePoint> ContactTracker::closestPoint(std::size_t surface, co
 /// frame.
 template <typename Visit>
 void ContactTracker::visitOthers(Visit&& visit) {
-    const glm::dvec3 from = pathStart_ ? pathStart_->tipMetres : *tipMetres_;
+    const glm::dvec3 from = pathStart_ ? pathStart_->placeMetres : *tipMetres_;
     const auto consider = [&](std::size_t surface) {
         const std::optional<Candidate> candidate = touched_ != surface ? query(surface) : std::nullopt;
         if (candidate) {

@@ -62,11 +62,6 @@ private:
         /// The other surface that the tip entered first.
         std::optional<Candidate> first;
     };
-    /// The tip in the previous frame.
-    struct PathStart {
-        double timeSeconds = 0.0;
-        glm::dvec3 tipMetres{0.0};
-    };
 
     [[nodiscard]] bool acceptSample(const TipSample& sample);
     void continuePath();
@@ -108,8 +103,9 @@ private:
     bool started_ = false;
     std::optional<glm::dvec3> tipMetres_;
     double tipSeconds_ = 0.0;
-    std::optional<PathStart> pathStart_;
-    std::optional<PathStart> pathBefore_;
+    /// The tip in the previous frame, and in the one before it.
+    std::optional<TimedPlace> pathStart_;
+    std::optional<TimedPlace> pathBefore_;
 
     std::optional<std::size_t> touched_;
     /// The touch began on the touched surface.

@@ -104,18 +104,26 @@ public:
         }
     }
 
+    void readBoolean(const std::string& key, bool& target) const {
+        if (has(key)) {
+            if (!at(key).raw().is_boolean()) {
+                at(key).fail("true or false");
+            }
+            target = at(key).raw().get<bool>();
+        }
+    }
+
     [[nodiscard]] double positiveMetres() const { return number(1e-9, maximumMetres, "metres from 1e-9 to 1e9"); }
 
     template <std::size_t Size>
     [[nodiscard]] std::array<double, Size> numbers(const std::string& expected) const {
-        std::array<double, Size> result{};
-        if (!value_->is_array() || value_->size() != Size) {
+        if (value_->size() != Size) {
             fail(expected);
         }
-        for (std::size_t index = 0; index < Size; ++index) {
-            result[index] = Node((*value_)[index], *file_, path_ + "[" + std::to_string(index) + "]")
-                                .number(-maximumMetres, maximumMetres, "a number within +-1e9");
-        }
+        std::array<double, Size> result{};
+        std::ranges::transform(elements(Size, expected), result.begin(), [](const Node& element) {
+            return element.number(-maximumMetres, maximumMetres, "a number within +-1e9");
+        });
         return result;
     }
 
@@ -187,12 +195,7 @@ Motion readMotion(const Node& node) {
     }
     requireSeconds(node.at("keyframes"), keyframes);
     bool loop = false;
-    if (node.has("loop")) {
-        if (!node.at("loop").raw().is_boolean()) {
-            node.at("loop").fail("true or false");
-        }
-        loop = node.at("loop").raw().get<bool>();
-    }
+    node.readBoolean("loop", loop);
     return {std::move(keyframes), loop};
 }
 
@@ -304,12 +307,7 @@ SceneRelief readRelief(const Node& node) {
     }
     relief.depthMetres = node.at("depth").number(1e-6, 0.05, "metres from 1e-6 to 0.05; 0.001 is a millimetre");
     node.readNumber("share", relief.share, 0.0, 1.0, "a share from 0 to 1");
-    if (node.has("tiled")) {
-        if (!node.at("tiled").raw().is_boolean()) {
-            node.at("tiled").fail("true or false");
-        }
-        relief.isTiled = node.at("tiled").raw().get<bool>();
-    }
+    node.readBoolean("tiled", relief.isTiled);
     return relief;
 }
 

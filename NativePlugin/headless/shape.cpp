@@ -261,9 +261,7 @@ std::optional<SurfaceEntry> entryOf(const Plane&, const glm::dvec3& from, const 
 
 std::optional<SurfaceEntry> entryOf(const std::shared_ptr<const TriangleMesh>& mesh, const glm::dvec3& from,
                                     const glm::dvec3& to) {
-    const auto crossing = mesh->firstCrossing(from, to);
-    return crossing ? std::optional(SurfaceEntry{crossing->pointMetres, crossing->normal, crossing->share})
-                    : std::nullopt;
+    return mesh->firstCrossing(from, to);
 }
 
 }  // namespace

@@ -43,15 +43,6 @@ struct SurfacePoint {
     double beyondMetres = 0.0;
 };
 
-/// Where a path first goes into a shape.
-struct SurfaceEntry {
-    glm::dvec3 pointMetres{0.0};
-    /// Outward unit normal of the face.
-    glm::dvec3 normal{0.0, 1.0, 0.0};
-    /// The part of the path before it, 0 to 1.
-    double share = 0.0;
-};
-
 /// A face that was entered is held up to this depth below it.
 inline constexpr double heldDepthMetres = 0.05;
 

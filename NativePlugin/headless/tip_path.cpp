@@ -268,7 +268,7 @@ glm::dvec3 GrowingFit::meanVelocity(double seconds) const noexcept {
     double duration = 0.0;
     glm::dvec3 distance(0.0);
     for (std::size_t newer = 0; newer < size / 2; ++newer) {
-        const Entry& older = entries_[size - 1 - newer];
+        const TimedPlace& older = entries_[size - 1 - newer];
         duration += entries_[newer].timeSeconds - older.timeSeconds;
         distance += entries_[newer].placeMetres - older.placeMetres;
     }

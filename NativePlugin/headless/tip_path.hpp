@@ -10,6 +10,12 @@
 
 namespace haptoflow::headless {
 
+/// Where the tip was at a time.
+struct TimedPlace {
+    double timeSeconds = 0.0;
+    glm::dvec3 placeMetres{0.0};
+};
+
 /// Places at times, and the velocity at the newest of them.
 ///
 /// A parabola is fitted by least squares to the newest places, to as many as agree with it: adaptive windowing of
@@ -37,10 +43,6 @@ public:
     [[nodiscard]] glm::dvec3 meanVelocity(double seconds) const noexcept;
 
 private:
-    struct Entry {
-        double timeSeconds = 0.0;
-        glm::dvec3 placeMetres{0.0};
-    };
     struct Fit {
         glm::dvec3 endVelocityMps{0.0};
         bool agrees = true;
@@ -48,7 +50,7 @@ private:
 
     [[nodiscard]] Fit fitNewest(std::size_t size, double noiseMetres) const noexcept;
 
-    std::array<Entry, capacity> entries_{};
+    std::array<TimedPlace, capacity> entries_{};
     std::size_t count_ = 0;
 };
 
@@ -69,12 +71,7 @@ public:
     void add(double timeSeconds, const glm::dvec3& placeMetres) noexcept;
 
 private:
-    struct Measurement {
-        double timeSeconds = 0.0;
-        glm::dvec3 placeMetres{0.0};
-    };
-
-    std::array<Measurement, 4> newest_{};
+    std::array<TimedPlace, 4> newest_{};
     std::size_t count_ = 0;
     double metres_ = 50e-6;
 };
@@ -167,22 +164,17 @@ class TipHistory {
 public:
     static constexpr std::size_t capacity = 64;
 
-    struct Frame {
-        double timeSeconds = 0.0;
-        glm::dvec3 worldMetres{0.0};
-    };
-
     explicit TipHistory(const VelocitySettings& settings);
 
     /// Adds a frame; time and position must be usable. Every result but `continued` means that the history was dropped.
     TipStep add(double timeSeconds, const glm::dvec3& worldMetres);
     void clear() noexcept { frames_.clear(); }
     /// Oldest first.
-    [[nodiscard]] std::span<const Frame> frames() const noexcept { return frames_; }
+    [[nodiscard]] std::span<const TimedPlace> frames() const noexcept { return frames_; }
 
 private:
     VelocitySettings settings_;
-    std::vector<Frame> frames_;
+    std::vector<TimedPlace> frames_;
     double latestSeconds_ = 0.0;
 };
 

@@ -245,12 +245,12 @@ std::optional<MeshPoint> TriangleMesh::closestPointFacing(const glm::dvec3& poin
     return describe(nearest, point);
 }
 
-std::optional<MeshCrossing> TriangleMesh::firstCrossing(const glm::dvec3& from, const glm::dvec3& to) const {
+std::optional<SurfaceEntry> TriangleMesh::firstCrossing(const glm::dvec3& from, const glm::dvec3& to) const {
     const glm::dvec3 path = to - from;
     // A path along the edge of two triangles goes through one of them.
     const double allowance = 1e-9 * boundsRadius();
     const double within = 0.5 * glm::length(path) + allowance;
-    std::optional<MeshCrossing> first;
+    std::optional<SurfaceEntry> first;
     std::uint32_t firstTriangle = 0;
     tree_.visitNear(0.5 * (from + to), within * within, [&](std::uint32_t triangle) {
         const Triangle& corners = triangles_[triangle];
@@ -264,7 +264,7 @@ std::optional<MeshCrossing> TriangleMesh::firstCrossing(const glm::dvec3& from, 
             const OnTriangle found =
                 closestOnTriangle(vertices_[corners[0]], vertices_[corners[1]], vertices_[corners[2]], point);
             if (glm::distance(point, found.pointMetres) <= allowance) {
-                first = MeshCrossing{point, normal, share};
+                first = SurfaceEntry{point, normal, share};
                 firstTriangle = triangle;
             }
         }

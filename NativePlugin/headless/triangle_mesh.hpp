@@ -25,9 +25,10 @@ struct MeshPoint {
     bool isStraight = true;
 };
 
-/// Where a path goes through the front of a triangle.
-struct MeshCrossing {
+/// Where a path first goes into a shape.
+struct SurfaceEntry {
     glm::dvec3 pointMetres{0.0};
+    /// Outward unit normal of the face.
     glm::dvec3 normal{0.0, 1.0, 0.0};
     /// The part of the path before it, 0 to 1.
     double share = 0.0;
@@ -56,7 +57,7 @@ public:
                                                               double lowestCosine = sameSideCosine,
                                                               double highestCosine = 2.0) const;
     /// The first triangle that the straight path goes through from its front.
-    [[nodiscard]] std::optional<MeshCrossing> firstCrossing(const glm::dvec3& from, const glm::dvec3& to) const;
+    [[nodiscard]] std::optional<SurfaceEntry> firstCrossing(const glm::dvec3& from, const glm::dvec3& to) const;
 
     /// Every edge is used equally often in both directions.
     [[nodiscard]] bool isClosed() const noexcept { return closed_; }

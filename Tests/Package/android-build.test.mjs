@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { chmodSync, existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import test from 'node:test';
-import { androidCommands, androidTools, buildAndroid, findCmake, findJsonHeader, findNdk, presetVariables, rebuildAndroid } from '../../scripts/lib/android.mjs';
+import { androidCommands, androidTools, buildAndroid, findCmake, findJsonHeader, findNdk, presetVariables } from '../../scripts/lib/android.mjs';
 import { inFolder } from './support/folder.mjs';
 
 function write(file, text = '') {
@@ -28,61 +28,45 @@ const bare = (folder, platform, more = {}) => ({
   ...more,
 });
 
-/** The folder of Unity Hub's editors, and of the Android support in an editor, on each system. */
+/** Where each system keeps the editors and settings of Unity's Hub, Android Studio's SDK, and the Android support in an editor. */
 const systems = {
-  win32: (folder) => ({ env: { ProgramFiles: path.join(folder, 'Program Files') }, hub: path.join(folder, 'Program Files', 'Unity', 'Hub', 'Editor'), inEditor: ['Editor', 'Data'] }),
-  darwin: (folder) => ({ env: {}, hub: path.join(folder, 'Applications', 'Unity', 'Hub', 'Editor'), inEditor: [] }),
-  linux: (folder) => ({ env: {}, hub: path.join(folder, 'home', 'Unity', 'Hub', 'Editor'), inEditor: ['Editor', 'Data'] }),
+  win32: { env: (folder) => ({ ProgramFiles: path.join(folder, 'Program Files') }), hub: 'Program Files/Unity/Hub/Editor', settings: 'home/AppData/Roaming/UnityHub', sdk: 'home/AppData/Local/Android/Sdk', support: 'Editor/Data/PlaybackEngines/AndroidPlayer' },
+  darwin: { env: () => ({}), hub: 'Applications/Unity/Hub/Editor', settings: 'home/Library/Application Support/UnityHub', sdk: 'home/Library/Android/sdk', support: 'PlaybackEngines/AndroidPlayer' },
+  linux: { env: () => ({}), hub: 'home/Unity/Hub/Editor', settings: 'home/.config/UnityHub', sdk: 'home/Android/Sdk', support: 'Editor/Data/PlaybackEngines/AndroidPlayer' },
 };
 
-for (const [platform, layout] of Object.entries(systems)) {
-  test(`${platform}: the NDK and the CMake that Unity's Hub installed are found, those of the newest Unity first`, () =>
+for (const [platform, { env, hub, settings, sdk, support }] of Object.entries(systems)) {
+  test(`${platform}: the tools are found that Unity's Hub installed, those of the newest Unity first, where the Hub's user put them, or else Android Studio's`, () =>
     inFolder((folder) => {
-      const { env, hub, inEditor } = layout(folder);
-      const player = (version) => path.join(hub, version, ...inEditor, 'PlaybackEngines', 'AndroidPlayer');
+      const suffix = platform === 'win32' ? '.exe' : '';
+      const versionOf = (program) => (path.isAbsolute(program) ? (program.includes('ninja') ? '1.10.2' : '3.22.1') : null);
+      const machine = bare(folder, platform, { env: env(folder), versionOf });
+      const ndks = path.join(folder, sdk, 'ndk');
+
+      const { ndk, looked } = findNdk(machine);
+      assert.equal(ndk, null);
+      assert.deepEqual(looked, ['ANDROID_NDK_HOME: is not set', `${path.join(folder, hub)}: is not there`, `${ndks}: is not there`]);
+
+      for (const version of ['9.0.1', '26.1.10909125', '23.1.7779620']) makeNdk(path.join(ndks, version), version);
+      assert.equal(findNdk(machine).ndk, path.join(ndks, '26.1.10909125'), 'the newest that is new enough');
+
+      const player = (version) => path.join(folder, hub, version, support);
       for (const version of ['2022.3.9f1', '2022.3.10f1']) {
         makeNdk(path.join(player(version), 'NDK'));
-        const suffix = platform === 'win32' ? '.exe' : '';
         for (const name of ['cmake', 'ninja']) write(path.join(player(version), 'SDK', 'cmake', '3.22.1', 'bin', name + suffix));
       }
       mkdirSync(player('6000.0.78f1'), { recursive: true });
-      const versionOf = (program) => (path.isAbsolute(program) ? (program.includes('ninja') ? '1.10.2' : '3.22.1') : null);
-      const machine = bare(folder, platform, { env, versionOf });
       const found = findNdk(machine);
       assert.equal(found.ndk, path.join(player('2022.3.10f1'), 'NDK'));
       assert.deepEqual(found.looked, [`${path.join(player('6000.0.78f1'), 'NDK')}: is not there`], 'without Android support');
       const { cmake, ninja } = findCmake(machine);
-      assert.ok(cmake.startsWith(path.join(player('2022.3.10f1'), 'SDK', 'cmake', '3.22.1', 'bin', 'cmake')), cmake);
-      assert.equal(path.dirname(ninja), path.dirname(cmake));
-    }));
+      const programs = path.join(player('2022.3.10f1'), 'SDK', 'cmake', '3.22.1', 'bin');
+      assert.deepEqual([cmake, ninja], [path.join(programs, `cmake${suffix}`), path.join(programs, `ninja${suffix}`)]);
 
-  test(`${platform}: editors in a folder that the Hub's user chose are found`, () =>
-    inFolder((folder) => {
-      const { inEditor } = layout(folder);
-      const settings = { win32: ['AppData', 'Roaming', 'UnityHub'], darwin: ['Library', 'Application Support', 'UnityHub'], linux: ['.config', 'UnityHub'] }[platform];
       const chosen = path.join(folder, 'disk two');
-      write(path.join(folder, 'home', ...settings, 'secondaryInstallPath.json'), JSON.stringify(chosen));
-      const ndk = makeNdk(path.join(chosen, '6000.0.1f1', ...inEditor, 'PlaybackEngines', 'AndroidPlayer', 'NDK'), '27.2.12479018');
-      assert.equal(findNdk(bare(folder, platform)).ndk, ndk);
-    }));
-
-  test(`${platform}: Android Studio's NDK is found where Unity brought none, the newest that is new enough`, () =>
-    inFolder((folder) => {
-      const sdk = { win32: ['AppData', 'Local', 'Android', 'Sdk'], darwin: ['Library', 'Android', 'sdk'], linux: ['Android', 'Sdk'] }[platform];
-      const ndks = path.join(folder, 'home', ...sdk, 'ndk');
-      makeNdk(path.join(ndks, '9.0.1'), '9.0.1');
-      const newest = makeNdk(path.join(ndks, '26.1.10909125'), '26.1.10909125');
-      makeNdk(path.join(ndks, '23.1.7779620'));
-      assert.equal(findNdk(bare(folder, platform)).ndk, newest);
-    }));
-
-  test(`${platform}: without an NDK every place searched is named`, () =>
-    inFolder((folder) => {
-      const { env, hub } = layout(folder);
-      const { ndk, looked } = findNdk(bare(folder, platform, { env }));
-      assert.equal(ndk, null);
-      assert.deepEqual(looked.slice(0, 2), ['ANDROID_NDK_HOME: is not set', `${hub}: is not there`]);
-      assert.match(looked[2], /ndk: is not there$/);
+      write(path.join(folder, settings, 'secondaryInstallPath.json'), JSON.stringify(chosen));
+      const ofUser = makeNdk(path.join(chosen, '6000.0.1f1', support, 'NDK'), '27.2.12479018');
+      assert.equal(findNdk(machine).ndk, ofUser);
     }));
 }
 
@@ -123,18 +107,9 @@ test('the JSON library is found in vcpkg, in the system and in a folder that the
     assert.equal(findJsonHeader(bare(folder, 'win32', { env: { HAPTOFLOW_JSON_INCLUDE_DIR: own } }), folder).folder, own);
   }));
 
-test('without an NDK the command names the module to add in Unity Hub and every place searched', () =>
+test('the command names the tool that is missing, how to bring it, and every place searched', () =>
   inFolder((folder) => {
-    assert.throws(() => androidTools(bare(folder, 'linux')), (error) => {
-      assert.equal(error.exitCode, 2);
-      assert.match(error.message, /Android Build Support/);
-      assert.ok(error.message.includes(path.join(folder, 'home', 'Unity', 'Hub', 'Editor')));
-      return true;
-    });
-  }));
-
-test('without CMake or without the JSON library the command names what is missing and every place searched', () =>
-  inFolder((folder) => {
+    assert.throws(() => androidTools(bare(folder, 'linux')), { exitCode: 2, message: /Android Build Support[\s\S]*\bUnity\W+Hub\W+Editor: is not there/ });
     const env = { ANDROID_NDK_HOME: makeNdk(path.join(folder, 'ndk')) };
     assert.throws(() => androidTools(bare(folder, 'darwin', { env })), /no CMake 3\.22 or newer[\s\S]*cmake: cannot be started/);
     const versionOf = (program) => (program === 'cmake' ? '3.25.1' : null);
@@ -155,16 +130,6 @@ test('the command line has the preset\'s variables, the toolchain and Ninja, and
   assert.deepEqual(build.slice(0, 5), ['some-cmake', '--build', 'out folder', '--target', 'audioplugin_haptoflow']);
   assert.equal(presetVariables('android-arm64').ANDROID_PLATFORM, 'android-29');
 });
-
-test('pack rebuilds the library with the tools of the earlier build', { skip: process.platform === 'win32' }, () =>
-  inFolder(async (folder) => {
-    const cmake = path.join(folder, 'its cmake');
-    write(cmake, `#!/bin/sh\necho "$@" > '${folder}/log'\n: > '${folder}/libaudioplugin_haptoflow.so'\n`);
-    chmodSync(cmake, 0o755);
-    write(path.join(folder, 'CMakeCache.txt'), `CMAKE_COMMAND:INTERNAL=${cmake}\n`);
-    assert.equal(await rebuildAndroid(folder), path.join(folder, 'libaudioplugin_haptoflow.so'));
-    assert.match(readFileSync(path.join(folder, 'log'), 'utf8'), /^--build .* --target audioplugin_haptoflow/);
-  }));
 
 test('a folder that was configured with another NDK is configured anew; a build without library is an error', { skip: process.platform === 'win32' }, () =>
   inFolder(async (folder) => {

@@ -45,12 +45,18 @@ test('root without Node gets Node from apt-get and the script runs with the argu
   assert.match(result.stdout, /^node scripts\/demo\.mjs --flag two words$/m);
 });
 
-test('without root and sudo the one command to type is printed and the exit code is 2', { skip: posixOnly }, () => {
-  const result = onBareMachine({ id: 'echo 1000', 'apt-get': 'echo INSTALLED', sudo: 'exit 1' }, ['test']);
-  assert.equal(result.status, 2);
-  assert.match(result.stderr, /sudo apt-get update && sudo apt-get install -y .* nodejs npm/);
-  assert.ok(!result.stdout.includes('INSTALLED'));
-});
+for (const [what, programs, words, message] of [
+  ['without root and sudo the one command to type is printed', { id: 'echo 1000', 'apt-get': 'echo INSTALLED', sudo: 'exit 1' }, ['test'], /sudo apt-get update && sudo apt-get install -y .* nodejs npm/],
+  ['a Node that is too old counts as missing', { node: 'exit 1', npm: 'echo npm', id: 'echo 1000', 'apt-get': 'echo INSTALLED' }, ['test'], /nodejs npm/],
+  ['a script that does not exist is refused before anything is installed', { id: 'echo 0', 'apt-get': 'echo INSTALLED' }, ['dmeo'], /no script "dmeo"/],
+]) {
+  test(`${what}, and the exit code is 2`, { skip: posixOnly }, () => {
+    const result = onBareMachine(programs, words);
+    assert.equal(result.status, 2);
+    assert.match(result.stderr, message);
+    assert.ok(!result.stdout.includes('INSTALLED'));
+  });
+}
 
 test('every script shows its help with --help and does nothing else', () => {
   for (const name of Object.keys(scripts)) {
@@ -60,18 +66,6 @@ test('every script shows its help with --help and does nothing else', () => {
     assert.match(result.stdout, /^usage: /, name);
     assert.doesNotMatch(result.stdout, /^(setup|build): /m, name);
   }
-});
-
-test('a Node that is too old counts as missing', { skip: posixOnly }, () => {
-  const result = onBareMachine({ node: 'exit 1', npm: 'echo npm', id: 'echo 1000', 'apt-get': 'exit 0' }, ['test']);
-  assert.equal(result.status, 2);
-});
-
-test('a script that does not exist is refused before anything is installed', { skip: posixOnly }, () => {
-  const result = onBareMachine({ id: 'echo 0', 'apt-get': 'echo INSTALLED' }, ['dmeo']);
-  assert.equal(result.status, 2);
-  assert.match(result.stderr, /no script "dmeo"/);
-  assert.ok(!result.stdout.includes('INSTALLED'));
 });
 
 test('the folder of the user is npm\'s INIT_CWD, and without npm the current folder', () => {
@@ -95,18 +89,9 @@ test('paths of ./run train are relative to the folder of the user', { skip: posi
     assert.ok(asked.stderr.includes(`${path.join(folder, 'gone')}: does not exist`), asked.stderr);
   }));
 
-const run = (script, ...words) => spawnSync(process.execPath, [inRepository('scripts', script), ...words], { encoding: 'utf8' });
-
-test('an option that does not exist ends with 2 before anything is set up or built', () => {
-  const { status, stdout, stderr } = run('bench.mjs', '--qiuck');
-  assert.equal(status, 2);
-  assert.match(stderr, /--qiuck/);
-  assert.equal(stdout, '');
-});
-
 test('a part of the measurements, or another model, is not published', () => {
   for (const words of [['--quick'], ['--only', 'idle'], ['--events', '3'], ['--model', 'm.haptoflow'], ['--no-paper']]) {
-    const { status, stderr } = run('bench.mjs', '--publish', ...words);
+    const { status, stderr } = spawnSync(process.execPath, [inRepository('scripts', 'bench.mjs'), '--publish', ...words], { encoding: 'utf8' });
     assert.equal(status, 2, words.join(' '));
     assert.match(stderr, /--publish goes with a whole run/);
   }

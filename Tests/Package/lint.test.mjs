@@ -1,19 +1,8 @@
 // Rules of the linter, and what the workflows run.
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import { findingsOfTidy, functionsWithoutThreadTag, machineTraces } from '../../scripts/lib/lint_checks.mjs';
+import { findingsOfTidy, machineTraces } from '../../scripts/lib/lint_checks.mjs';
 import { inRepository } from '../../scripts/lib/process.mjs';
-
-test('a function without a thread tag in its own comment is found', () => {
-  const header = [
-    '/* Opens.\n * [loader-thread] Blocks. */',
-    'HAPTOFLOW_API haptoflow_status haptoflow_open(int a,\n                                              int b);',
-    '',
-    'HAPTOFLOW_API void haptoflow_close(void);',
-    '/* Says its name. */\nHAPTOFLOW_API const char* haptoflow_name(void);',
-  ].join('\n');
-  assert.deepEqual(functionsWithoutThreadTag(header), ['haptoflow_close', 'haptoflow_name']);
-});
 
 test('clang-tidy\'s errors and warnings in this repository are findings, and errors in headers of the standard library are not', () => {
   const own = `${inRepository('NativePlugin', 'src', 'a.hpp')}:3:1: error: use auto [modernize-use-auto]`;

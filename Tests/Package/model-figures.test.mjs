@@ -23,11 +23,15 @@ const ofTheModelBefore = [
 const modelOf = (file) => (ofTheModelBefore.includes(file) ? before : shipped);
 const sha = (digit) => digit.repeat(64);
 
-/** The SHA-256 in a PNG's text chunk; null where it has none. */
-const modelOfPicture = (png) => png.toString('latin1').match(/tEXtModel-SHA-256\0([0-9a-f]{64})/)?.[1] ?? null;
+/** The model that each kind of file names: a line of a page, a key of results, a text chunk of a PNG; null where it names none. */
+const modelIn = {
+  '.md': (bytes) => modelOfPage(bytes.toString('utf8')),
+  '.json': (bytes) => JSON.parse(bytes.toString('utf8')).model_sha256,
+  '.png': (bytes) => bytes.toString('latin1').match(/tEXtModel-SHA-256\0([0-9a-f]{64})/)?.[1] ?? null,
+};
 
-/** Pages with measured figures, and the command that measures them. */
-const pages = {
+/** Pages with measured figures and their results, and the command that measures them. */
+const measured = {
   'Documentation~/accuracy-and-time.md': 'npm run evaluate, and the tables by hand',
   'Documentation~/not-proven.md': 'npm run test:soak -- --publish',
   'Training/results/benchmarks.md': 'npm run bench -- --publish, and by hand the figures of Documentation~/live-engine.md',
@@ -38,9 +42,6 @@ const pages = {
   'Training/haptoflow_paper/results/few-shot.md': 'haptoflow-paper few-shot --page',
   'Training/haptoflow_paper/results/place.md': 'haptoflow-paper place --page',
   'Training/results/default/README.md': 'npm run evaluate, haptoflow-benchmark discriminate, and the words by hand',
-};
-
-const results = {
   'Training/haptoflow_paper/results/accuracy-time.json': 'npm run evaluate',
   'Training/haptoflow_paper/results/few-shot.json': 'haptoflow-paper few-shot',
   'Training/results/default/label-discrimination.json': 'haptoflow-benchmark discriminate',
@@ -55,21 +56,11 @@ const pictures = ['Documentation~/images', 'Samples~/StylusTracing', 'Samples~/T
   .flatMap((folder) => readdirSync(inRepository(...folder.split('/'))).map((name) => `${folder}/${name}`))
   .filter((file) => file.endsWith('.png') && !ofOtherModels.includes(path.basename(file)));
 
-for (const [page, command] of Object.entries(pages)) {
-  test(`the figures of ${page} were measured with the shipped model`, () => {
-    assert.equal(modelOfPage(readFileSync(inRepository(page), 'utf8')), modelOf(page), `measure again: ${command}`);
-  });
-}
+for (const file of pictures) measured[file] = 'as Documentation~/accuracy-and-time.md says';
 
-for (const [file, command] of Object.entries(results)) {
-  test(`${file} was measured with the shipped model`, () => {
-    assert.equal(JSON.parse(readFileSync(inRepository(file), 'utf8')).model_sha256, modelOf(file), `measure again: ${command}`);
-  });
-}
-
-for (const file of pictures) {
-  test(`${file} was drawn with the shipped model`, () => {
-    assert.equal(modelOfPicture(readFileSync(inRepository(file))), modelOf(file), 'draw it again: Documentation~/accuracy-and-time.md says how');
+for (const [file, command] of Object.entries(measured)) {
+  test(`${file} was made with the shipped model`, () => {
+    assert.equal(modelIn[path.extname(file)](readFileSync(inRepository(file))), modelOf(file), `make it again: ${command}`);
   });
 }
 

@@ -32,13 +32,6 @@ function projectWith(changes) {
   return new PackageFiles(contents);
 }
 
-/** Asserts that only the named rule complains, with a message that matches. */
-function complains(rule, changes, pattern) {
-  const found = complaintsOf(projectWith(changes));
-  assert.deepEqual([...new Set(found.map(([name]) => name))], [rule], JSON.stringify(found));
-  assert.match(found[0][1], pattern);
-}
-
 const manifest = 'Packages/manifest.json';
 const without = (name) => (text) => JSON.stringify({ ...JSON.parse(text), dependencies: Object.fromEntries(Object.entries(JSON.parse(text).dependencies).filter(([key]) => key !== name)) });
 const withVersion = (name, version) => (text) => JSON.stringify({ ...JSON.parse(text), dependencies: { ...JSON.parse(text).dependencies, [name]: version } });
@@ -46,61 +39,58 @@ const replaced = (from, to) => (text) => text.replace(from, to);
 const guid = guidsByName(files).get('Packages/com.haptoflow.runtime/Runtime/Prefabs/Mouse Pen.prefab');
 const meta = (number) => `fileFormatVersion: 2\nguid: ${number}\nDefaultImporter:\n`;
 
-test('a package folder that is not there is found, with npm ci as the remedy', () => {
-  complains('packages', { [manifest]: withVersion('com.github.asus4.onnxruntime', 'file:../node_modules/com.github.asus4.gone') }, /there is no node_modules\/com\.github\.asus4\.gone\/package\.json; run npm ci/);
-});
-test('a package folder with another package is found', () => complains('packages', { [manifest]: withVersion('com.example.other', 'file:../Tests/Unity') }, /"com\.example\.other": Tests\/Unity has another name/));
-test('a dependency of the package that the manifest has in another version is found', () => {
-  complains('packages', { [manifest]: withVersion('com.unity.nuget.newtonsoft-json', '3.0.2') }, /needs com\.unity\.nuget\.newtonsoft-json 3\.2\.1; .* gives 3\.0\.2/);
-});
-test('a testable that is no package of the repository is found', () => complains('packages', { [manifest]: (text) => JSON.stringify({ ...JSON.parse(text), testables: ['com.haptoflow.test'] }) }, /testable "com\.haptoflow\.test"/));
-test('a module is missed by a scene and by code', () => {
-  complains('modules', { [manifest]: without('com.unity.modules.ai') }, /Assets\/\w+\.unity: an object of class 196 needs com\.unity\.modules\.ai/);
-  complains('modules', { [manifest]: without('com.unity.modules.terrain') }, /\.cs: TerrainData needs com\.unity\.modules\.terrain/);
-});
-test('an asset without .meta and a .meta without asset are found', () => {
-  complains('a .meta for everything', { 'Assets/Note.txt': 'x' }, /^Assets\/Note\.txt: has no \.meta/);
-  complains('no .meta for nothing', { 'Assets/Note.txt.meta': meta('0123456789abcdef0123456789abcdef') }, /^Assets\/Note\.txt\.meta: belongs to no file/);
-});
-test('a GUID that the project shares with the package is found', () => complains('GUIDs', { 'Assets/Note.txt': 'x', 'Assets/Note.txt.meta': meta(guid) }, /has the GUID of/));
-test('a script that nothing has is found', () => {
-  complains('targets of references', { 'Assets/Desk.unity': replaced(/(m_Script: \{fileID: 11500000, guid: )\w{31}/, '$1bad0bad0bad0bad0bad0bad0bad0bad') }, /^Assets\/Desk\.unity:\d+: GUID bad0\w+: no file/);
-});
-test('an object that the prefab lacks is found', () => {
-  complains('targets of references', { 'Assets/Desk.unity': replaced(/(m_CorrespondingSourceObject: \{fileID: )102,/, '$1902,') }, /Mouse Pen\.prefab has no object 902/);
-});
-test('an instance that changes a field which its prefab lacks is found', () => complains('changes of prefabs', { 'Assets/Desk.unity': replaced('propertyPath: m_LocalPosition.x', 'propertyPath: m_LocalPlace.x') }, /changes m_LocalPlace\.x of &101 in .*Mouse Pen\.prefab/));
-test('an object that hangs below no root is found', () => complains('roots of scenes', { 'Assets/Desk.unity': replaced('  - {fileID: 600}\n', '') }, /the root &600 is not among SceneRoots/));
-test('a scene of the build that is not there is found', () => complains('scenes of the build', { 'ProjectSettings/EditorBuildSettings.asset': replaced('Assets/Desk.unity', 'Assets/Table.unity') }, /there is no Assets\/Table\.unity/));
+/** What is wrong, by the one rule that finds it; how the message reads. @type {[string, string, object, RegExp][]} */
+const faults = [
+  ['a package folder that is not there', 'packages', { [manifest]: withVersion('com.github.asus4.onnxruntime', 'file:../node_modules/com.github.asus4.gone') }, /there is no node_modules\/com\.github\.asus4\.gone\/package\.json; run npm ci/],
+  ['a package folder with another package', 'packages', { [manifest]: withVersion('com.example.other', 'file:../Tests/Unity') }, /"com\.example\.other": Tests\/Unity has another name/],
+  ['a dependency of the package in another version', 'packages', { [manifest]: withVersion('com.unity.nuget.newtonsoft-json', '3.0.2') }, /needs com\.unity\.nuget\.newtonsoft-json 3\.2\.1; .* gives 3\.0\.2/],
+  ['a testable that is no package of the repository', 'packages', { [manifest]: (text) => JSON.stringify({ ...JSON.parse(text), testables: ['com.haptoflow.test'] }) }, /testable "com\.haptoflow\.test"/],
+  ['a module that a scene misses', 'modules', { [manifest]: without('com.unity.modules.ai') }, /Assets\/\w+\.unity: an object of class 196 needs com\.unity\.modules\.ai/],
+  ['a module that code misses', 'modules', { [manifest]: without('com.unity.modules.terrain') }, /\.cs: TerrainData needs com\.unity\.modules\.terrain/],
+  ['an asset without .meta', 'a .meta for everything', { 'Assets/Note.txt': 'x' }, /^Assets\/Note\.txt: has no \.meta/],
+  ['a .meta without asset', 'no .meta for nothing', { 'Assets/Note.txt.meta': meta('0123456789abcdef0123456789abcdef') }, /^Assets\/Note\.txt\.meta: belongs to no file/],
+  ['a GUID that the project shares with the package', 'GUIDs', { 'Assets/Note.txt': 'x', 'Assets/Note.txt.meta': meta(guid) }, /has the GUID of/],
+  ['a script that nothing has', 'targets of references', { 'Assets/Desk.unity': replaced(/(m_Script: \{fileID: 11500000, guid: )\w{31}/, '$1bad0bad0bad0bad0bad0bad0bad0bad') }, /^Assets\/Desk\.unity:\d+: GUID bad0\w+: no file/],
+  ['an object that the prefab lacks', 'targets of references', { 'Assets/Desk.unity': replaced(/(m_CorrespondingSourceObject: \{fileID: )102,/, '$1902,') }, /Mouse Pen\.prefab has no object 902/],
+  ['a changed field that the prefab lacks', 'changes of prefabs', { 'Assets/Desk.unity': replaced('propertyPath: m_LocalPosition.x', 'propertyPath: m_LocalPlace.x') }, /changes m_LocalPlace\.x of &101 in .*Mouse Pen\.prefab/],
+  ['an object that hangs below no root', 'roots of scenes', { 'Assets/Desk.unity': replaced('  - {fileID: 600}\n', '') }, /the root &600 is not among SceneRoots/],
+  ['a scene of the build that is not there', 'scenes of the build', { 'ProjectSettings/EditorBuildSettings.asset': replaced('Assets/Desk.unity', 'Assets/Table.unity') }, /there is no Assets\/Table\.unity/],
+];
+
+for (const [what, rule, changes, pattern] of faults) {
+  test(`${rule}: ${what} is found, by that rule alone`, () => {
+    const found = complaintsOf(projectWith(changes));
+    assert.deepEqual([...new Set(found.map(([name]) => name))], [rule], JSON.stringify(found));
+    assert.match(found[0][1], pattern);
+  });
+}
 
 const setting = (name, key) => files.text(`ProjectSettings/${name}.asset`).match(new RegExp(`^ *${key}: (.*)$`, 'm'))?.[1];
 
-test('colour is linear, both inputs are on, audio has the shortest block and never pauses, and git can read the files', () => {
-  assert.equal(setting('ProjectSettings', 'm_ActiveColorSpace'), '1');
-  assert.equal(setting('ProjectSettings', 'activeInputHandler'), '2');
-  // Best Latency.
-  assert.equal(setting('AudioManager', 'm_RequestedDSPBufferSize'), '256');
-  assert.equal(setting('AudioManager', 'm_DSPBufferSize'), '256');
-  assert.equal(setting('AudioManager', 'm_SampleRate'), '0', 'the rate of the device');
-  assert.equal(setting('AudioManager', 'm_EnableOutputSuspension'), '0');
-  assert.equal(setting('AudioManager', 'm_DisableAudio'), '0');
-  assert.equal(setting('EditorSettings', 'm_SerializationMode'), '2', 'text');
-  assert.equal(setting('VersionControlSettings', 'm_Mode'), 'Visible Meta Files');
+/** Settings by their file; 256 is Best Latency, and the rate 0 that of the device. */
+const settings = {
+  ProjectSettings: { m_ActiveColorSpace: '1', activeInputHandler: '2', AndroidTargetArchitectures: '2' },
+  AudioManager: { m_RequestedDSPBufferSize: '256', m_DSPBufferSize: '256', m_SampleRate: '0', m_EnableOutputSuspension: '0', m_DisableAudio: '0' },
+  EditorSettings: { m_SerializationMode: '2' },
+  VersionControlSettings: { m_Mode: 'Visible Meta Files' },
+  UnityConnectSettings: { m_Enabled: '0' },
+};
+const privateKeys = ['cloudProjectId', 'organizationId', 'projectName', 'AndroidKeystoreName', 'appleDeveloperTeamID', 'ps4Passcode'];
+
+test('colour is linear, both inputs are on, audio has the shortest block and never pauses, git can read the files, and no account or key is named', () => {
+  for (const [name, wanted] of Object.entries(settings)) {
+    assert.deepEqual(Object.fromEntries(Object.keys(wanted).map((key) => [key, setting(name, key)])), wanted, name);
+  }
+  for (const key of privateKeys) assert.equal(setting('ProjectSettings', key), '', key);
 });
 
-test('a player for Quest is for arm64 with IL2CPP, and has the model', () => {
-  assert.equal(setting('ProjectSettings', 'AndroidTargetArchitectures'), '2');
+test('a player for Quest has IL2CPP and the model', () => {
   assert.match(files.text('ProjectSettings/ProjectSettings.asset'), /^ {2}scriptingBackend:\n {4}Android: 1$/m);
   assert.ok(Number(setting('ProjectSettings', 'AndroidMinSdkVersion')) >= 29);
-  const settings = guidsByName(files).get('Assets/HaptoFlow/HaptoFlowSettings.asset');
-  assert.match(files.text('ProjectSettings/ProjectSettings.asset'), new RegExp(`^ {2}preloadedAssets:\n {2}- \\{fileID: 11400000, guid: ${settings}, type: 2\\}$`, 'm'));
+  const own = guidsByName(files).get('Assets/HaptoFlow/HaptoFlowSettings.asset');
+  assert.match(files.text('ProjectSettings/ProjectSettings.asset'), new RegExp(`^ {2}preloadedAssets:\n {2}- \\{fileID: 11400000, guid: ${own}, type: 2\\}$`, 'm'));
   const model = guidsByName(files).get('Packages/com.haptoflow.runtime/Runtime/Models/default.haptoflow');
   assert.match(files.text('Assets/HaptoFlow/HaptoFlowSettings.asset'), new RegExp(`^ {2}model: \\{fileID: -?\\d+, guid: ${model}, type: 3\\}$`, 'm'));
-});
-
-test('the settings name no account, organisation, licence or key', () => {
-  for (const key of ['cloudProjectId', 'organizationId', 'projectName', 'AndroidKeystoreName', 'appleDeveloperTeamID', 'ps4Passcode']) assert.equal(setting('ProjectSettings', key), '', key);
-  assert.equal(setting('UnityConnectSettings', 'm_Enabled'), '0');
 });
 
 /** The objects of a YAML asset: number -> its text. */

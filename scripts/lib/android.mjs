@@ -29,30 +29,36 @@ const foldersIn = (folder) =>
     ? readdirSync(folder, { withFileTypes: true }).filter((entry) => entry.isDirectory() || entry.isSymbolicLink()).map(({ name }) => name).sort(byVersion)
     : [];
 
-/** Where Unity's Hub keeps its settings. */
-function hubSettings({ env, platform, home }) {
-  if (platform === 'win32') return path.join(env.APPDATA ?? path.join(home, 'AppData', 'Roaming'), 'UnityHub');
-  return platform === 'darwin' ? path.join(home, 'Library', 'Application Support', 'UnityHub') : path.join(home, '.config', 'UnityHub');
-}
+/** Where each system keeps the settings of Unity's Hub, the Hub's editors, and the Android SDK that Android Studio installed. */
+const systemFolders = {
+  win32: ({ env, home }) => ({
+    settings: path.join(env.APPDATA ?? path.join(home, 'AppData', 'Roaming'), 'UnityHub'),
+    editors: path.join(env.ProgramFiles ?? 'C:\\Program Files', 'Unity', 'Hub', 'Editor'),
+    sdk: path.join(env.LOCALAPPDATA ?? path.join(home, 'AppData', 'Local'), 'Android', 'Sdk'),
+  }),
+  darwin: ({ home, applications }) => ({
+    settings: path.join(home, 'Library', 'Application Support', 'UnityHub'),
+    editors: path.join(applications, 'Unity', 'Hub', 'Editor'),
+    sdk: path.join(home, 'Library', 'Android', 'sdk'),
+  }),
+  linux: ({ home }) => ({
+    settings: path.join(home, '.config', 'UnityHub'),
+    editors: path.join(home, 'Unity', 'Hub', 'Editor'),
+    sdk: path.join(home, 'Android', 'Sdk'),
+  }),
+};
 
-/** The editor folder set in Unity Hub; null where none is set. */
-function chosenEditors(machine) {
-  try {
-    const chosen = JSON.parse(readFileSync(path.join(hubSettings(machine), 'secondaryInstallPath.json'), 'utf8'));
-    return typeof chosen === 'string' && chosen !== '' ? chosen : null;
-  } catch {
-    return null;
-  }
-}
+const foldersOf = (machine) => (systemFolders[machine.platform] ?? systemFolders.linux)(machine);
 
-/** Folders with one subfolder for each installed version of Unity. */
+/** Folders with one subfolder for each installed version of Unity: the one set in Unity's Hub, and the usual one. */
 function editorFolders(machine) {
-  const { env, platform, home, applications } = machine;
-  const usual = {
-    win32: path.join(env.ProgramFiles ?? 'C:\\Program Files', 'Unity', 'Hub', 'Editor'),
-    darwin: path.join(applications, 'Unity', 'Hub', 'Editor'),
-  }[platform] ?? path.join(home, 'Unity', 'Hub', 'Editor');
-  return [chosenEditors(machine), usual].filter((folder) => folder !== null);
+  const { settings, editors } = foldersOf(machine);
+  try {
+    const chosen = JSON.parse(readFileSync(path.join(settings, 'secondaryInstallPath.json'), 'utf8'));
+    return typeof chosen === 'string' && chosen !== '' ? [chosen, editors] : [editors];
+  } catch {
+    return [editors];
+  }
 }
 
 /** The Android support folder of every installed version of Unity; within one editor folder, newest first. */
@@ -64,13 +70,7 @@ function androidPlayers(machine) {
 }
 
 /** Android SDKs that Android Studio installed. */
-function androidSdks({ env, platform, home }) {
-  const usual = {
-    win32: path.join(env.LOCALAPPDATA ?? path.join(home, 'AppData', 'Local'), 'Android', 'Sdk'),
-    darwin: path.join(home, 'Library', 'Android', 'sdk'),
-  }[platform] ?? path.join(home, 'Android', 'Sdk');
-  return [...new Set([env.ANDROID_HOME, env.ANDROID_SDK_ROOT, usual].filter(Boolean))];
-}
+const androidSdks = (machine) => [...new Set([machine.env.ANDROID_HOME, machine.env.ANDROID_SDK_ROOT, foldersOf(machine).sdk].filter(Boolean))];
 
 /** The reason why a folder is not a usable NDK; null for a usable one. */
 function whyNoNdk(folder) {
@@ -196,27 +196,12 @@ export function androidCommands({ ndk, cmake, ninja, json }, folder) {
   };
 }
 
-/**
- * Rebuilds a library in the folder of an earlier build, with the tools that this folder is configured with, so that `pack`
- * needs no NDK in the environment. @returns {Promise<string>} the library's path
- */
-export async function rebuildAndroid(folder = inRepository(presetFolder(androidPreset))) {
-  const cmake = cachedVariable(readFileSync(path.join(folder, 'CMakeCache.txt'), 'utf8'), 'CMAKE_COMMAND');
-  const [command, ...args] = androidCommands({ ndk: '', cmake, ninja: '', json: '' }, folder).build;
-  await runOrFail(command, args, { quiet: !process.stdout.isTTY });
-  return builtLibrary(folder);
-}
-
 /** Builds the Android library. @returns {Promise<string>} its path */
 export async function buildAndroid(tools = androidTools(), folder = inRepository(presetFolder(androidPreset))) {
   console.log(`build: with the NDK ${tools.ndk}`);
   forgetOtherToolchain(folder, path.join(tools.ndk, 'build', 'cmake', 'android.toolchain.cmake'));
   const { configure, build } = androidCommands(tools, folder);
   for (const [command, ...args] of [configure, build]) await runOrFail(command, args, { quiet: !process.stdout.isTTY });
-  return builtLibrary(folder);
-}
-
-function builtLibrary(folder) {
   const library = path.join(folder, `lib${androidTarget}.so`);
   if (!existsSync(library)) throw new CommandError(`${library}: the build ended well, but made no library`);
   return library;

@@ -2,7 +2,7 @@ import { createHash } from 'node:crypto';
 import { copyFileSync, existsSync, mkdirSync, readFileSync, readdirSync, statSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import { dependencyName } from '../pack/dependency.mjs';
-import { namesExportedByElf, namesExportedByPe } from '../pack/binaries.mjs';
+import { exportedNames } from '../pack/binaries.mjs';
 import { packageName } from '../pack/layout.mjs';
 import { complaintOfGlibc, kindOfLibrary, platforms, pluginsFolder } from '../pack/natives.mjs';
 import { sha256OfBytes } from './measured_part.mjs';
@@ -18,21 +18,15 @@ export function declaredNames(headerText = header()) {
   return [...headerText.matchAll(/^HAPTOFLOW_API [^(;]*?(haptoflow_\w+)\(/gm)].map(([, name]) => name).concat(unitysEntry).sort();
 }
 
-/** The names that a library exports, by its bytes: an ELF's or a DLL's. */
-export const exportedNames = (bytes) => (bytes.toString('latin1', 0, 2) === 'MZ' ? namesExportedByPe(bytes) : namesExportedByElf(bytes)).sort();
-
-/** How the exported names of a library differ from those of the header. @returns {{missing: string[], unwanted: string[]}} */
-export function differencesOfExports(bytes) {
-  const [declared, exported] = [declaredNames(), exportedNames(bytes)];
-  return { missing: declared.filter((name) => !exported.includes(name)), unwanted: exported.filter((name) => !declared.includes(name)) };
-}
-
-/** One test: a DLL exports exactly the functions of the header and Unity's entry. Missing and additional names are printed. */
-export function judgeExportsOfDll(dll) {
-  const { missing, unwanted } = differencesOfExports(readFileSync(dll));
-  const isRight = missing.length + unwanted.length === 0;
-  if (!isRight) console.error(`test: ${dll}: missing exports: ${missing.join(', ') || 'none'}; unwanted: ${unwanted.join(', ') || 'none'}`);
-  return { passed: isRight ? 1 : 0, failed: isRight ? 0 : 1, skipped: 0 };
+/** How the exported names of a library differ from those of the header: a line for each kind. */
+export function complaintsOfExports(file) {
+  const [declared, exported] = [declaredNames(), exportedNames(file)];
+  const missing = declared.filter((name) => !exported.includes(name));
+  const unwanted = exported.filter((name) => !declared.includes(name));
+  return [
+    ...(missing.length > 0 ? [`does not export ${missing.join(', ')} of haptoflow.h`] : []),
+    ...(unwanted.length > 0 ? [`exports ${unwanted.join(', ')}, which haptoflow.h does not declare`] : []),
+  ];
 }
 
 /** What the build of the plugin reads in the repository; headless, bench and cli are not in the plugin. */
@@ -113,27 +107,27 @@ export function writeRecord() {
 /** Whether the libraries in git were built from the sources of now. */
 export const areOfTheseSources = (record = readRecord()) => record.sources === hashOfSources();
 
-/** What is wrong with the bytes of a platform's library: a line for each complaint. */
-export function complaintsOf(platform, bytes) {
+/** What is wrong with a platform's library that was just built, by binutils too: a line for each complaint. */
+export function complaintsOf(platform, file) {
+  const bytes = readFileSync(file);
   const kind = kindOfLibrary(bytes);
   if (kind !== platform.kind) return [`${platform.id}: is ${kind ?? 'no library'}; expected ${platform.kind}`];
   const glibc = complaintOfGlibc(platform, bytes);
-  const { missing, unwanted } = differencesOfExports(bytes);
   return [
     ...(bytes.length > largestBytes ? [`has ${bytes.length} bytes; expected ${largestBytes} at most`] : []),
     ...(glibc === null ? [] : [glibc]),
-    ...(missing.length > 0 ? [`does not export ${missing.join(', ')} of haptoflow.h`] : []),
-    ...(unwanted.length > 0 ? [`exports ${unwanted.join(', ')}, which haptoflow.h does not declare`] : []),
+    ...complaintsOfExports(file),
   ].map((complaint) => `${platform.id}: ${complaint}`);
 }
 
-/** What is wrong with the libraries in git beside their record: a line for each complaint. */
+/** Where the libraries in git are not those of their record, which were looked at before it was written: a line for each. */
 export function complaintsOfRecord(record = readRecord()) {
-  return committedPlatforms.flatMap((platform) => {
+  const isRecorded = (platform) => {
     const bytes = existsSync(fileInPackage(platform)) ? readFileSync(fileInPackage(platform)) : Buffer.alloc(0);
-    const isRecorded = record.files[platform.id]?.bytes === bytes.length && record.files[platform.id]?.sha256 === sha256OfBytes(bytes);
-    return [...complaintsOf(platform, bytes), ...(isRecorded ? [] : [`${platform.id}: is not the file that NativePlugin/natives.json records: ${renewal} builds it anew`])];
-  });
+    return record.files[platform.id]?.bytes === bytes.length && record.files[platform.id]?.sha256 === sha256OfBytes(bytes);
+  };
+  return committedPlatforms.filter((platform) => !isRecorded(platform))
+    .map(({ id }) => `${id}: is not the file that NativePlugin/natives.json records: ${renewal} builds it anew`);
 }
 
 /** Why the system cannot load a library, null where it can: of a good one Node says only that it is no module of Node's. */

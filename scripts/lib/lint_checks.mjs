@@ -165,28 +165,6 @@ export async function checkJson(files) {
   return { checked: sources.length, complaints };
 }
 
-const publicHeader = 'NativePlugin/include/haptoflow/haptoflow.h';
-
-/** Functions of a C header without a comment directly before them that has a thread tag, such as [any-thread]. */
-export function functionsWithoutThreadTag(header) {
-  const untagged = [];
-  for (const declaration of header.matchAll(/^HAPTOFLOW_API\b[^;(]*?\b(haptoflow_\w+)\s*\(/gm)) {
-    const before = header.slice(0, declaration.index).trimEnd();
-    const comment = before.endsWith('*/') ? before.slice(before.lastIndexOf('/*')) : '';
-    if (!/\[(?:(?:any|loader|worker)-thread|publisher|audio-callback)\]/.test(comment)) untagged.push(declaration[1]);
-  }
-  return untagged;
-}
-
-/** Every function of the C ABI says which thread may call it. */
-export async function checkThreadTags(files) {
-  const headers = files.filter((name) => name === publicHeader);
-  const complaints = headers.flatMap((name) =>
-    functionsWithoutThreadTag(read(name)).map((declared) => `${name}: ${declared}: expected a thread tag such as [any-thread] in the comment before it`),
-  );
-  return { checked: headers.length, complaints };
-}
-
 const binary = /\.(haptoflow|png|wav|npz|bin|onnx|parquet|pt|so|dll)$/;
 
 // Each is spelt in two parts, so that this file does not complain about itself.

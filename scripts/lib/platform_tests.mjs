@@ -2,7 +2,7 @@ import { copyFileSync, cpSync, existsSync, mkdirSync, rmSync } from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
 import { runtimeLibrary } from '../pack/dependency.mjs';
-import { committedPlatforms, fileInPackage, judgeExportsOfDll } from './libraries.mjs';
+import { committedPlatforms, complaintsOfExports, fileInPackage } from './libraries.mjs';
 import { shippedModel } from './measured_part.mjs';
 import { buildNative, presetFolder } from './native_build.mjs';
 import { CommandError, inRepository, runNpmOrFail, runOrFail } from './process.mjs';
@@ -171,7 +171,10 @@ export async function platformTests() {
     // The capi tests check the exports of an ELF themselves.
     if (preset === 'windows-x64') {
       console.log(`test: exports on ${preset}`);
-      counts = addCounts(counts, judgeExportsOfDll(inRepository(presetFolder(preset), 'audioplugin_haptoflow.dll')));
+      counts = addCounts(counts, await countsOfAttempt(async () => {
+        const complaints = complaintsOfExports(inRepository(presetFolder(preset), 'audioplugin_haptoflow.dll'));
+        if (complaints.length > 0) throw new CommandError(`the DLL ${complaints.join('; ')}`);
+      }));
     }
   }
   console.log('test: the Linux library on Debian 11');

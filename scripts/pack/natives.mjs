@@ -1,10 +1,10 @@
 import { existsSync, readFileSync } from 'node:fs';
 import path from 'node:path';
-import { androidPreset, buildAndroid, findNdk, rebuildAndroid } from '../lib/android.mjs';
+import { androidPreset, androidTarget, buildAndroid, findNdk } from '../lib/android.mjs';
 import { buildNative, presetFolder } from '../lib/native_build.mjs';
-import { CommandError, inRepository } from '../lib/process.mjs';
+import { CommandError, inRepository, runOrFail } from '../lib/process.mjs';
 import { onDebian, setUp } from '../lib/setup.mjs';
-import { isNewerThan, neededGlibc, needsOf } from './binaries.mjs';
+import { isNewerThan, neededGlibc, needsLibrary } from './binaries.mjs';
 
 /** Where the package keeps its native libraries. */
 export const pluginsFolder = 'Runtime/Plugins';
@@ -39,7 +39,7 @@ const machoMachines = { 0x0100000c: 'arm64', 0x01000007: 'x86-64' };
 function kindOfElf(bytes) {
   const machine = elfMachines[bytes.readUInt16LE(18)];
   if (machine === undefined) return null;
-  return `${needsOf(bytes).libraries.includes('libc.so') ? 'android' : 'elf'}-${machine}`;
+  return `${needsLibrary(bytes, 'libc.so') ? 'android' : 'elf'}-${machine}`;
 }
 
 /** The format and processor of a library by its bytes, such as "elf-x86-64"; null for anything else. */
@@ -83,11 +83,14 @@ export async function buildNatives() {
   return failed;
 }
 
-/** Android's compiler was never tried here: where it fails, the tarball has the other libraries. */
+/**
+ * Android's compiler was never tried here: where it fails, the tarball has the other libraries. The folder of an earlier build
+ * has its NDK, so that none is needed in the environment.
+ */
 async function triesAndroid(hasNdk) {
   try {
     if (hasNdk) await buildAndroid();
-    else await rebuildAndroid();
+    else await runOrFail('cmake', ['--build', inRepository(presetFolder(androidPreset)), '--target', androidTarget], { quiet: !process.stdout.isTTY });
     return true;
   } catch (error) {
     if (!(error instanceof CommandError)) throw error;

@@ -12,6 +12,7 @@ import sys
 import tempfile
 import warnings
 from dataclasses import dataclass
+from itertools import product
 from pathlib import Path
 
 import matplotlib
@@ -133,63 +134,36 @@ def render(
         return Render(rate_hz, full_scale_mps2 * samples, contacts_of(*files))
 
 
-def facets(surface: dict) -> np.ndarray:
-    """[N, 4, 3] quadrilaterals in metres, in the scene's frame, at the surface's rest pose."""
-    rest = surface.get("motion", {}).get("keyframes", [surface])[0]
-    turn = Rotation.from_quat(rest.get("rotation", surface.get("rotation", [0.0, 0.0, 0.0, 1.0])))
-    shape = surface["shape"]
-    if "box" in shape:
-        local = _box(np.array(shape["box"]["size"]) / 2.0)
-    elif "sphere" in shape:
-        local = _ball(shape["sphere"]["radius"], 0.0)
-    else:
-        capsule = shape["capsule"]
-        local = _ball(capsule["radius"], capsule["height"] / 2.0 - capsule["radius"])
-    return turn.apply(local.reshape(-1, 3)).reshape(-1, 4, 3) + np.array(rest["position"])
-
-
 def rest_of(surface: dict) -> np.ndarray:
     """Where a drawing shows a surface: its own place, or the first of its motion."""
     return np.array(surface.get("motion", {}).get("keyframes", [surface])[0]["position"])
 
 
 def outline(surface: dict, plane_of: list[int]) -> np.ndarray:
-    """[n, 2] corners in a view along an axis of the world."""
-    points = facets(surface).reshape(-1, 3)[:, plane_of]
+    """[n, 2] corners in metres, at the surface's rest pose, in a view along an axis of the world."""
+    keyframe = surface.get("motion", {}).get("keyframes", [surface])[0]
+    turn = Rotation.from_quat(keyframe.get("rotation", surface.get("rotation", [0.0, 0.0, 0.0, 1.0])))
+    shape = surface["shape"]
+    if "box" in shape:
+        local = np.array(shape["box"]["size"]) / 2.0 * list(product((-1.0, 1.0), repeat=3))
+    elif "sphere" in shape:
+        local = _ball(shape["sphere"]["radius"], 0.0)
+    else:
+        capsule = shape["capsule"]
+        local = _ball(capsule["radius"], capsule["height"] / 2.0 - capsule["radius"])
+    points = (turn.apply(local) + rest_of(surface))[:, plane_of]
     return points[ConvexHull(points).vertices]
 
 
-def _box(half: np.ndarray) -> np.ndarray:
-    faces = []
-    for axis in range(3):
-        right, up = (axis + 1) % 3, (axis + 2) % 3
-        steps = 12 if half[right] + half[up] > 0.5 else 2
-        edges = np.linspace(-1.0, 1.0, steps + 1)
-        for side in (-1.0, 1.0):
-            for a, b in np.ndindex(steps, steps):
-                corner = np.zeros((4, 3))
-                corner[:, axis] = side
-                corner[:, right] = edges[[a, a + 1, a + 1, a]]
-                corner[:, up] = edges[[b, b, b + 1, b + 1]]
-                faces.append(corner * half)
-    return np.array(faces)
-
-
 def _ball(radius: float, reach: float) -> np.ndarray:
-    """A sphere; with a reach above 0 a capsule along y."""
-    rings, parts = 24, 48
-    heights = np.linspace(-np.pi / 2.0, np.pi / 2.0, rings + 1)
-    turns = np.linspace(0.0, 2.0 * np.pi, parts + 1)
-
-    def point(ring: int, part: int) -> list[float]:
-        wide = radius * np.cos(heights[ring])
-        lift = reach if ring > rings // 2 else -reach
-        return [wide * np.cos(turns[part]), radius * np.sin(heights[ring]) + lift, wide * np.sin(turns[part])]
-
-    return np.array([
-        [point(ring, part), point(ring, part + 1), point(ring + 1, part + 1), point(ring + 1, part)]
-        for ring, part in np.ndindex(rings, parts)
-    ])  # fmt: skip
+    """[N, 3] points of a sphere; with a reach above 0 of a capsule along y."""
+    turns, heights = np.meshgrid(
+        np.linspace(0.0, 2.0 * np.pi, 48, endpoint=False), np.linspace(-np.pi / 2.0, np.pi / 2.0, 25)
+    )
+    lifts = np.where(np.arange(25) > 12, reach, -reach)[:, None]
+    wide = radius * np.cos(heights)
+    points = [wide * np.cos(turns), radius * np.sin(heights) + lifts, wide * np.sin(turns)]
+    return np.stack(points, axis=-1).reshape(-1, 3)
 
 
 def draw_spectrogram(axes: plt.Axes, felt: Render, top_db: float | None = None, range_db: float = 60.0) -> None:

@@ -12,18 +12,15 @@ export const yamlEndings = ['.unity', '.prefab', '.mixer', '.asset', '.mat', '.c
 export const references = (text) => [...text.matchAll(/\{fileID: (-?\d+)(?:, guid: ([0-9a-f]{32}), type: \d)?\}/g)].map(([, id, guid]) => ({ id, guid }));
 const lineOf = (text, index) => text.slice(0, index).split('\n').length;
 
-/**
- * GUIDs in scenes, prefabs, mixers and other assets belong to files of the package or are built into Unity.
- * @param {Set<string>} known GUIDs of files elsewhere
- */
-export function checkAssetGuids(files, known = new Set()) {
+/** GUIDs in scenes, prefabs, mixers and other assets belong to files of the package or are built into Unity. */
+export function checkAssetGuids(files) {
   const owners = new Map([...guidsByName(files)].map(([name, guid]) => [guid, name]));
   const complaints = [];
   for (const name of [...files.endingIn(...yamlEndings), ...files.endingIn('.meta')]) {
     const text = files.text(name);
     for (const found of text.matchAll(/\{fileID: -?\d+, guid: ([0-9a-f]{32})/g)) {
       const guid = found[1];
-      if (builtIn.has(guid) || known.has(guid) || guid === noGuid) continue;
+      if (builtIn.has(guid) || guid === noGuid) continue;
       const where = `${name}:${lineOf(text, found.index)}: GUID ${guid}`;
       const owner = owners.get(guid);
       if (owner === undefined) complaints.push(`${where}: no file of the package has it`);

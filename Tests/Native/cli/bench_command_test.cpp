@@ -12,8 +12,6 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
-#include <fstream>
 #include <numeric>
 #include <span>
 #include <stdexcept>
@@ -34,14 +32,11 @@ using testing::tinyModel;
 
 const std::string goldenSkeleton = HAPTOFLOW_TEST_GOLDEN_DIR "/model/skeleton.haptoflow";
 
-Finished runBench(const std::string& words) {
-    return testing::runHaptoFlow("bench " + words);
-}
-
 /// The report of a run with few events; the tiny model replaces the paper's architecture, too.
 Json reportOf(const std::string& measurements, const std::string& model = tinyModel) {
     const std::string only = measurements == "all" ? "" : " --only " + measurements;
-    const Finished run = runBench("--quick --events 2 --json --model " + model + " --paper-model " + tinyModel + only);
+    const Finished run = testing::runHaptoFlow("bench --quick --events 2 --json --model " + model + " --paper-model " +
+                                               tinyModel + only);
     if (run.exitCode != 0) {
         throw std::runtime_error("bench ended with " + std::to_string(run.exitCode) + ": " + run.errors);
     }
@@ -84,7 +79,9 @@ std::string valuesOf(const Json& rows, const std::string& key) {
     return values.dump();
 }
 
-TEST(BenchCommandTest, TheReportHoldsEveryFigureOfTheContractWithTheRatioToItsReference) {
+using BenchCommandTest = testing::CommandLineTest;
+
+TEST_F(BenchCommandTest, TheReportHoldsEveryFigureOfTheContractWithTheRatioToItsReference) {
     const Json report = reportOf("all");
     expectRankedWithin(report, "");
     const auto expectRatioTo = [](const Json& row, const Json& reference) {
@@ -143,7 +140,7 @@ TEST(BenchCommandTest, TheReportHoldsEveryFigureOfTheContractWithTheRatioToItsRe
     EXPECT_TRUE(std::string(host.data()).size() < 4 || report.dump().find(host.data()) == std::string::npos);
 }
 
-TEST(BenchCommandTest, LatenciesHaveARowForEachDeviceWithItsGoalAfterTheDefaultBlocksFigures) {
+TEST_F(BenchCommandTest, LatenciesHaveARowForEachDeviceWithItsGoalAfterTheDefaultBlocksFigures) {
     const Json report = reportOf("latency,voices", goldenSkeleton);
     expectRankedWithin(report, "");
     EXPECT_EQ(report["sketch_voices"].size(), 7U);
@@ -169,17 +166,14 @@ TEST(BenchCommandTest, LatenciesHaveARowForEachDeviceWithItsGoalAfterTheDefaultB
     }
 }
 
-TEST(BenchCommandTest, WithoutThePapersModelTheReportHasANoteAndNoSpeedUp) {
-    const auto path = std::filesystem::temp_directory_path() / "bench_without_paper.json";
-    const Finished run = runBench("--only inference --events 1 --model " + tinyModel + " -o '" + path.string() + "'");
-    ASSERT_EQ(run.exitCode, 0) << run.errors;
-    EXPECT_THAT(run.output,
+TEST_F(BenchCommandTest, WithoutThePapersModelTheReportHasANoteAndNoSpeedUp) {
+    const Finished finished = run("bench --only inference --events 1 --model " + tinyModel + " -o bench.json");
+    ASSERT_EQ(finished.exitCode, 0) << finished.errors;
+    EXPECT_THAT(finished.output,
                 AllOf(HasSubstr("inference, one segment"), HasSubstr("note: speedup_vs_paper_architecture")));
-    EXPECT_THAT(run.output, Not(HasSubstr("callback")));
-    EXPECT_EQ(run.errors, "") << "no progress bar if standard error is not a terminal";
-    std::ifstream stream(path);
-    const Json report = Json::parse(stream);
-    std::filesystem::remove(path);
+    EXPECT_THAT(finished.output, Not(HasSubstr("callback")));
+    EXPECT_EQ(finished.errors, "") << "no progress bar if standard error is not a terminal";
+    const Json report = Json::parse(read("bench.json"));
     EXPECT_FALSE(report.contains("speedup_vs_paper_architecture"));
     EXPECT_FALSE(report.contains("callback_us"));
     EXPECT_TRUE(report.contains("load_ms"));
@@ -187,18 +181,16 @@ TEST(BenchCommandTest, WithoutThePapersModelTheReportHasANoteAndNoSpeedUp) {
     EXPECT_THAT(report["notes"][0].get<std::string>(), HasSubstr("--paper-model"));
 }
 
-TEST(BenchCommandTest, WrongUseExitsWithTwoAndWrongFilesWithThree) {
-    EXPECT_EQ(runBench("--only latncy").exitCode, 2);
-    EXPECT_EQ(runBench("--events 0").exitCode, 2);
-    const Finished missing = runBench("--model /nowhere/a.haptoflow");
-    EXPECT_EQ(missing.exitCode, 3);
-    EXPECT_THAT(missing.errors, HasSubstr("/nowhere/a.haptoflow: there is no such file"));
-    const Finished paper = runBench("--model " + tinyModel + " --paper-model /nowhere/p.haptoflow");
-    EXPECT_EQ(paper.exitCode, 3);
-    EXPECT_THAT(paper.errors, HasSubstr("/nowhere/p.haptoflow"));
-    const Finished unwritable = runBench("--model " + tinyModel + " -o /nowhere/bench.json");
-    EXPECT_EQ(unwritable.exitCode, 3);
-    EXPECT_THAT(unwritable.errors, HasSubstr("/nowhere/bench.json: cannot be written"));
+TEST_F(BenchCommandTest, WrongUseExitsWithTwoAndWrongFilesWithThree) {
+    expectRefusals(
+        {
+            {"--only latncy", 2, "latncy"},
+            {"--events 0", 2, "--events"},
+            {"--model /nowhere/a.haptoflow", 3, "/nowhere/a.haptoflow: there is no such file"},
+            {"--model " + tinyModel + " --paper-model /nowhere/p.haptoflow", 3, "/nowhere/p.haptoflow"},
+            {"--model " + tinyModel + " -o /nowhere/bench.json", 3, "/nowhere/bench.json: cannot be written"},
+        },
+        "bench ");
 }
 
 TEST(BenchDistributionTest, PercentilesAreMeasuredValuesByNearestRank) {

@@ -69,16 +69,6 @@ TEST_F(ClipsCommandTest, EqualSeedsGiveEqualClips) {
     }
 }
 
-TEST_F(ClipsCommandTest, TwoOutputsOfOneKindAndARateThatIsNoMultipleAreRefused) {
-    const Finished two = render("-o one.ahap -o other.ahap");
-    EXPECT_EQ(two.exitCode, 2);
-    EXPECT_THAT(two.errors, HasSubstr("-o other.ahap: -o one.ahap is of the same kind"));
-    const Finished odd = render("-o one.wav -o one.haptic --rate 44100");
-    EXPECT_EQ(odd.exitCode, 2);
-    EXPECT_THAT(odd.errors, HasSubstr("-o one.haptic needs a --rate that is a multiple of 2000 Hz"));
-    EXPECT_EQ(fileCount(), 2U) << "scene and stroke";
-}
-
 TEST_F(ClipsCommandTest, AClipIsShownAsTextAsJsonAndAsAPicture) {
     ASSERT_EQ(render("-o felt.ahap --effects texture,impact").exitCode, 0);
     const Finished shown = run("inspect felt.ahap --picture felt.svg");
@@ -93,15 +83,21 @@ TEST_F(ClipsCommandTest, AClipIsShownAsTextAsJsonAndAsAPicture) {
     EXPECT_NEAR(figures["seconds"].get<double>(), 0.7, 1e-6);
 }
 
-TEST_F(ClipsCommandTest, WhatIsNoClipIsRefusedWithASentence) {
+TEST_F(ClipsCommandTest, WhatCannotBeWrittenOrShownIsRefusedWithASentence) {
     write("click.haptic", R"({"version":{"major":1},"signals":{"continuous":{"envelopes":{"amplitude":[]}}}})");
-    const Finished damaged = run("inspect click.haptic");
-    EXPECT_EQ(damaged.exitCode, 3);
-    EXPECT_THAT(damaged.errors,
-                HasSubstr("click.haptic: clip key \"signals.continuous.envelopes.amplitude\": expected"));
-    const Finished picture = run("inspect " + testing::tinyModel + " --picture tiny.svg");
-    EXPECT_EQ(picture.exitCode, 2);
-    EXPECT_THAT(picture.errors, HasSubstr("--picture draws clips"));
+    std::filesystem::create_directory(at("pictures"));
+    write("pictures/cat.png", "meow");
+    const std::string render = "render scene.json --stroke stroke.csv ";
+    expectRefusals({
+        {render + "-o one.ahap -o other.ahap", 2, "-o other.ahap: -o one.ahap is of the same kind"},
+        {render + "-o one.wav -o one.haptic --rate 44100", 2,
+         "-o one.haptic needs a --rate that is a multiple of 2000 Hz"},
+        {"inspect click.haptic", 3, "click.haptic: clip key \"signals.continuous.envelopes.amplitude\": expected"},
+        {"inspect " + testing::tinyModel + " --picture tiny.svg", 2, "--picture draws clips"},
+        {"export-set -o pictures --labels wood", 2, "has other files and no index.json"},
+        {"export-set -o set --labels wood --speeds 0.2,0.1", 2, "--speeds: expected rising numbers"},
+        {"export-set -o set --labels sandpapr", 3, "sandpaper"},
+    });
 }
 
 TEST_F(ClipsCommandTest, ASetHasALoopForEachLabelSpeedAndForceAndAnIndex) {
@@ -141,21 +137,6 @@ TEST_F(ClipsCommandTest, ASetHasALoopForEachLabelSpeedAndForceAndAnIndex) {
     EXPECT_EQ(
         run("export-set -o set --labels wood --speeds 0.05 --forces 1 --seconds 1 --quality sketch --quiet").exitCode,
         0);
-}
-
-TEST_F(ClipsCommandTest, ASetIsNotMixedWithOtherFilesAndItsWordsAreChecked) {
-    std::filesystem::create_directory(at("pictures"));
-    write("pictures/cat.png", "meow");
-    const Finished mixed = run("export-set -o pictures --labels wood");
-    EXPECT_EQ(mixed.exitCode, 2);
-    EXPECT_THAT(mixed.errors, HasSubstr("has other files and no index.json"));
-    const Finished falling = run("export-set -o set --labels wood --speeds 0.2,0.1");
-    EXPECT_EQ(falling.exitCode, 2);
-    EXPECT_THAT(falling.errors, HasSubstr("--speeds: expected rising numbers"));
-    const Finished unknown = run("export-set -o set --labels sandpapr");
-    EXPECT_EQ(unknown.exitCode, 3);
-    EXPECT_THAT(unknown.errors, HasSubstr("sandpaper"));
-    EXPECT_FALSE(exists("set"));
 }
 
 }  // namespace

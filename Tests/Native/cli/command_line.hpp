@@ -1,6 +1,8 @@
 #pragma once
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <sys/wait.h>
 #include <unistd.h>
@@ -12,6 +14,7 @@
 #include <iterator>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace haptoflow::cli::testing {
 
@@ -21,6 +24,13 @@ struct Finished {
     int exitCode = -1;
     std::string output;
     std::string errors;
+};
+
+/// A command line that must fail: its words, its exit code and a part of its message.
+struct Refusal {
+    std::string words;
+    int exitCode;
+    std::string message;
 };
 
 /// Runs the command line with these arguments, quoted for a shell, and with the repository's ONNX Runtime and model;
@@ -85,6 +95,22 @@ protected:
     /// `render` of the scene and the stroke with more words.
     [[nodiscard]] Finished render(const std::string& words) const {
         return run("render scene.json --stroke stroke.csv " + words);
+    }
+    /// The report of a `render` to felt.wav that must succeed.
+    [[nodiscard]] nlohmann::json rendered(const std::string& words = "") const {
+        const Finished finished = render("-o felt.wav --report felt.json " + words);
+        EXPECT_EQ(finished.exitCode, 0) << finished.errors;
+        return finished.exitCode == 0 ? nlohmann::json::parse(read("felt.json")) : nlohmann::json::object();
+    }
+    /// Runs command lines that must fail, each behind the words `before`, without another file in the folder.
+    void expectRefusals(const std::vector<Refusal>& refusals, const std::string& before = "") const {
+        const std::size_t files = fileCount();
+        for (const auto& [words, exitCode, message] : refusals) {
+            const Finished finished = run(before + words);
+            EXPECT_EQ(finished.exitCode, exitCode) << words << '\n' << finished.errors;
+            EXPECT_THAT(finished.errors, ::testing::HasSubstr(message)) << words;
+            EXPECT_EQ(fileCount(), files) << words;
+        }
     }
 
 private:

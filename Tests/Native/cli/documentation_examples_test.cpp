@@ -1,19 +1,15 @@
 // Runs every command line of `haptoflow` in the documentation, with the files of its page.
 #include "command_line.hpp"
-
-#include "learning/made_recording.hpp"
-#include "output_file.hpp"
+#include "made_files.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <regex>
 #include <set>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -116,19 +112,9 @@ protected:
     /// Creates the recordings of the page on own materials, and a scene with the material learnt from the first.
     void makeRecordings() const {
         const learning::testing::MadeRecording made({}, {.seconds = 10.5});
-        std::ostringstream table;
-        table << "time_s,acceleration_mps2,velocity_x_mps,velocity_y_mps,force_newtons\n";
-        for (std::size_t i = 0; i < made.acceleration.size(); ++i) {
-            table << static_cast<double>(i) / 4000.0 << ',' << made.acceleration[i] << ',' << made.velocity[2 * i]
-                  << ',' << made.velocity[2 * i + 1] << ',' << made.force[i] << '\n';
-        }
-        write("denim.csv", table.str());
-        write("tile.csv", table.str());
-        WavWriter wav(at("doormat.wav"), 4000, "doormat.wav");
-        std::vector<float> samples = made.acceleration;
-        std::ranges::transform(samples, samples.begin(), [](float value) { return 0.01F * value; });
-        wav.write(samples);
-        wav.close();
+        write("denim.csv", testing::tableOf(made));
+        write("tile.csv", testing::tableOf(made));
+        testing::writeWav(at("doormat.wav"), made, 100.0F);
         write("denim-floor.json", R"({"surfaces": [{"name": "floor", "shape": {"plane": {}}, "material": "denim"}]})");
     }
 

@@ -1,8 +1,8 @@
 // One rule for every command: no output is a file that the command reads, nor another of its outputs, and an output
 // appears whole or not at all.
 #include "command_line.hpp"
+#include "made_files.hpp"
 
-#include "learning/made_recording.hpp"
 #include "model/material_builder.hpp"
 
 #include <gmock/gmock.h>
@@ -10,7 +10,6 @@
 #include <nlohmann/json.hpp>
 
 #include <map>
-#include <sstream>
 #include <string>
 
 namespace haptoflow::cli {
@@ -23,26 +22,15 @@ using testing::Finished;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-constexpr double recordingHz = 4000.0;
 constexpr const char* profile = R"({"format_version": 1, "name": "a", "approximate": false, "provenance": "made",
     "rated_level_mps2": null, "frequency_hz": [20, 1200], "magnitude_db": [0, 0], "resonances_hz": []})";
-
-std::string recordingTable() {
-    const MadeRecording made({}, {});
-    std::ostringstream text;
-    text << "time_s,acceleration_mps2\n";
-    for (std::size_t i = 0; i < made.acceleration.size(); ++i) {
-        text << static_cast<double>(i) / recordingHz << ',' << made.acceleration[i] << '\n';
-    }
-    return text.str();
-}
 
 class OutputFilesTest : public testing::CommandLineTest {
 protected:
     /// A recording with each kind of file beside it, a material, a profile and a scene that uses the material.
     void SetUp() override {
         testing::CommandLineTest::SetUp();
-        write("tile.csv", recordingTable());
+        write("tile.csv", testing::tableOf(MadeRecording({}, {}), "time_s,acceleration_mps2,a,b,c"));
         write("tile.json", R"({"label": "tile", "motion": "tile.motion.csv"})");
         write("recordings.json", R"({"licence": "CC0"})");
         std::string motion = "time_s,speed_mps,force_newtons\n";

@@ -33,19 +33,11 @@ using testing::tinyModel;
 
 class RenderCommandTest : public testing::CommandLineTest {
 protected:
-    [[nodiscard]] nlohmann::json reportOf(const std::string& words) const {
-        const Finished rendered = render("-o felt.wav --report felt.json " + words);
-        EXPECT_EQ(rendered.exitCode, 0) << rendered.errors;
-        return rendered.exitCode == 0 ? nlohmann::json::parse(read("felt.json")) : nlohmann::json::object();
-    }
-
-    /// Expects a usage error with this text in the message and no output file.
-    void expectUsage(const std::string& words, const std::string& message) const {
-        const std::size_t before = fileCount();
-        const Finished rendered = render(words);
-        EXPECT_EQ(rendered.exitCode, 2) << words << '\n' << rendered.errors;
-        EXPECT_THAT(rendered.errors, HasSubstr(message)) << words;
-        EXPECT_EQ(fileCount(), before) << words;
+    /// Options of `render` that are wrong usage, with this text in the message.
+    void expectUsage(const std::vector<std::pair<std::string, std::string>>& rows) const {
+        for (const auto& [words, message] : rows) {
+            expectRefusals({{words, 2, message}}, "render scene.json --stroke stroke.csv -o felt.wav ");
+        }
     }
 };
 
@@ -66,12 +58,10 @@ TEST_F(RenderCommandTest, TiersWithASkeletonRenderAndTakeNoSolver) {
     for (const std::string quality : {"sketch", "standard"}) {
         const std::string words =
             "render ruled.json --stroke stroke.csv -o felt.wav --report felt.json --quality " + quality + model;
-        const Finished rendered = run(words);
-        EXPECT_EQ(rendered.exitCode, 0) << rendered.errors;
+        const Finished finished = run(words);
+        EXPECT_EQ(finished.exitCode, 0) << finished.errors;
         EXPECT_GT(nlohmann::json::parse(read("felt.json")).at("rms_mps2").get<double>(), 0.0) << quality;
-        const Finished solved = run(words + " --solver euler --steps 2");
-        EXPECT_EQ(solved.exitCode, 2) << solved.errors;
-        EXPECT_THAT(solved.errors, HasSubstr("evaluated once"));
+        expectRefusals({{words + " --solver euler --steps 2", 2, "evaluated once"}});
     }
 }
 
@@ -163,27 +153,25 @@ TEST_F(RenderCommandTest, AFolderInPlaceOfAFileIsAnInputError) {
           "render scene.json --stroke stroke.csv -o felt.wav --model folder",
           "render scene.json --stroke stroke.csv -o folder", "contact folder --stroke stroke.csv",
           "contact scene.json --stroke folder", "contact scene.json --stroke stroke.csv -o folder", "inspect folder"}) {
-        const Finished finished = run(words);
-        EXPECT_EQ(finished.exitCode, 3) << words;
-        EXPECT_THAT(finished.errors, HasSubstr("folder: is a folder; expected")) << words;
+        expectRefusals({{words, 3, "folder: is a folder; expected"}});
     }
 }
 
 TEST_F(RenderCommandTest, InvalidNumbersAndNumbersOutOfRangeAreUsageErrors) {
-    for (const char* option : {"--rate", "--full-scale", "--lead-ms"}) {
+    for (const std::string option : {"--rate", "--full-scale", "--lead-ms"}) {
         for (const char* value : {"nan", "-nan", "NaN", "inf", "-1", "1e400", "0x10000", "12,5", "wood"}) {
-            expectUsage(std::string("-o felt.wav ") + option + "=" + value, std::string(option) + ": expected a");
+            expectUsage({{option + "=" + value, option + ": expected a"}});
         }
     }
-    expectUsage("-o felt.wav --rate 44100.5", "--rate: expected a whole number from 8000 to 192000 Hz");
-    expectUsage("-o felt.wav --solver euler --steps 2.5", "--steps: expected a whole number from 1 to 16");
+    for (const char* seed : {"-1", "18446744073709551616", "99999999999999999999999", "1e3", "0x10", "1.5", "+1"}) {
+        expectUsage({{std::string("--seed=") + seed, "--seed: expected a whole number from 0 to"}});
+    }
+    expectUsage({{"--rate 44100.5", "--rate: expected a whole number from 8000 to 192000 Hz"},
+                 {"--solver euler --steps 2.5", "--steps: expected a whole number from 1 to 16"}});
     EXPECT_EQ(run("contact scene.json --stroke stroke.csv --default-stiffness=nan").exitCode, 2);
 }
 
-TEST_F(RenderCommandTest, ASeedIsUsedExactlyOrRefused) {
-    for (const char* seed : {"-1", "18446744073709551616", "99999999999999999999999", "1e3", "0x10", "1.5", "+1"}) {
-        expectUsage(std::string("-o felt.wav --seed=") + seed, "--seed: expected a whole number from 0 to");
-    }
+TEST_F(RenderCommandTest, ASeedIsUsedExactly) {
     ASSERT_EQ(render("-o largest.wav --seed 18446744073709551615").exitCode, 0);
     ASSERT_EQ(render("-o ten.wav --seed 10").exitCode, 0);
     ASSERT_EQ(render("-o zero-ten.wav --seed 010").exitCode, 0);
@@ -192,24 +180,21 @@ TEST_F(RenderCommandTest, ASeedIsUsedExactlyOrRefused) {
 }
 
 TEST_F(RenderCommandTest, ASoundFileOtherThanWavIsRefusedWithAValidName) {
-    expectUsage("-o felt.mp3", "only WAV is written, not '.mp3'; did you mean felt.wav?");
-    expectUsage("-o felt.wav --waveform raw.flac", "did you mean raw.wav?");
-    EXPECT_EQ(render("-o FELT.WAV").exitCode, 0);
-    EXPECT_EQ(render("-o felt").exitCode, 0);
+    const std::string render = "render scene.json --stroke stroke.csv ";
+    expectRefusals({{render + "-o felt.mp3", 2, "only WAV is written, not '.mp3'; did you mean felt.wav?"},
+                    {render + "-o felt.wav --waveform raw.flac", 2, "did you mean raw.wav?"}});
+    EXPECT_EQ(this->render("-o FELT.WAV").exitCode, 0);
+    EXPECT_EQ(this->render("-o felt").exitCode, 0);
 }
 
 TEST_F(RenderCommandTest, AMisspeltCommandOptionOrQualityIsRefusedWithASuggestion) {
-    const Finished command = run("redner scene.json --stroke stroke.csv -o felt.wav");
-    EXPECT_EQ(command.exitCode, 2);
-    EXPECT_THAT(command.errors, HasSubstr("there is no command 'redner'; did you mean 'render'?"));
-    const Finished unlike = run("xylophone");
-    EXPECT_EQ(unlike.exitCode, 2);
-    EXPECT_THAT(unlike.errors,
-                AllOf(HasSubstr("The commands are render, contact, inspect, actuator, learn, export-set, bench"),
-                      Not(HasSubstr("did you mean"))));
-    expectUsage("-o felt.wav --sede 4", "There is no option '--sede'; did you mean '--seed'?");
-    expectUsage("-o felt.wav --qualty=fine", "did you mean '--quality'?");
-    expectUsage("-o felt.wav --quality Standart", "did you mean 'standard'? This model has sketch, draft, standard");
+    expectRefusals({{"redner scene.json --stroke stroke.csv -o felt.wav", 2,
+                     "there is no command 'redner'; did you mean 'render'?"},
+                    {"xylophone", 2, "The commands are render, contact, inspect, actuator, learn, export-set, bench"}});
+    EXPECT_THAT(run("xylophone").errors, Not(HasSubstr("did you mean")));
+    expectUsage({{"--sede 4", "There is no option '--sede'; did you mean '--seed'?"},
+                 {"--qualty=fine", "did you mean '--quality'?"},
+                 {"--quality Standart", "did you mean 'standard'? This model has sketch, draft, standard"}});
 }
 
 TEST_F(RenderCommandTest, AnUnknownLabelIsRefusedWithTheNearestThreeAndTheListOfAll) {
@@ -228,72 +213,70 @@ TEST_F(RenderCommandTest, AnUnknownLabelIsRefusedWithTheNearestThreeAndTheListOf
     EXPECT_FALSE(exists("felt.wav"));
 }
 
-TEST_F(RenderCommandTest, SolverAndStepsAreRefusedForATierThatIsEvaluatedOnce) {
-    expectUsage("-o felt.wav --solver midpoint --steps 4",
-                "--solver and --steps have no effect on the tier 'standard', which is evaluated once");
-    expectUsage("-o felt.wav --quality draft --solver euler --steps 1", "no effect on the tier 'draft'");
-    const nlohmann::json report = reportOf("");
-    EXPECT_EQ(report["tier"], "standard");
-    EXPECT_TRUE(report["solver"].is_null());
-    EXPECT_TRUE(report["steps"].is_null());
-}
-
-TEST_F(RenderCommandTest, TheReportNamesTheSolverThatWasUsed) {
+TEST_F(RenderCommandTest, SolverAndStepsAreThoseOfTheTierOrAskedForWhereItIsSolved) {
+    struct Solved {
+        std::string words;
+        nlohmann::json tier;
+        nlohmann::json solver;
+        nlohmann::json steps;
+    };
+    const auto expectSolved = [this](const std::vector<Solved>& rows) {
+        for (const auto& [words, tier, solver, steps] : rows) {
+            const nlohmann::json report = rendered(words);
+            EXPECT_EQ(nlohmann::json({report["tier"], report["solver"], report["steps"]}),
+                      nlohmann::json({tier, solver, steps}))
+                << words;
+        }
+    };
+    expectUsage({{"--solver midpoint --steps 4",
+                  "--solver and --steps have no effect on the tier 'standard', which is evaluated once"},
+                 {"--quality draft --solver euler --steps 1", "no effect on the tier 'draft'"}});
+    expectSolved({{"", "standard", nullptr, nullptr}});
     write("scene.json", R"({"surfaces": [{"name": "floor", "shape": {"plane": {}}, "material": "plain"}]})");
     const std::string tiny = "--model '" + tinyModel + "' ";
-    const nlohmann::json own = reportOf(tiny);
-    EXPECT_EQ(own["tier"], "standard");
-    EXPECT_EQ(own["solver"], "midpoint");
-    EXPECT_EQ(own["steps"], 2);
-    const nlohmann::json asked = reportOf(tiny + "--solver heun --steps 3");
-    EXPECT_EQ(asked["solver"], "heun");
-    EXPECT_EQ(asked["steps"], 3);
-    expectUsage("-o no.wav " + tiny + "--quality draft --solver midpoint --steps 3",
-                "always stepped by euler: did you mean --solver euler?");
-    const nlohmann::json average = reportOf(tiny + "--quality draft --solver euler --steps 3");
-    EXPECT_EQ(average["solver"], "euler");
-    EXPECT_EQ(average["steps"], 3);
+    expectUsage({{tiny + "--quality draft --solver midpoint --steps 3",
+                  "always stepped by euler: did you mean --solver euler?"}});
+    expectSolved({{tiny, "standard", "midpoint", 2},
+                  {tiny + "--solver heun --steps 3", "standard", "heun", 3},
+                  {tiny + "--quality draft --solver euler --steps 3", "draft", "euler", 3}});
 }
 
-TEST_F(RenderCommandTest, AStrokeThatNeverTouchesGivesANote) {
-    write("stroke.csv", "t,x,y,z\n0,0,0.5,0\n0.3,0.03,0.5,0\n");
-    const Finished rendered = render("-o felt.wav --report felt.json");
-    EXPECT_EQ(rendered.exitCode, 0);
-    EXPECT_THAT(rendered.errors, AllOf(HasSubstr("note: stroke.csv never touches a surface of scene.json"),
-                                       HasSubstr("the output is silent")));
-    EXPECT_EQ(nlohmann::json::parse(read("felt.json"))["touches"], 0);
-}
-
-TEST_F(RenderCommandTest, SilentTapsAreCountedInANoteAndSlidesAreNot) {
-    write("stroke.csv",
-          "t,x,y,z\n0,0,0.01,0\n0.1,0,0.0005,0\n0.2,0,0.0005,0\n0.3,0,0.01,0\n"
-          "0.4,0,0.0005,0\n0.5,0,0.0005,0\n0.6,0,0.01,0\n0.7,0,0.0005,0\n1.0,0.05,0.0005,0\n1.1,0.05,0.01,0\n");
-    const Finished rendered = render("-o felt.wav --report felt.json");
-    EXPECT_THAT(rendered.errors, HasSubstr("2 of 3 touches make no sound"));
-    const nlohmann::json report = nlohmann::json::parse(read("felt.json"));
-    EXPECT_EQ(report["touches"], 3);
-    EXPECT_EQ(report["silent_touches"], 2);
-    EXPECT_EQ(report["missed_touches"], 0);
-}
-
-TEST_F(RenderCommandTest, TapsBetweenTwoFramesAreCountedInANote) {
-    write("scene.json",
-          R"({"surfaces": [{"name": "floor", "shape": {"plane": {}}, "material": "wood"}], "update_rate": 10})");
-    write("stroke.csv",
-          "t,x,y,z\n0,0,0.01,0\n0.14,0,0.01,0\n0.15,0.001,0.0005,0\n0.16,0.002,0.01,0\n0.5,0.002,0.01,0\n");
-    const Finished rendered = render("-o felt.wav --report felt.json");
-    EXPECT_THAT(rendered.errors, HasSubstr("1 of 1 touches begin and end between two frames"));
-    EXPECT_EQ(nlohmann::json::parse(read("felt.json"))["missed_touches"], 1);
+TEST_F(RenderCommandTest, TouchesWithoutASoundAreCountedInANote) {
+    struct Stroke {
+        std::string rows;
+        std::string updateRate;
+        std::string note;
+        std::string counts;
+    };
+    const std::vector<Stroke> strokes{
+        {"0,0,0.5,0\n0.3,0.03,0.5,0\n", "90",
+         "note: stroke.csv never touches a surface of scene.json: the output is silent", "[0,0,0]"},
+        {"0,0,0.01,0\n0.1,0,0.0005,0\n0.2,0,0.0005,0\n0.3,0,0.01,0\n0.4,0,0.0005,0\n0.5,0,0.0005,0\n"
+         "0.6,0,0.01,0\n0.7,0,0.0005,0\n1.0,0.05,0.0005,0\n1.1,0.05,0.01,0\n",
+         "90", "2 of 3 touches make no sound", "[3,2,0]"},
+        {"0,0,0.01,0\n0.14,0,0.01,0\n0.15,0.001,0.0005,0\n0.16,0.002,0.01,0\n0.5,0.002,0.01,0\n", "10",
+         "1 of 1 touches begin and end between two frames", "[0,0,1]"}};
+    for (const auto& [rows, updateRate, note, counts] : strokes) {
+        write("scene.json", R"({"surfaces": [{"name": "floor", "shape": {"plane": {}}, "material": "wood"}], )"
+                            R"("update_rate": )" +
+                                updateRate + "}");
+        write("stroke.csv", "t,x,y,z\n" + rows);
+        const Finished finished = render("-o felt.wav --report felt.json");
+        EXPECT_EQ(finished.exitCode, 0);
+        EXPECT_THAT(finished.errors, HasSubstr(note));
+        const auto report = nlohmann::json::parse(read("felt.json"));
+        EXPECT_EQ(nlohmann::json({report["touches"], report["silent_touches"], report["missed_touches"]}).dump(),
+                  counts)
+            << note;
+    }
 }
 
 TEST_F(RenderCommandTest, AStrokeTooLongForAWaveFileIsRefusedBeforeRendering) {
     write("scene.json",
           R"({"surfaces": [{"name": "floor", "shape": {"plane": {}}, "material": "wood"}], "update_rate": 1})");
     write("stroke.csv", restingStroke(28));
-    const Finished rendered = render("-o felt.wav --rate 192000");
-    EXPECT_EQ(rendered.exitCode, 3);
-    EXPECT_THAT(rendered.errors, HasSubstr("stroke.csv: lasts 16800 s; a WAV file at this --rate has room for 5592 s"));
-    EXPECT_FALSE(exists("felt.wav"));
+    expectRefusals({{"render scene.json --stroke stroke.csv -o felt.wav --rate 192000", 3,
+                     "stroke.csv: lasts 16800 s; a WAV file at this --rate has room for 5592 s"}});
 }
 
 /// Peak memory in KiB of a render in its own process.
@@ -337,7 +320,7 @@ TEST_F(RenderCommandTest, MemoryDoesNotGrowWithTheLengthOfTheRender) {
 }
 
 TEST_F(RenderCommandTest, TheReportAgreesWithTheWaveFile) {
-    const nlohmann::json report = reportOf("--rate 44100");
+    const nlohmann::json report = rendered("--rate 44100");
     const std::string wav = read("felt.wav");
     ASSERT_GT(wav.size(), 58U);
     const std::size_t data = wav.find("data");

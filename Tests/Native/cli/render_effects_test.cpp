@@ -133,20 +133,14 @@ TEST_F(RenderEffectsTest, TheFramesReportTheErrorOfTheirIntensity) {
 }
 
 TEST_F(RenderEffectsTest, WrongOptionsAreRefusedByNameAndLeaveNoFile) {
-    const std::size_t before = fileCount();
-    const auto expectError = [this](int exitCode, const std::string& words, const std::string& message) {
-        const Finished rendered = run("render scene.json --stroke stroke.csv " + words);
-        EXPECT_EQ(rendered.exitCode, exitCode) << words << '\n' << rendered.errors;
-        EXPECT_THAT(rendered.errors, HasSubstr(message)) << words;
-    };
-    expectError(2, "-o a.wav --effects bump", "bump");
-    expectError(2, "-o a.wav -o b.wav", "give one .wav, .haptic, .ahap, .hjif, .csv and .json at most");
-    expectError(2, "-o a.json --rate 44100", "multiple of 2000 Hz");
-    expectError(2, "-o a.wav --delay-ms 501", "501");
-    expectError(3, "-o a.wav --actuator nowhere.json", "nowhere.json");
-    write("profile.json", R"({"name": "x"})");
-    expectError(3, "-o a.wav --actuator profile.json", "profile.json: ");
-    EXPECT_EQ(fileCount(), before + 1);
+    expectRefusals(
+        {
+            {"--effects bump", 2, "bump"},
+            {"-o b.wav", 2, "give one .wav, .haptic, .ahap, .hjif, .csv and .json at most"},
+            {"--delay-ms 501", 2, "501"},
+            {"--actuator nowhere.json", 3, "nowhere.json"},
+        },
+        "render scene.json --stroke stroke.csv -o a.wav ");
 }
 
 class SceneReliefsTest : public testing::CommandLineTest {

@@ -46,7 +46,7 @@ export async function startHub({ repositories, elsewhere = {}, pageSize = 1000 }
       }
       if (inApi?.startsWith('revision/')) return revision(response, repository, inApi.slice('revision/'.length));
       if (inApi?.startsWith('tree/')) return tree(response, repository, inApi.slice('tree/'.length), url, fault);
-      if (toResolve !== null) return resolve(request, response, repository, toResolve);
+      if (toResolve !== null) return resolve(response, repository, toResolve);
       const [, ...rest] = at(`/api/resolve-cache/${type}s/${name}`).split('/');
       return bytes(request, response, repository.files[rest.join('/')], fault);
     }
@@ -82,20 +82,16 @@ export async function startHub({ repositories, elsewhere = {}, pageSize = 1000 }
     return json(response, 200, entries.slice(begin, begin + pageSize), headers);
   }
 
-  function resolve(request, response, { type, name, files }, rest) {
+  function resolve(response, { type, name, files }, rest) {
     const [word, ...parts] = rest.split('/');
     if (!isRevision(word)) return noRevision(response, word);
     const path = parts.join('/');
     const content = files[path];
     if (content === undefined) return json(response, 404, { error: 'Entry not found' }, { 'X-Error-Code': 'EntryNotFound' });
-    const known = { 'X-Repo-Commit': commit, 'Accept-Ranges': 'bytes' };
-    if (!isLarge(content)) return send(response, 307, { ...known, ETag: `"${gitName(content)}"`, Location: `/api/resolve-cache/${type}s/${name}/${commit}/${path}` }, '');
-    const large = { ...known, 'X-Linked-Size': content.length, 'X-Linked-ETag': `"${hash('sha256', content)}"`, 'X-Xet-Hash': hash('sha256', 'xet', content) };
-    if (request.headers.accept?.includes('application/vnd.xet-fileinfo+json')) {
-      const links = `<${address}/api/${type}s/${name}/xet-read-token/${commit}>; rel="xet-auth", <${contentAddress}/reconstructions/x>; rel="xet-reconstruction-info"`;
-      return send(response, 200, { ...large, ETag: large['X-Linked-ETag'], Link: links, 'Content-Type': 'application/vnd.xet-fileinfo+json' }, '{}');
-    }
-    return send(response, 302, { ...large, ETag: `"${gitName(content)}"`, Location: `${contentAddress}/repos/${name}/${path}?Signature=x` }, 'Found. Redirecting');
+    const [status, place] = isLarge(content)
+      ? [302, `${contentAddress}/repos/${name}/${path}?Signature=x`]
+      : [307, `/api/resolve-cache/${type}s/${name}/${commit}/${path}`];
+    return send(response, status, { 'X-Repo-Commit': commit, 'Accept-Ranges': 'bytes', ETag: `"${gitName(content)}"`, Location: place }, '');
   }
 
   function onContent(request, response) {
