@@ -61,7 +61,6 @@ namespace HaptoFlow
             return OfPart(part, place, session);
         }
 
-        /// <summary>Names the rule that assigns a part's material. Makes garbage.</summary>
         public string Explain(int part) => parts[part < parts.Length ? part : 0].Explain();
 
         private void Match(IReadOnlyList<HapticMaterialMap> maps)
@@ -180,7 +179,6 @@ namespace HaptoFlow
 
         public bool IsSameAs(in MappedPart other) => ReferenceEquals(Map, other.Map) && Rule == other.Rule;
 
-        /// <summary>Names the rule, for people. Makes garbage.</summary>
         public string Explain() =>
             Map is null ? "no rule matches" : Map != null ? Map.Explain(Rule) : "a deleted map";
     }

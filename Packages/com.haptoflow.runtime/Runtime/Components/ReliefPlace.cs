@@ -86,11 +86,9 @@ namespace HaptoFlow
         private readonly Vector3[] vertices;
         private readonly Vector2[] coordinates;
 
-        /// <summary>Reads a readable mesh.</summary>
         public MeshCoordinates(Mesh mesh) =>
             (triangles, vertices, coordinates) = (mesh.triangles, mesh.vertices, mesh.uv);
 
-        /// <param name="mesh">A readable mesh.</param>
         public static MeshCoordinates Of(Mesh mesh)
         {
             if (!Known.TryGetValue(mesh, out MeshCoordinates known))
