@@ -3,7 +3,6 @@ using System;
 using System.Collections.Generic;
 using HaptoFlow.Numerics;
 using UnityEngine;
-using UnityEngine.SceneManagement;
 using Object = UnityEngine.Object;
 #if UNITY_6000_0_OR_NEWER
 using SurfacePhysics = UnityEngine.PhysicsMaterial;
@@ -260,14 +259,7 @@ namespace HaptoFlow
         }
 
         [RuntimeInitializeOnLoadMethod(RuntimeInitializeLoadType.SubsystemRegistration)]
-        private static void Forget()
-        {
-            Known.Clear();
-            SceneManager.sceneUnloaded -= OnSceneUnloaded;
-            SceneManager.sceneUnloaded += OnSceneUnloaded;
-        }
-
-        private static void OnSceneUnloaded(Scene scene) => Known.Sweep();
+        private static void Forget() => Known.Begin();
     }
 
     /// <summary>The properties of a collider that rules can match, read once. Main thread. Reading makes garbage;

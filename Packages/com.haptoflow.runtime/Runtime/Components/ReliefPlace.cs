@@ -3,7 +3,6 @@ using System;
 using HaptoFlow.Contact;
 using HaptoFlow.Numerics;
 using UnityEngine;
-using UnityEngine.SceneManagement;
 
 namespace HaptoFlow
 {
@@ -152,13 +151,6 @@ namespace HaptoFlow
             Double3.Scale(vertices[triangles[index]].ToDouble(), scale);
 
         [RuntimeInitializeOnLoadMethod(RuntimeInitializeLoadType.SubsystemRegistration)]
-        private static void Forget()
-        {
-            Known.Clear();
-            SceneManager.sceneUnloaded -= OnSceneUnloaded;
-            SceneManager.sceneUnloaded += OnSceneUnloaded;
-        }
-
-        private static void OnSceneUnloaded(Scene scene) => Known.Sweep();
+        private static void Forget() => Known.Begin();
     }
 }
