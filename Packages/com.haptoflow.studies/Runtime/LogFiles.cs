@@ -14,7 +14,6 @@ namespace HaptoFlow.Studies
     /// cref="UnauthorizedAccessException"/>; the tests' own let a write fail.</summary>
     internal class LogWriter
     {
-        /// <summary>Writes a file atomically, replacing an older one.</summary>
         public virtual void Replace(string path, string text) => WholeFile.Write(path, text);
 
         /// <summary>Appends a line; it is on disk when the call returns. A failure may leave part of the line, which
@@ -136,7 +135,6 @@ namespace HaptoFlow.Studies
 
         public bool IsFinished { get; set; }
 
-        /// <summary>The trials at which the session was resumed.</summary>
         public List<int> ResumedAtTrials { get; } = new List<int>();
 
         /// <exception cref="FormatException">The document is not a sidecar; the message names the key.</exception>

@@ -57,7 +57,6 @@ namespace HaptoFlow.Studies
             { "plan", Plan.Trials.Select(Entry).ToArray() },
         };
 
-        /// <summary>The text of the sidecar.</summary>
         internal string Sidecar(SidecarState state)
         {
             var document = new StudyFields { { "format", SidecarState.Format }, { "version", SidecarState.Version } };

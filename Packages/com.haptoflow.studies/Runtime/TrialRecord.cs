@@ -107,7 +107,6 @@ namespace HaptoFlow.Studies
         /// <summary>The first columns of the log, whose values the plan determines.</summary>
         public IReadOnlyList<string> PlannedColumns { get; }
 
-        /// <summary>The planned value of a trial for a column.</summary>
         internal static object Planned(PlannedTrial trial, string column) => column switch
         {
             "trial" => trial.Trial,

@@ -190,37 +190,29 @@ namespace HaptoFlow.SampleTests
         [Test]
         public void BothFilesHoldEveryLineAndThePageNeedsNothingElse()
         {
-            string folder = Directory.CreateDirectory(
-                Path.Combine(Path.GetTempPath(), $"haptoflow-check-{Guid.NewGuid():N}")).FullName;
-            try
+            using var folder = new StudyFolder();
+            var report = new DeviceCheckReport(new[] { ("device", "a <b> & \"c\"") });
+            report.Lines.Add(CheckLine.Of("Engine", "worker", false, "<script>", "do this"));
+            report.Lines.Add(CheckLine.Of("Engine", "late", true, "0 of 9", "never shown"));
+            report.Lines.Add(CheckLine.Unanswered("Felt", "stop"));
+            string page = File.ReadAllText(report.Write(folder.Path));
+            // A second run replaces both files.
+            report.Write(folder.Path);
+            Assert.That(Directory.GetFiles(folder.Path).Select(Path.GetFileName), Is.EquivalentTo(new[]
             {
-                var report = new DeviceCheckReport(new[] { ("device", "a <b> & \"c\"") });
-                report.Lines.Add(CheckLine.Of("Engine", "worker", false, "<script>", "do this"));
-                report.Lines.Add(CheckLine.Of("Engine", "late", true, "0 of 9", "never shown"));
-                report.Lines.Add(CheckLine.Unanswered("Felt", "stop"));
-                string page = File.ReadAllText(report.Write(folder));
-                // A second run replaces both files.
-                report.Write(folder);
-                Assert.That(Directory.GetFiles(folder).Select(Path.GetFileName), Is.EquivalentTo(new[]
-                {
-                    DeviceCheckReport.JsonName, DeviceCheckReport.PageName,
-                }));
-                Assert.That(report.Summary, Is.EqualTo("1 passed, 1 failed, 0 skipped, 1 not answered"));
-                Assert.That(page, Does.Contain("&lt;script&gt;").And.Contain("a &lt;b&gt; &amp; &quot;c&quot;")
-                    .And.Contain("do this").And.Contain(report.Summary).And.Not.Contain("<script"));
-                Assert.That(page, Does.Not.Contain("never shown").And.Not.Contain("http").And.Not.Contain("src="));
-                JObject json = JObject.Parse(File.ReadAllText(Path.Combine(folder, DeviceCheckReport.JsonName)));
-                Assert.That(json["lines"]!.Select(line => (string)line["state"]!), Is.EqualTo(new[]
-                {
-                    "failed", "passed", "asked",
-                }));
-                Assert.That((string)json["environment"]!["device"]!, Is.EqualTo("a <b> & \"c\""));
-                Assert.That((string)json["lines"]![0]!["remedy"]!, Is.EqualTo("do this"));
-            }
-            finally
+                DeviceCheckReport.JsonName, DeviceCheckReport.PageName,
+            }));
+            Assert.That(report.Summary, Is.EqualTo("1 passed, 1 failed, 0 skipped, 1 not answered"));
+            Assert.That(page, Does.Contain("&lt;script&gt;").And.Contain("a &lt;b&gt; &amp; &quot;c&quot;")
+                .And.Contain("do this").And.Contain(report.Summary).And.Not.Contain("<script"));
+            Assert.That(page, Does.Not.Contain("never shown").And.Not.Contain("http").And.Not.Contain("src="));
+            JObject json = JObject.Parse(File.ReadAllText(Path.Combine(folder.Path, DeviceCheckReport.JsonName)));
+            Assert.That(json["lines"]!.Select(line => (string)line["state"]!), Is.EqualTo(new[]
             {
-                Directory.Delete(folder, true);
-            }
+                "failed", "passed", "asked",
+            }));
+            Assert.That((string)json["environment"]!["device"]!, Is.EqualTo("a <b> & \"c\""));
+            Assert.That((string)json["lines"]![0]!["remedy"]!, Is.EqualTo("do this"));
         }
 
         [Test]

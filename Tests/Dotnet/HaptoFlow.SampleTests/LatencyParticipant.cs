@@ -11,7 +11,6 @@ namespace HaptoFlow.SampleTests
     /// answers with the left hand, yes from a certain delay on.</summary>
     internal sealed class LatencyParticipant
     {
-        private const string PenHand = "<XRController>{RightHand}/";
         private const string AnswerHand = "<XRController>{LeftHand}/";
         private const int LagFrames = 6;
         private const float PressedHeight = 0.001f;
@@ -34,7 +33,6 @@ namespace HaptoFlow.SampleTests
         /// <summary>Whether the pen follows the marker; false for a pen that rests at the start.</summary>
         public bool Follows { get; set; } = true;
 
-        /// <summary>Simulates one frame.</summary>
         public void Frame()
         {
             seen.Enqueue(study.Marker.transform.position);
@@ -47,16 +45,13 @@ namespace HaptoFlow.SampleTests
                 place = seen.Peek();
                 place.y = PressedHeight;
             }
-            SimulatedInput.SetControl(PenHand + "isTracked", 1f);
             // A small jitter, because a real tracker never reports the same pose twice.
             trembles = !trembles;
-            SimulatedInput.SetControl(PenHand + "pointerPosition", place + (trembles ? 1e-6f : 0f) * Vector3.right);
-            SimulatedInput.SetControl(PenHand + "pointerRotation", Quaternion.identity);
+            SampleTest.Track(place + (trembles ? 1e-6f : 0f) * Vector3.right, "pointerPosition");
             Answer();
             World.Frame();
         }
 
-        /// <summary>Takes part until a condition holds.</summary>
         public void Until(Func<bool> isSo, double patienceSeconds = 60.0)
         {
             double end = Clock.UnscaledSeconds + patienceSeconds;
@@ -101,7 +96,6 @@ namespace HaptoFlow.SampleTests
         /// <summary>The frame in which the pen set off. The next audio block is the first that can react.</summary>
         public List<int> Starts { get; } = new List<int>();
 
-        /// <summary>The frame in which the pen stopped.</summary>
         public List<int> Stops { get; } = new List<int>();
 
         public void Begin()

@@ -21,9 +21,7 @@ namespace HaptoFlow.SampleTests
         private const double DeviceRateHz = 48000.0;
         private const int BlockFrames = 256;
 
-        private string folder = "";
         private LatencyStudySettings settings = null!;
-        private Camera camera = null!;
         private LatencyStudy study = null!;
         private LatencyParticipant participant = null!;
         private HapticStylus pen = null!;
@@ -31,7 +29,6 @@ namespace HaptoFlow.SampleTests
         [SetUp]
         public void OpenTheStudy()
         {
-            folder = Path.Combine(Path.GetTempPath(), "haptoflow-latency-" + Path.GetRandomFileName());
             settings = ScriptableObject.CreateInstance<LatencyStudySettings>();
             settings.name = "LatencyStudySettings";
             settings.Folder = folder;
@@ -42,15 +39,6 @@ namespace HaptoFlow.SampleTests
             settings.restSeconds = 0.5f;
             AudioDevice.ChangeDevice((int)DeviceRateHz, BlockFrames, AudioSpeakerMode.Stereo);
             OpenScene();
-        }
-
-        [TearDown]
-        public void DeleteTheLogs()
-        {
-            if (Directory.Exists(folder))
-            {
-                Directory.Delete(folder, true);
-            }
         }
 
         [Test]
@@ -178,7 +166,7 @@ namespace HaptoFlow.SampleTests
             SimulatedInput.Reset();
             for (int frame = 0; frame < 900 && session.Phase == StudyPhase.Task; ++frame)
             {
-                PointAt(camera, study.Marker.transform.position);
+                PointAt(study.Marker.transform.position);
                 SimulatedInput.MouseButton = true;
                 World.Frame();
             }
@@ -193,10 +181,7 @@ namespace HaptoFlow.SampleTests
         {
             string[] lines = File.ReadAllLines(SampleFiles.In("LatencyStudy", "LatencyStudySettings.asset"));
             object fresh = ScriptableObject.CreateInstance<LatencyStudySettings>();
-            FieldInfo[] fields = new[] { typeof(LatencyStudySettings), typeof(StudySettings) }
-                .SelectMany(type => type.GetFields(
-                    BindingFlags.Instance | BindingFlags.DeclaredOnly | BindingFlags.Public | BindingFlags.NonPublic))
-                .Where(field => field.IsPublic || field.GetCustomAttribute<SerializeField>() != null).ToArray();
+            FieldInfo[] fields = FieldsOf<LatencyStudySettings>().Concat(FieldsOf<StudySettings>()).ToArray();
             Assert.That(fields, Has.Length.GreaterThan(12));
             foreach (FieldInfo field in fields)
             {
@@ -293,23 +278,16 @@ namespace HaptoFlow.SampleTests
         private void OpenScene()
         {
             FinishLoading();
-            foreach (AudioListener ears in UnityEngine.Object.FindObjectsByType<AudioListener>(
-                FindObjectsInactive.Include, FindObjectsSortMode.None))
+            study = Open<LatencyStudyScene>("LatencyStudy", scene =>
             {
-                UnityEngine.Object.DestroyImmediate(ears);
-            }
-            camera = CameraOf(new SceneFile("LatencyStudy"));
-            camera.gameObject.AddComponent<AudioListener>();
-            LatencyStudyScene scene = Wake<LatencyStudyScene>(
-                bootstrap => (bootstrap.View, bootstrap.Settings) = (camera, settings));
-            study = scene.Study;
+                ListenAtTheCamera();
+                scene.Settings = settings;
+            }).Study;
             participant = new LatencyParticipant(study);
-            pen = UnityEngine.Object.FindObjectsByType<XrPen>(
-                FindObjectsInactive.Include, FindObjectsSortMode.None).Single().Stylus!;
+            pen = RightPen();
             PlayFor(1.0);
         }
 
-        /// <summary>Presses a button of the operator.</summary>
         private void Press(int number) => study.View.Begin!(number);
 
         /// <summary>Begins the study as the operator, and continues after every rest.</summary>
@@ -327,8 +305,7 @@ namespace HaptoFlow.SampleTests
             ? File.ReadAllText(Csv()).Split('\n').Skip(1).Where(row => row.Length > 0).ToArray()
             : Array.Empty<string>();
 
-        private static string Field(string row, string column) =>
-            row.Split(',')[StudyKind.Latency.Columns.ToList().IndexOf(column)];
+        private static string Field(string row, string column) => StudyFolder.Field(row, column);
 
         private static double Number(string row, string column) =>
             double.Parse(Field(row, column), CultureInfo.InvariantCulture);

@@ -18,11 +18,9 @@ namespace HaptoFlow.SampleTests
         public void TheOldInputManagersMouseMovesThePen()
         {
             FinishLoading();
-            Camera camera = CameraOf(new SceneFile("StylusTracing"));
+            camera = CameraOf(new SceneFile("StylusTracing"));
             var scene = Wake<LegacyScene>(bootstrap => bootstrap.View = camera);
-            PointAt(camera, new Vector3(0.34f, 0.012f, -0.12f));
-            SimulatedInput.MouseButton = true;
-            PlayFor(0.4);
+            Press(new Vector3(0.34f, 0.012f, -0.12f), 0.4);
             Assert.That(scene.Pen.Stylus.IsTouching, Is.True);
             Assert.That(scene.Pen.Stylus.Contact.Material!.Label, Is.EqualTo("jute"));
         }

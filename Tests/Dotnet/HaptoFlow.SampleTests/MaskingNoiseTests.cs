@@ -2,7 +2,6 @@ using System;
 using System.Collections.Generic;
 using System.Linq;
 using HaptoFlow.Studies;
-using HaptoFlow.Tests;
 using NUnit.Framework;
 using UnityEngine;
 using UnityEngine.TestTools;
@@ -11,7 +10,7 @@ using UnityShim;
 namespace HaptoFlow.SampleTests
 {
     /// <summary>The masking noise plays in the headphones only.</summary>
-    public sealed class MaskingNoiseTests : SceneTest
+    public sealed class MaskingNoiseTests : SampleTest
     {
         private const int HapticChannel = 1;
 
@@ -21,8 +20,7 @@ namespace HaptoFlow.SampleTests
         [SetUp]
         public void PlayNoise()
         {
-            GameObject ears = UnityEngine.Object
-                .FindObjectsByType<AudioListener>(FindObjectsInactive.Exclude, FindObjectsSortMode.None)[0].gameObject;
+            GameObject ears = All<AudioListener>()[0].gameObject;
             output = ears.AddComponent<HapticOutput>();
             output.Route = OutputRoute.ListenerChannel;
             output.Channel = HapticChannel;
@@ -46,11 +44,8 @@ namespace HaptoFlow.SampleTests
             [Values(-40f, MaskingNoise.MaximumDecibels)] float decibels)
         {
             AudioDevice.ChangeDevice(48000, 256, AudioSpeakerMode.Quad);
-            noise.Colour = colour;
             noise.LevelDecibels = decibels;
-            World.Frames(30);
-            AudioDevice.Forget();
-            World.Frames(900);
+            PlayTenSeconds(colour);
             foreach (int channel in new[] { 0, 2, 3 })
             {
                 float[] samples = Channel(channel);
@@ -61,20 +56,14 @@ namespace HaptoFlow.SampleTests
             Assert.That(Channel(HapticChannel), Has.All.Zero);
         }
 
-        [Test]
-        public void PinkNoiseFallsByThreeDecibelsPerOctaveAndWhiteNoiseIsFlat()
+        [TestCase(NoiseColour.White, 0.0)]
+        [TestCase(NoiseColour.Pink, -3.0)]
+        public void PinkNoiseFallsByThreeDecibelsPerOctaveAndWhiteNoiseIsFlat(NoiseColour colour, double perOctave)
         {
-            var cases = new[] { (NoiseColour.White, 0.0), (NoiseColour.Pink, -3.0) };
-            foreach ((NoiseColour colour, double perOctave) in cases)
-            {
-                noise.Colour = colour;
-                World.Frames(30);
-                AudioDevice.Forget();
-                World.Frames(900);
-                float[] samples = Channel(0);
-                double fall = (Density(samples, 3200.0) - Density(samples, 200.0)) / 4.0;
-                Assert.That(fall, Is.EqualTo(perOctave).Within(0.5), colour.ToString());
-            }
+            PlayTenSeconds(colour);
+            float[] samples = Channel(0);
+            double fall = (Density(samples, 3200.0) - Density(samples, 200.0)) / 4.0;
+            Assert.That(fall, Is.EqualTo(perOctave).Within(0.5));
         }
 
         [Test]
@@ -143,8 +132,14 @@ namespace HaptoFlow.SampleTests
             return felt;
         }
 
-        private static float[] Channel(int channel) => Enumerable.Range(0, AudioDevice.RecordedFrames)
-            .Select(frame => AudioDevice.Sample(frame, channel)).ToArray();
+        private void PlayTenSeconds(NoiseColour colour)
+        {
+            noise.Colour = colour;
+            World.Frames(30);
+            AudioDevice.Forget();
+            World.Frames(900);
+        }
+
 
         /// <summary>The power in a third-octave band about a frequency, in dB, as a sum over single frequencies.
         /// </summary>

@@ -12,9 +12,7 @@ namespace HaptoFlow.SampleTests
     /// <summary>The scenes of the repository's Unity project, made from their files and played.</summary>
     public sealed class ProjectSceneTests : SampleTest
     {
-        private const string Right = "<XRController>{RightHand}/";
         private ProjectScene scene = null!;
-        private Camera camera = null!;
 
         [SetUp]
         public void LoadTheModel() => FinishLoading();
@@ -52,11 +50,7 @@ namespace HaptoFlow.SampleTests
         public void AStrokeOverTheDeskIsWoodAndIsHeard()
         {
             Open("Desk.unity");
-            HapticStylus stylus = All<MousePen>().Single().Stylus;
-            Draw(stylus, new Vector3(-0.1f, 0f, 0f), new Vector3(0.1f, 0f, 0f));
-            Assert.That(stylus.Contact.Material!.Label, Is.EqualTo("wood"));
-            Assert.That(Loudest(), Is.GreaterThan(Audible));
-            Assert.That(Board(), Does.StartWith("wood: "));
+            Draw(Vector3.zero, "wood");
         }
 
         [TestCase("Wood", "wood")]
@@ -66,12 +60,7 @@ namespace HaptoFlow.SampleTests
         public void WithoutAHeadsetTheMouseFeelsEveryPlate(string name, string label)
         {
             Open("Headset.unity");
-            HapticStylus stylus = All<MousePen>().Single().Stylus;
-            Vector3 top = TopOf(name);
-            Draw(stylus, top - 0.08f * Vector3.right, top + 0.08f * Vector3.right);
-            Assert.That(stylus.Contact.Material!.Label, Is.EqualTo(label));
-            Assert.That(Loudest(), Is.GreaterThan(Audible));
-            Assert.That(Board(), Does.StartWith(label + ": "));
+            Draw(TopOf(name), label);
         }
 
         [Test]
@@ -82,14 +71,11 @@ namespace HaptoFlow.SampleTests
             PlayFor(0.2);
             Assert.That(All<XrPen>().Select(pen => pen.Hand), Is.EquivalentTo(new[] { PenHand.Right, PenHand.Left }));
             Assert.That(mouse.isActiveAndEnabled, Is.True, "nothing is tracked");
-            SimulatedInput.SetControl(Right + "isTracked", 1f);
-            SimulatedInput.SetControl(Right + "tipPose/position", TopOf("Jute") + 0.001f * Vector3.up);
-            SimulatedInput.SetControl(Right + "tipPose/rotation", Quaternion.identity);
+            Track(TopOf("Jute") + 0.001f * Vector3.up);
             SimulatedInput.SetControl(Right + "tip", 0.4f);
             PlayFor(0.5);
-            HapticStylus stylus = All<XrPen>().Single(pen => pen.Hand == PenHand.Right).Stylus!;
             Assert.That(mouse.gameObject.activeSelf, Is.False);
-            Assert.That(stylus.IsTouching, Is.True);
+            Assert.That(RightPen().IsTouching, Is.True);
             Assert.That(Board(), Does.StartWith("jute: ").And.EndWith("0.4 N"));
         }
 
@@ -97,8 +83,7 @@ namespace HaptoFlow.SampleTests
         public void TheHeadStartsWhereTheSceneHasItsCameraAndThePlatesAreWithinReach()
         {
             Open("Headset.unity");
-            SimulatedInput.SetControl("<XRHMD>/isTracked", 1f);
-            SimulatedInput.SetControl("<XRHMD>/centerEyePosition", new Vector3(0.4f, 1.6f, 0.2f));
+            Track(new Vector3(0.4f, 1.6f, 0.2f), "centerEyePosition", "<XRHMD>/");
             SimulatedInput.SetControl("<XRHMD>/centerEyeRotation", Quaternion.AngleAxis(70f, Vector3.up));
             Vector3 eyes = camera.transform.position;
             World.Frames(3);
@@ -117,19 +102,24 @@ namespace HaptoFlow.SampleTests
             camera = All<Camera>().Single(each => each.gameObject.tag == "MainCamera");
         }
 
-        private void Draw(HapticStylus stylus, Vector3 from, Vector3 to)
+        /// <summary>A stroke of the mouse through a place feels like a label, is heard, and is on the board.</summary>
+        private void Draw(Vector3 middle, string label)
         {
-            PointAt(camera, from);
+            HapticStylus stylus = All<MousePen>().Single().Stylus;
+            Vector3 from = middle - 0.08f * Vector3.right;
+            PointAt(from);
             PlayFor(0.3);
-            SimulatedInput.MouseButton = true;
-            PlayFor(0.2);
+            Press(from, 0.2);
             AudioDevice.Forget();
             for (int frame = 0; frame < World.FrameRateHz; ++frame)
             {
-                PointAt(camera, Vector3.Lerp(from, to, frame / (float)World.FrameRateHz));
+                PointAt(from + 0.16f * frame / (float)World.FrameRateHz * Vector3.right);
                 World.Frame();
                 Assert.That(stylus.IsTouching, Is.True, $"frame {frame}");
             }
+            Assert.That(stylus.Contact.Material!.Label, Is.EqualTo(label));
+            Assert.That(Loudest(), Is.GreaterThan(Audible));
+            Assert.That(Board(), Does.StartWith(label + ": "));
         }
 
         private static Vector3 TopOf(string name)
@@ -139,9 +129,6 @@ namespace HaptoFlow.SampleTests
         }
 
         private static string Board() => All<StatusBoard>().Single().Text;
-
-        private static T[] All<T>()
-            where T : Object => Object.FindObjectsByType<T>(FindObjectsInactive.Include, FindObjectsSortMode.None);
     }
 
     /// <summary>The headset of the project's Headset scene, on computers.</summary>
@@ -214,8 +201,7 @@ namespace HaptoFlow.SampleTests
         public void WithoutXrSettingsNothingHappens()
         {
             XRGeneralSettings.Instance = null;
-            Start();
-            Assert.That(manager.Calls, Is.Empty);
+            ElsewhereNothingIsStarted(RuntimePlatform.WindowsEditor);
         }
 
         private GameObject Start()

@@ -11,7 +11,6 @@ using UnityShim;
 
 namespace HaptoFlow.SampleTests
 {
-    /// <summary>The procedure of the similarity study, trial by trial.</summary>
     public sealed class SimilarityProcedureTests : SimilarityTest
     {
         [TestCase(6, 4)]
@@ -237,13 +236,10 @@ namespace HaptoFlow.SampleTests
         /// </summary>
         private string LooksOf(string[] words)
         {
-            IEnumerable<string> seen = FindAll<TextMesh>().Select(each => each.text)
-                .Concat(FindAll<Transform>().Select(each => each.name));
-            foreach (string text in seen)
-            {
-                Assert.That(words.Where(word => text.Contains(word, StringComparison.OrdinalIgnoreCase)), Is.Empty,
-                    text);
-            }
+            IEnumerable<string> seen = All<TextMesh>().Select(each => each.text)
+                .Concat(All<Transform>().Select(each => each.name));
+            Assert.That(seen.Where(text => words.Any(word => text.Contains(word, StringComparison.OrdinalIgnoreCase))),
+                Is.Empty);
             string Look(StudyObject each) => $"{each.Renderer.material.color} {each.Renderer.material.mainTexture} " +
                 $"{each.Renderer.transform.lossyScale}";
             Assert.That(Look(scene.Virtual), Is.EqualTo(Look(scene.Real)));

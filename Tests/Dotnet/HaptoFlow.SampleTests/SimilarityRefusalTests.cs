@@ -2,7 +2,6 @@ using System;
 using System.Collections.Generic;
 using System.IO;
 using System.Linq;
-using System.Reflection;
 using System.Text.RegularExpressions;
 using System.Threading.Tasks;
 using HaptoFlow.Model;
@@ -99,9 +98,7 @@ namespace HaptoFlow.SampleTests
             SimilarityStudySettings settings = Settings(1, 2);
             settings.equalDelayMilliseconds = 60f;
             inference = new Dictionary<string, double> { ["Rival quick"] = 80.0 };
-            Open(settings);
-            Prepare();
-            scene.Begin(7);
+            TryToBegin(settings);
             Assert.That(scene.Problem, Does.Contain("method \"Rival quick\" cannot have a delay of 60 ms"));
             Assert.That((scene.Session, Directory.Exists(folder)), Is.EqualTo(((StudySession?)null, false)));
         }
@@ -143,9 +140,7 @@ namespace HaptoFlow.SampleTests
             byte[] before = File.ReadAllBytes(Csv);
             Crash();
             inference = new Dictionary<string, double> { ["Ours quick"] = 90.0 };
-            Open(settings);
-            Prepare();
-            scene.Begin(7);
+            TryToBegin(settings);
             Assert.That(scene.Problem, Does.Contain("method \"Ours quick\" cannot have a delay of"));
             Assert.That(File.ReadAllBytes(Csv), Is.EqualTo(before));
         }
@@ -164,9 +159,7 @@ namespace HaptoFlow.SampleTests
         public void WithoutUnitysAudioTheStudyIsRefusedWithTheReason()
         {
             AudioDevice.IsSwitchedOff = true;
-            Open(Settings(1, 2));
-            Prepare();
-            scene.Begin(7);
+            TryToBegin(Settings(1, 2));
             Assert.That(scene.Problem, Does.Contain("Disable Unity Audio"));
             Assert.That(scene.Session, Is.Null);
             Assert.That(Directory.Exists(folder), Is.False, "nothing was begun");
@@ -179,9 +172,7 @@ namespace HaptoFlow.SampleTests
             Begin(settings);
             TakePart();
             Crash();
-            Open(settings);
-            Prepare();
-            scene.Begin(7);
+            TryToBegin(settings);
             Assert.That(scene.Problem, Does.Contain("participant 7 has finished this study"));
             scene.Begin(8);
             Assert.That((scene.Problem, scene.Session!.Plan.Participant), Is.EqualTo(((string?)null, 8)));
@@ -201,14 +192,12 @@ namespace HaptoFlow.SampleTests
         {
             IEnumerable<string> keys = Regex.Matches(Asset, @"^  ([a-z]\w*):", RegexOptions.Multiline)
                 .Select(match => match.Groups[1].Value).Where(key => !key.StartsWith("m_"));
-            Assert.That(keys, Is.EquivalentTo(FieldsOf<SimilarityStudySettings>().Concat(FieldsOf<StudySettings>())));
-            Assert.That(KeysOfEntries("materials"), Is.EquivalentTo(FieldsOf<StudyMaterial>()));
-            Assert.That(KeysOfEntries("methods"), Is.EquivalentTo(FieldsOf<StudyMethod>()));
+            Assert.That(keys, Is.EquivalentTo(NamesOf<SimilarityStudySettings>().Concat(NamesOf<StudySettings>())));
+            Assert.That(KeysOfEntries("materials"), Is.EquivalentTo(NamesOf<StudyMaterial>()));
+            Assert.That(KeysOfEntries("methods"), Is.EquivalentTo(NamesOf<StudyMethod>()));
         }
 
-        private static IEnumerable<string> FieldsOf<T>() => typeof(T)
-            .GetFields(BindingFlags.Instance | BindingFlags.DeclaredOnly | BindingFlags.Public | BindingFlags.NonPublic)
-            .Where(field => field.IsPublic || field.GetCustomAttribute<SerializeField>() != null).Select(field => field.Name);
+        private static IEnumerable<string> NamesOf<T>() => FieldsOf<T>().Select(field => field.Name);
 
         private static IEnumerable<string> KeysOfEntries(string list)
         {

@@ -89,9 +89,7 @@ namespace HaptoFlow.SampleTests
         public void EveryMethodIsMeasuredLiveByDefault()
         {
             measure = null;
-            Open(Settings(1, 1));
-            Prepare();
-            scene.Begin(7);
+            TryToBegin(Settings(1, 1));
             foreach (StudyMethod method in scene.Settings!.methods)
             {
                 Assert.That(scene.Models!.InferenceMilliseconds(method.name), Is.GreaterThan(0.0), method.name);
@@ -133,7 +131,8 @@ namespace HaptoFlow.SampleTests
             settings.needsAlignment = true;
             Open(settings, "similarity test " + Guid.NewGuid());
             SimulatedInput.SetControl(Right + "tip", 0f);
-            PrepareWithoutAlignment();
+            WaitUntil(() => scene.Models?.IsReady == true);
+            PlayFor(1.0);
         }
 
         [TearDown]
@@ -187,8 +186,7 @@ namespace HaptoFlow.SampleTests
         public void TheOperatorTakesAndRemovesPointsForAPenWithoutForce()
         {
             scene.Alignment.Begin();
-            Vector3[] corners = Corners();
-            foreach (Vector3 corner in corners)
+            foreach (Vector3 corner in Corners())
             {
                 Hold(corner + scene.Pen.TipRadiusMetres * Vector3.up);
                 scene.Alignment.TakePoint();
@@ -199,16 +197,6 @@ namespace HaptoFlow.SampleTests
             Assert.That((scene.Alignment.Alignment.IsAligned, scene.CanBegin), Is.EqualTo((false, false)));
         }
 
-        /// <summary>Waits until everything but the alignment is ready.</summary>
-        private void PrepareWithoutAlignment()
-        {
-            var until = DateTime.UtcNow.AddMinutes(2);
-            while (scene.Models?.IsReady != true && DateTime.UtcNow < until)
-            {
-                World.Frame();
-            }
-            PlayFor(1.0);
-        }
 
         private void Align()
         {

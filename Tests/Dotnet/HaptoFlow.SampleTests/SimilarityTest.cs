@@ -18,15 +18,12 @@ namespace HaptoFlow.SampleTests
     /// answers with the left one.</summary>
     public abstract class SimilarityTest : SampleTest
     {
-        protected const string Left = "<XRController>{LeftHand}/";
-        protected const string Right = "<XRController>{RightHand}/";
-        protected const double HandMps = 0.6;
+        private const double HandMps = 0.6;
         private const float InsetMetres = 0.003f;
         private const float DeepMetres = 0.001f;
 
         private static readonly string[] Labels = { "wood", "jute", "ceramic", "plastic", "fur", "metal" };
 
-        private protected string folder = "";
         private protected SimilarityStudyScene scene = null!;
         private protected Dictionary<string, double> inference = new Dictionary<string, double>();
         private protected Func<StudyMethod, HapticLoadedModel, Task<double>>? measure;
@@ -37,21 +34,11 @@ namespace HaptoFlow.SampleTests
         private protected SimilarityProcedure Procedure => scene.Procedure!;
 
         [SetUp]
-        public void MakeFolder()
+        public void SetInferenceTimes()
         {
-            folder = Path.Combine(Path.GetTempPath(), "haptoflow-similarity-" + Guid.NewGuid().ToString("N"));
             inference = new Dictionary<string, double>();
             measure = (method, _) => Task.FromResult(
                 inference.TryGetValue(method.name, out double milliseconds) ? milliseconds : 6.0);
-        }
-
-        [TearDown]
-        public void RemoveFolder()
-        {
-            if (Directory.Exists(folder))
-            {
-                Directory.Delete(folder, true);
-            }
         }
 
         /// <summary>Creates settings with up to six labels and up to four methods, which are two tiers of two models.
@@ -88,19 +75,11 @@ namespace HaptoFlow.SampleTests
             return model;
         }
 
-        /// <summary>Builds the scene with the camera of the scene file.</summary>
         private protected void Open(SimilarityStudySettings? settings, string saveName = "")
         {
-            Camera camera = CameraOf(new SceneFile("SimilarityStudy"));
-            // The camera carries the Audio Listener, as in the scene file.
-            foreach (AudioListener each in FindAll<AudioListener>())
+            scene = Open<SimilarityStudyScene>("SimilarityStudy", bootstrap =>
             {
-                UnityEngine.Object.DestroyImmediate(each);
-            }
-            camera.gameObject.AddComponent<AudioListener>();
-            scene = Wake<SimilarityStudyScene>(bootstrap =>
-            {
-                bootstrap.View = camera;
+                ListenAtTheCamera();
                 bootstrap.Settings = settings;
                 bootstrap.SaveName = saveName;
                 bootstrap.MeasureInference = measure ?? bootstrap.MeasureInference;
@@ -109,10 +88,12 @@ namespace HaptoFlow.SampleTests
         }
 
         /// <summary>Waits until the models are loaded, or the study has refused to begin.</summary>
-        private protected void Prepare()
+        private protected void Prepare() => WaitUntil(() => scene.CanBegin || scene.Problem != null);
+
+        private protected static void WaitUntil(Func<bool> isSo)
         {
             var until = DateTime.UtcNow.AddMinutes(2);
-            while (!scene.CanBegin && scene.Problem == null && DateTime.UtcNow < until)
+            while (!isSo() && DateTime.UtcNow < until)
             {
                 World.Frame();
             }
@@ -120,10 +101,15 @@ namespace HaptoFlow.SampleTests
 
         private protected void Begin(SimilarityStudySettings settings)
         {
+            TryToBegin(settings);
+            Assert.That(scene.Problem, Is.Null);
+        }
+
+        private protected void TryToBegin(SimilarityStudySettings? settings)
+        {
             Open(settings);
             Prepare();
             scene.Begin(7);
-            Assert.That(scene.Problem, Is.Null);
         }
 
         /// <summary>Ends the application without warning. Only what has been written remains.</summary>
@@ -215,36 +201,16 @@ namespace HaptoFlow.SampleTests
             }
         }
 
-        /// <summary>Moves the pen to a place for one frame.</summary>
         private protected void Hold(Vector3 place)
         {
             tip = place;
-            SimulatedInput.SetControl(Right + "isTracked", 1f);
-            SimulatedInput.SetControl(Right + "tipPose/position", place);
-            SimulatedInput.SetControl(Right + "tipPose/rotation", Quaternion.identity);
-            World.Frame();
-        }
-
-        private protected static void Press(string control)
-        {
-            SimulatedInput.SetControl(control, 1f);
-            World.Frame();
-            SimulatedInput.SetControl(control, 0f);
+            Track(place);
             World.Frame();
         }
 
         /// <summary>The largest magnitude on the actuator's channel since <see cref="AudioDevice.Forget"/>.</summary>
-        private protected float LoudestFelt()
-        {
-            float loudest = 0f;
-            for (int frame = 0; frame < AudioDevice.RecordedFrames; ++frame)
-            {
-                loudest = Math.Max(loudest, Math.Abs(AudioDevice.Sample(frame, scene.Output.Channel)));
-            }
-            return loudest;
-        }
+        private protected float LoudestFelt() => Loudest(scene.Output.Channel);
 
-        /// <summary>The rows of the log as dictionaries by column name.</summary>
         private protected List<Dictionary<string, string>> Rows()
         {
             string[] lines = File.ReadAllText(Csv).TrimEnd('\n').Split('\n');
@@ -255,14 +221,8 @@ namespace HaptoFlow.SampleTests
 
         private protected static double Number(Dictionary<string, string> row, string column) =>
             double.Parse(row[column], CultureInfo.InvariantCulture);
-
-        private protected static T[] FindAll<T>()
-            where T : UnityEngine.Object =>
-            UnityEngine.Object.FindObjectsByType<T>(FindObjectsInactive.Include, FindObjectsSortMode.None);
     }
 
-    /// <summary>Keeps the session of a test for the tests of the training package, if an environment variable is set.
-    /// </summary>
     internal static class RecordedSession
     {
         /// <summary>If HAPTOFLOW_RECORD_SESSIONS is set, replaces the sessions of the study in

@@ -1,5 +1,4 @@
 using System;
-using System.Collections.Generic;
 using System.IO;
 using System.Linq;
 using HaptoFlow.SampleScenes;
@@ -55,63 +54,39 @@ namespace HaptoFlow.SampleTests
         private void Check<TScene>(string sample, int solids)
             where TScene : BuiltScene
         {
-            Camera camera = CameraOf(new SceneFile(sample));
-            camera.gameObject.AddComponent<AudioListener>();
-            TScene scene = Wake<TScene>(each =>
+            TScene scene = Open<TScene>(sample, each =>
             {
-                each.View = camera;
+                camera.gameObject.AddComponent<AudioListener>();
                 each.Sketch();
             });
             Assert.That(Gizmos.Solids, Has.Count.EqualTo(solids));
-            Extent[] built = World.AllObjects
+            (Vector3 Centre, Vector3 Size)[] built = World.AllObjects
                 .Select(each => each.TryGetComponent(out Collider collider) ? collider : null)
-                .Where(each => each != null && each.enabled).Select(each => Extent.Of(each!)).ToArray();
+                .Where(each => each != null && each.enabled).Select(each => ExtentOf(each!)).ToArray();
             foreach ((Vector3 position, Quaternion _, Vector3 size, Color _) in Gizmos.Solids)
             {
-                Assert.That(built.Any(each => each.Is(position, size)), Is.True, $"{scene.name}: {position}, {size}");
+                // A solid of the same outline and the same top: a felt sheet has no height.
+                Assert.That(built.Any(each =>
+                    Vector3.Distance(Top(each.Centre, each.Size), Top(position, size)) < 1e-4f &&
+                    Math.Abs(each.Size.x - size.x) < 1e-3f && Math.Abs(each.Size.z - size.z) < 1e-3f),
+                    Is.True, $"{scene.name}: {position}, {size}");
             }
         }
 
-        private readonly struct Extent
+        private static Vector3 Top(Vector3 centre, Vector3 size) => centre + new Vector3(0f, 0.5f * size.y, 0f);
+
+        private static (Vector3 Centre, Vector3 Size) ExtentOf(Collider collider)
         {
-            private readonly Vector3 centre;
-            private readonly Vector3 size;
-
-            private Extent(Vector3 centre, Vector3 size)
+            Vector3 place = collider.transform.position;
+            Vector3 scale = collider.transform.localScale;
+            return collider switch
             {
-                this.centre = centre;
-                this.size = size;
-            }
-
-            public static Extent Of(Collider collider)
-            {
-                Transform place = collider.transform;
-                switch (collider)
-                {
-                    case MeshCollider mesh:
-                        IEnumerable<Vector3> corners = mesh.sharedMesh!.vertices;
-                        var least = new Vector3(
-                            corners.Min(each => each.x), corners.Min(each => each.y), corners.Min(each => each.z));
-                        var most = new Vector3(
-                            corners.Max(each => each.x), corners.Max(each => each.y), corners.Max(each => each.z));
-                        return new Extent(place.position + 0.5f * (least + most), most - least);
-                    case TerrainCollider terrain:
-                        Vector3 whole = terrain.terrainData!.size;
-                        return new Extent(place.position + 0.5f * whole, whole);
-                    default:
-                        Vector3 scale = place.localScale;
-                        // Unity's capsule is two units high.
-                        return new Extent(place.position,
-                            collider is CapsuleCollider ? new Vector3(scale.x, 2f * scale.y, scale.z) : scale);
-                }
-            }
-
-            /// <summary>True for a solid of the same outline and the same top: a felt sheet has no height.</summary>
-            public bool Is(Vector3 otherCentre, Vector3 otherSize) =>
-                Vector3.Distance(Top(centre, size), Top(otherCentre, otherSize)) < 1e-4f &&
-                Math.Abs(size.x - otherSize.x) < 1e-3f && Math.Abs(size.z - otherSize.z) < 1e-3f;
-
-            private static Vector3 Top(Vector3 centre, Vector3 size) => centre + new Vector3(0f, 0.5f * size.y, 0f);
+                MeshCollider mesh => (place + mesh.sharedMesh!.bounds.center, mesh.sharedMesh.bounds.size),
+                TerrainCollider terrain => (place + 0.5f * terrain.terrainData!.size, terrain.terrainData.size),
+                // Unity's capsule is two units high.
+                CapsuleCollider _ => (place, new Vector3(scale.x, 2f * scale.y, scale.z)),
+                _ => (place, scale),
+            };
         }
     }
 
@@ -126,8 +101,7 @@ namespace HaptoFlow.SampleTests
         {
             string file = SampleFiles.In("StylusTracing", "StylusTracing.scene.json");
             described = JObject.Parse(File.ReadAllText(file))["surfaces"]!.ToArray();
-            Camera camera = CameraOf(new SceneFile("StylusTracing"));
-            Wake<TracingScene>(bootstrap => bootstrap.View = camera);
+            Open<TracingScene>("StylusTracing");
         }
 
         [Test]
@@ -135,11 +109,8 @@ namespace HaptoFlow.SampleTests
         {
             Assert.That(described.Select(each => (string?)each["name"]),
                 Is.EquivalentTo(Surfaces().Select(surface => surface.name)));
-            foreach (HapticSurface surface in Surfaces())
-            {
-                var label = (string?)Of(surface)["material"];
-                Assert.That(label, Is.EqualTo(surface.Material.Label), surface.name);
-            }
+            Assert.That(Surfaces().Select(surface => (string?)Of(surface)["material"]),
+                Is.EqualTo(Surfaces().Select(surface => surface.Material.Label)));
         }
 
         [Test]
@@ -211,14 +182,19 @@ namespace HaptoFlow.SampleTests
         private static Vector3 Vector(JToken numbers) =>
             new Vector3((float)numbers[0]!, (float)numbers[1]!, (float)numbers[2]!);
 
-        private static HapticSurface[] Surfaces() => UnityEngine.Object.FindObjectsByType<HapticSurface>(
-            FindObjectsInactive.Exclude, FindObjectsSortMode.None);
+        private static HapticSurface[] Surfaces() => All<HapticSurface>();
     }
 
     /// <summary>The materials that draw the samples' objects, in players and editors with the three render pipelines.
     /// </summary>
     public sealed class PipelineMaterialTests : SampleTest
     {
+        private readonly Shader lit = SimulatedPipeline.ShaderNamed("Lit");
+        private SimulatedPipeline pipeline = null!;
+
+        [SetUp]
+        public void MakeAPipeline() => pipeline = ScriptableObject.CreateInstance<SimulatedPipeline>();
+
         [TearDown]
         public void RestoreTheBuiltInPipeline() => GraphicsSettings.defaultRenderPipeline = null;
 
@@ -226,25 +202,18 @@ namespace HaptoFlow.SampleTests
         public void WithTheBuiltInPipelineObjectsKeepTheMaterialOfPrimitives()
         {
             OpenTracing(null);
-            foreach (MeshRenderer renderer in Renderers())
-            {
-                Assert.That(renderer.sharedMaterial!.shader, Is.Null, renderer.name);
-            }
+            Assert.That(Renderers().Select(each => each.sharedMaterial!.shader), Is.All.Null);
             Assert.That(ColourOf("Table"), Is.EqualTo(Exhibits.All[0].Colour));
         }
 
         [Test]
         public void APlayerWithAnotherPipelineUsesTheMaterialThatTheBuildWrote()
         {
-            Shader lit = SimulatedPipeline.ShaderNamed("Lit");
             // As in players with URP or HDRP, the pipeline has no default material.
-            GraphicsSettings.defaultRenderPipeline = ScriptableObject.CreateInstance<SimulatedPipeline>();
+            GraphicsSettings.defaultRenderPipeline = pipeline;
             OpenTracing(new Material(lit));
             PlayFor(0.1);
-            foreach (MeshRenderer renderer in Renderers())
-            {
-                Assert.That(renderer.sharedMaterial!.shader, Is.SameAs(lit), renderer.name);
-            }
+            Assert.That(Renderers().Select(each => each.sharedMaterial!.shader), Is.All.SameAs(lit));
             Assert.That(ColourOf("Table"), Is.EqualTo(Exhibits.All[0].Colour));
             Assert.That(ColourOf("Sack"), Is.EqualTo(Exhibits.All[7].Colour), "each has a copy of its own");
         }
@@ -252,8 +221,6 @@ namespace HaptoFlow.SampleTests
         [Test]
         public void TheEditorWithAnotherPipelineUsesItsDefaultMaterial()
         {
-            Shader lit = SimulatedPipeline.ShaderNamed("Lit");
-            var pipeline = ScriptableObject.CreateInstance<SimulatedPipeline>();
             pipeline.Material = new Material(lit);
             GraphicsSettings.defaultRenderPipeline = pipeline;
             OpenTracing(null);
@@ -264,31 +231,20 @@ namespace HaptoFlow.SampleTests
         [Test]
         public void APlayerWithThePipelinesShaderCreatesAMaterialFromIt()
         {
-            Shader lit = SimulatedPipeline.ShaderNamed("Lit");
-            var pipeline = ScriptableObject.CreateInstance<SimulatedPipeline>();
             pipeline.Shader = lit;
             GraphicsSettings.defaultRenderPipeline = pipeline;
             OpenTracing(null);
             Assert.That(Renderers().Select(each => each.sharedMaterial!.shader), Is.All.SameAs(lit));
         }
 
-        private void OpenTracing(Material? written)
-        {
-            Camera camera = CameraOf(new SceneFile("StylusTracing"));
-            Wake<TracingScene>(bootstrap =>
-            {
-                bootstrap.View = camera;
-                bootstrap.GetComponent<PipelineMaterial>().Material = written;
-            });
-        }
+        private void OpenTracing(Material? written) => Open<TracingScene>(
+            "StylusTracing", scene => scene.GetComponent<PipelineMaterial>().Material = written);
 
         /// <summary>The renderers of the solids, without those of text, which have the material of their font.
         /// </summary>
         private static MeshRenderer[] Renderers()
         {
-            MeshRenderer[] found = Object.FindObjectsByType<MeshRenderer>(
-                FindObjectsInactive.Include, FindObjectsSortMode.None);
-            MeshRenderer[] solids = found.Where(each => !each.TryGetComponent(out TextMesh _)).ToArray();
+            MeshRenderer[] solids = All<MeshRenderer>().Where(each => !each.TryGetComponent(out TextMesh _)).ToArray();
             Assert.That(solids.Length, Is.AtLeast(Exhibits.All.Length + 3), "exhibits and three pens");
             return solids;
         }

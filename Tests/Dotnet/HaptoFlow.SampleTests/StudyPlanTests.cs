@@ -1,5 +1,6 @@
 #nullable enable
 using System;
+using System.Collections;
 using System.Collections.Generic;
 using System.IO;
 using System.Linq;
@@ -22,70 +23,48 @@ namespace HaptoFlow.SampleTests
         private static readonly JsonValue Golden =
             JsonValue.Parse(File.ReadAllText(RepositoryFiles.In("Tests", "Golden", "studies", "plans.json")));
 
-        private static IReadOnlyList<JsonValue> Cases(string key)
-        {
-            IReadOnlyList<JsonValue> cases = Golden[key].AsArray();
-            Assert.That(cases, Is.Not.Empty, key);
-            return cases;
-        }
-
         [Test]
-        public void RandomNumbersEqualThoseOfPython()
-        {
-            foreach (JsonValue each in Cases("random"))
+        public void RandomNumbersEqualThoseOfPython() => Same("random",
+            each =>
             {
                 var random = new SplitMix64(each["seed"].AsUnsigned64());
-                ulong[] expected = each["values"].AsArray().Select(value => value.AsUnsigned64()).ToArray();
-                Assert.That(expected.Select(_ => random.Next()), Is.EqualTo(expected));
-            }
-        }
+                return each["values"].AsArray().Select(_ => random.Next());
+            },
+            each => each["values"].AsArray().Select(value => value.AsUnsigned64()));
 
         [Test]
-        public void ShufflesEqualThoseOfPython()
-        {
-            foreach (JsonValue each in Cases("shuffles"))
-            {
-                Assert.That(SplitMix64.Shuffle(each["count"].AsInteger(), each["seed"].AsUnsigned64()),
-                    Is.EqualTo(Integers(each["order"])));
-            }
-        }
+        public void ShufflesEqualThoseOfPython() => Same("shuffles",
+            each => SplitMix64.Shuffle(each["count"].AsInteger(), each["seed"].AsUnsigned64()),
+            each => Integers(each["order"]));
 
         [Test]
-        public void DesignsEqualThoseOfPython()
-        {
-            foreach (JsonValue each in Cases("williams"))
-            {
-                Assert.That(WilliamsDesign.Rows(each["count"].AsInteger()),
-                    Is.EqualTo(each["rows"].AsArray().Select(Integers)));
-            }
-        }
+        public void DesignsEqualThoseOfPython() => Same("williams",
+            each => WilliamsDesign.Rows(each["count"].AsInteger()), each => each["rows"].AsArray().Select(Integers));
 
         [Test]
-        public void LatencyPlansEqualThoseOfPython()
-        {
-            foreach (JsonValue each in Cases("latency"))
-            {
-                double[] levels = each["levels_ms"].AsArray().Select(level => level.AsNumber()).ToArray();
-                StudyPlan plan = StudyPlan.Latency(
-                    each["participant"].AsInteger(), each["seed"].AsUnsigned64(), levels);
-                Assert.That(
-                    plan.Trials.Select(trial =>
-                        (trial.Trial, trial.Block, trial.Condition, trial.DelayMilliseconds!.Value)),
-                    Is.EqualTo(each["plan"].AsArray().Select(trial => (trial["trial"].AsInteger(),
-                        trial["block"].AsText(), trial["condition"].AsText(), trial["delay_ms"].AsNumber()))));
-            }
-        }
+        public void LatencyPlansEqualThoseOfPython() => Same("latency",
+            each => StudyPlan.Latency(each["participant"].AsInteger(), each["seed"].AsUnsigned64(),
+                    each["levels_ms"].AsArray().Select(level => level.AsNumber()).ToArray())
+                .Trials.Select(trial => (trial.Trial, trial.Block, trial.Condition, trial.DelayMilliseconds!.Value)),
+            each => each["plan"].AsArray().Select(trial => (trial["trial"].AsInteger(),
+                trial["block"].AsText(), trial["condition"].AsText(), trial["delay_ms"].AsNumber())));
 
         [Test]
-        public void SimilarityPlansEqualThoseOfPython()
+        public void SimilarityPlansEqualThoseOfPython() => Same("similarity",
+            each => StudyPlan.Similarity(each["participant"].AsInteger(), each["seed"].AsUnsigned64(),
+                    Texts(each["materials"]), Texts(each["methods"]))
+                .Trials.Select(trial => (trial.Trial, trial.Block, trial.Material, trial.Method)),
+            each => each["plan"].AsArray().Select(trial => (trial["trial"].AsInteger(),
+                trial["block"].AsText(), trial["material"].AsText(), trial["method"].AsText())));
+
+        /// <summary>In every case of the golden file under a key, C# makes what Python made.</summary>
+        private static void Same(
+            string key, Func<JsonValue, IEnumerable> made, Func<JsonValue, IEnumerable> expected)
         {
-            foreach (JsonValue each in Cases("similarity"))
+            Assert.That(Golden[key].AsArray(), Is.Not.Empty, key);
+            foreach (JsonValue each in Golden[key].AsArray())
             {
-                StudyPlan plan = StudyPlan.Similarity(each["participant"].AsInteger(), each["seed"].AsUnsigned64(),
-                    Texts(each["materials"]), Texts(each["methods"]));
-                Assert.That(plan.Trials.Select(trial => (trial.Trial, trial.Block, trial.Material, trial.Method)),
-                    Is.EqualTo(each["plan"].AsArray().Select(trial => (trial["trial"].AsInteger(),
-                        trial["block"].AsText(), trial["material"].AsText(), trial["method"].AsText()))));
+                Assert.That(made(each), Is.EqualTo(expected(each)));
             }
         }
 

@@ -48,8 +48,7 @@ namespace HaptoFlow.SampleTests
             session.Answer(StudyFolder.Yes());
         }
 
-        private static string Field(string row, string column) =>
-            row.Split(',')[StudyKind.Latency.Columns.ToList().IndexOf(column)];
+        private static string Field(string row, string column) => StudyFolder.Field(row, column);
 
         private static double SecondsOf(string row) =>
             double.Parse(Field(row, "elapsed_seconds"), CultureInfo.InvariantCulture);
@@ -239,6 +238,9 @@ namespace HaptoFlow.SampleTests
         public StudyLog Open(StudyDescription? description = null) =>
             StudyLog.Open(Path, description ?? Description(), Files);
 
+        public static string Field(string row, string column) =>
+            row.Split(',')[StudyKind.Latency.Columns.ToList().IndexOf(column)];
+
         public static TrialRecord Yes() => new TrialRecord().Set("answer", "yes");
 
         /// <summary>Creates a session that was interrupted after some answers.</summary>
@@ -269,7 +271,6 @@ namespace HaptoFlow.SampleTests
         /// <summary>Number of bytes of a line that are written before a failure.</summary>
         public int RoomBytes { get; set; }
 
-        /// <summary>Number of attempts to write.</summary>
         public int Attempts { get; private set; }
 
         public override void Replace(string path, string text)

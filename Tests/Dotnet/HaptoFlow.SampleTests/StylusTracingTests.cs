@@ -11,15 +11,13 @@ namespace HaptoFlow.SampleTests
 {
     public sealed class StylusTracingTests : SampleTest
     {
-        private Camera camera = null!;
         private TracingScene scene = null!;
 
         [SetUp]
         public void BuildScene()
         {
             FinishLoading();
-            camera = CameraOf(new SceneFile("StylusTracing"));
-            scene = Wake<TracingScene>(bootstrap => bootstrap.View = camera);
+            scene = Open<TracingScene>("StylusTracing");
         }
 
         [Test]
@@ -49,7 +47,7 @@ namespace HaptoFlow.SampleTests
         [Test]
         public void ThePressureOfAGraphicsPenSetsTheForce()
         {
-            PointAt(camera, new Vector3(0.115f, 0.006f, -0.12f));
+            PointAt(new Vector3(0.115f, 0.006f, -0.12f));
             SimulatedInput.PenPressure = 0.25f;
             PlayFor(0.5);
             float light = scene.Pen.Stylus.Contact.ForceNewtons;
@@ -62,9 +60,7 @@ namespace HaptoFlow.SampleTests
         [Test]
         public void AStillPenFeelsTheMovingGrille()
         {
-            PointAt(camera, new Vector3(0.3f, 0.022f, 0.12f));
-            SimulatedInput.MouseButton = true;
-            PlayFor(0.5);
+            Press(new Vector3(0.3f, 0.022f, 0.12f), 0.5);
             AudioDevice.Forget();
             float fastest = 0f;
             for (int frame = 0; frame < 2.0 * World.FrameRateHz; ++frame)
@@ -80,7 +76,7 @@ namespace HaptoFlow.SampleTests
         [Test]
         public void TheBoardShowsTheTouchedLabel()
         {
-            var board = FindAll<StatusBoard>().Single();
+            StatusBoard board = All<StatusBoard>().Single();
             PlayFor(0.5);
             Assert.That(board.Text, Does.Contain("left mouse button"));
             Stroke(new Vector3(0.115f, 0.006f, -0.12f));
@@ -103,33 +99,28 @@ namespace HaptoFlow.SampleTests
         private string Stroke(Vector3 place)
         {
             SimulatedInput.MouseButton = false;
-            PointAt(camera, place);
+            PointAt(place);
             PlayFor(0.3);
             AudioDevice.Forget();
-            ulong before = InferencesOf(scene.Pen.Stylus);
+            ulong before = StatisticsOf(scene.Pen.Stylus).Inferences;
             SimulatedInput.MouseButton = true;
             for (int frame = 0; frame < 0.6 * World.FrameRateHz; ++frame)
             {
                 double angle = 2.0 * Math.PI * 2.0 * frame / World.FrameRateHz;
                 var aside = new Vector3((float)Math.Cos(angle), 0f, (float)Math.Sin(angle));
-                PointAt(camera, place + 0.015f * aside);
+                PointAt(place + 0.015f * aside);
                 World.Frame();
             }
             Assert.That(scene.Pen.Stylus.IsTouching, Is.True, place.ToString());
             Assert.That(Loudest(), Is.GreaterThan(Audible), scene.Pen.Stylus.Contact.Collider.name);
-            Assert.That(InferencesOf(scene.Pen.Stylus), Is.GreaterThan(before));
+            Assert.That(StatisticsOf(scene.Pen.Stylus).Inferences, Is.GreaterThan(before));
             return scene.Pen.Stylus.Contact.Material!.Label;
         }
-
-        private static T[] FindAll<T>()
-            where T : UnityEngine.Object =>
-            UnityEngine.Object.FindObjectsByType<T>(FindObjectsInactive.Exclude, FindObjectsSortMode.None);
     }
 
     /// <summary>Alignment of the tracing sample's table with a real one, which is 4 cm lower and rotated.</summary>
     public sealed class AlignmentStepTests : SampleTest
     {
-        private const string Right = "<XRController>{RightHand}/";
         private static readonly Vector3[] Paper =
         {
             new Vector3(-0.1485f, 0f, -0.255f), new Vector3(0.1485f, 0f, -0.255f), new Vector3(-0.1485f, 0f, -0.045f),
@@ -142,9 +133,7 @@ namespace HaptoFlow.SampleTests
         public void BuildScene()
         {
             FinishLoading();
-            Camera camera = CameraOf(new SceneFile("StylusTracing"));
-            Wake<TracingScene>(bootstrap =>
-                (bootstrap.View, bootstrap.SaveName) = (camera, "sample test " + Guid.NewGuid()));
+            Open<TracingScene>("StylusTracing", scene => scene.SaveName = "sample test " + Guid.NewGuid());
         }
 
         [TearDown]
@@ -157,10 +146,7 @@ namespace HaptoFlow.SampleTests
             Press("<Keyboard>/a");
             Assert.That(Step().Text, Does.Contain("near left"));
             Assert.That(Marks().Count(mark => mark.activeSelf), Is.EqualTo(1));
-            for (int corner = 0; corner < 3; ++corner)
-            {
-                Rest(corner);
-            }
+            RestOnAll();
             Assert.That(Step().Text, Does.StartWith("Aligned; 0."));
             Assert.That(Marks().Count(mark => mark.activeSelf), Is.Zero);
             Transform exhibits = Step().transform;
@@ -180,15 +166,12 @@ namespace HaptoFlow.SampleTests
         public void UndoRemovesThePointsAndThenTheAlignment()
         {
             Hover(0);
-            Press("<XRController>{LeftHand}/primaryButton");
+            Press(Left + "primaryButton");
             Rest(0);
             Assert.That(Step().Alignment.PointsTaken, Is.EqualTo(1));
-            Press("<XRController>{LeftHand}/secondaryButton");
+            Press(Left + "secondaryButton");
             Assert.That(Step().Alignment.PointsTaken, Is.Zero);
-            for (int corner = 0; corner < 3; ++corner)
-            {
-                Rest(corner);
-            }
+            RestOnAll();
             Press("<Keyboard>/u");
             Assert.That(Step().transform.position.magnitude, Is.LessThan(1e-6f));
             Assert.That(Pen().TouchBy, Is.EqualTo(TouchDecision.Geometry));
@@ -198,6 +181,14 @@ namespace HaptoFlow.SampleTests
         {
             Tip(Paper[corner] + new Vector3(0f, 0.05f, 0f), 0f);
             PlayFor(0.1);
+        }
+
+        private void RestOnAll()
+        {
+            for (int corner = 0; corner < 3; ++corner)
+            {
+                Rest(corner);
+            }
         }
 
         private void Rest(int corner)
@@ -211,26 +202,14 @@ namespace HaptoFlow.SampleTests
         /// <summary>Moves the pen's tip to a place on the real desk.</summary>
         private void Tip(Vector3 onDesk, float pressure)
         {
-            SimulatedInput.SetControl(Right + "isTracked", 1f);
-            SimulatedInput.SetControl(Right + "tipPose/position", deskPosition + deskRotation * onDesk);
-            SimulatedInput.SetControl(Right + "tipPose/rotation", Quaternion.identity);
+            Track(deskPosition + deskRotation * onDesk);
             SimulatedInput.SetControl(Right + "tip", pressure);
         }
 
-        private static void Press(string control)
-        {
-            SimulatedInput.SetControl(control, 1f);
-            World.Frames(2);
-            SimulatedInput.SetControl(control, 0f);
-            World.Frames(2);
-        }
+        private static AlignmentStep Step() => All<AlignmentStep>().Single();
 
-        private static AlignmentStep Step() => UnityEngine.Object
-            .FindObjectsByType<AlignmentStep>(FindObjectsInactive.Include, FindObjectsSortMode.None).Single();
-
-        private static HapticStylus Pen() => UnityEngine.Object
-            .FindObjectsByType<HapticStylus>(FindObjectsInactive.Exclude, FindObjectsSortMode.None)
-            .Single(pen => pen.Force != null);
+        private static HapticStylus Pen() =>
+            All<HapticStylus>().Single(pen => pen.isActiveAndEnabled && pen.Force != null);
 
         private static GameObject[] Marks() => Enumerable.Range(0, Step().transform.childCount)
             .Select(index => Step().transform.GetChild(index).gameObject)
@@ -240,8 +219,6 @@ namespace HaptoFlow.SampleTests
     /// <summary>The stylus tracing sample on all outputs of the package, one after another in one scene.</summary>
     public sealed class OutputStepTests : SampleTest
     {
-        private const string Right = "<XRController>{RightHand}/";
-
         [OneTimeSetUp]
         public void LoadOptionalAssemblies() => OptionalAssemblies.Load();
 
@@ -250,16 +227,11 @@ namespace HaptoFlow.SampleTests
         {
             ForgetDevices();
             FinishLoading();
-            Camera camera = CameraOf(new SceneFile("StylusTracing"));
-            Wake<TracingScene>(bootstrap =>
-                (bootstrap.View, bootstrap.SaveName) = (camera, ""));
+            Open<TracingScene>("StylusTracing", scene => scene.SaveName = "");
         }
 
         [TearDown]
-        public void ForgetDevices()
-        {
-            HeldDevices.Reset();
-        }
+        public void ForgetDevices() => HeldDevices.Reset();
 
         [Test]
         public void EveryPressSwitchesToTheNextOutputOnly()
@@ -338,39 +310,14 @@ namespace HaptoFlow.SampleTests
             XrHand.Right.Impulses.Clear();
         }
 
-        /// <summary>Moves the right hand to and fro on the sample's jute.</summary>
         private static void Slide()
         {
-            for (int frame = 0; frame < 0.5 * World.FrameRateHz; ++frame)
-            {
-                float x = 0.34f + 0.02f * (float)Math.Sin(2.0 * Math.PI * 2.0 * frame / World.FrameRateHz);
-                SimulatedInput.SetControl(Right + "isTracked", 1f);
-                SimulatedInput.SetControl(Right + "pointerPosition", new Vector3(x, 0.013f, -0.12f));
-                SimulatedInput.SetControl(Right + "pointerRotation", Quaternion.identity);
-                World.Frame();
-            }
-            Assert.That(Pen().IsTouching, Is.True);
+            PointOverTheJute(0.5);
+            Assert.That(RightPen().IsTouching, Is.True);
         }
 
-        private static void Press(string control)
-        {
-            SimulatedInput.SetControl(control, 1f);
-            World.Frames(2);
-            SimulatedInput.SetControl(control, 0f);
-            World.Frames(2);
-        }
+        private static ulong RunsOf(HapticEffect effect) => StatisticsOf(RightPen(), effect).Runs;
 
-        private static ulong RunsOf(HapticEffect effect)
-        {
-            Assert.That(Pen().TryGetEffectStatistics(effect, out EffectStatistics statistics), Is.True);
-            return statistics.Runs;
-        }
-
-        private static HapticStylus Pen() => UnityEngine.Object
-            .FindObjectsByType<XrPen>(FindObjectsInactive.Exclude, FindObjectsSortMode.None)
-            .Single(pen => pen.Hand == PenHand.Right).Stylus!;
-
-        private static OutputStep Step() => UnityEngine.Object
-            .FindObjectsByType<OutputStep>(FindObjectsInactive.Exclude, FindObjectsSortMode.None).Single();
+        private static OutputStep Step() => All<OutputStep>().Single();
     }
 }

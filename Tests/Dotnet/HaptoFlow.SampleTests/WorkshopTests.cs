@@ -14,11 +14,6 @@ namespace HaptoFlow.SampleTests
 {
     public sealed class WorkshopTests : SampleTest
     {
-        private Camera camera = null!;
-
-        [SetUp]
-        public void MakeCamera() => camera = CameraOf(new SceneFile("Workshop"));
-
         [TestCase("Bench", 0.46f, 0f, "wood", "name \"Bench\"")]
         [TestCase("Puddle", 0.02f, -0.16f, "glass", "layer \"Water\"")]
         [TestCase("Specimen", 0.27f, -0.16f, "cardboard", "name \"Specimen\"")]
@@ -40,9 +35,8 @@ namespace HaptoFlow.SampleTests
             Assert.That(contact.Collider.name, Is.EqualTo(name));
             Assert.That(contact.Surface, Is.Null, "none of these things is tagged");
             Assert.That(contact.Material!.Label, Is.EqualTo(label));
-            RuleBoard board = UnityEngine.Object.FindObjectsByType<RuleBoard>(
-                FindObjectsInactive.Exclude, FindObjectsSortMode.None).Single();
-            Assert.That(board.Text, Does.StartWith(name + ": rule ").And.EndsWith($"of \"Workshop\": {rule}"));
+            Assert.That(All<RuleBoard>().Single().Text,
+                Does.StartWith(name + ": rule ").And.EndsWith($"of \"Workshop\": {rule}"));
         }
 
         [Test]
@@ -55,7 +49,7 @@ namespace HaptoFlow.SampleTests
             for (int frame = 0; frame < World.FrameRateHz; ++frame)
             {
                 float x = -0.42f + 0.36f * frame / (float)World.FrameRateHz;
-                PointAt(camera, new Vector3(x, 0.01f, 0.1f));
+                PointAt(new Vector3(x, 0.01f, 0.1f));
                 World.Frame();
                 Assert.That(scene.Pen.Stylus.IsTouching, Is.True, $"{x} m");
             }
@@ -67,10 +61,9 @@ namespace HaptoFlow.SampleTests
         {
             WorkshopScene scene = Open();
             PlayFor(0.05);
-            Collider[] colliders = UnityEngine.Object.FindObjectsByType<Collider>(
-                FindObjectsInactive.Exclude, FindObjectsSortMode.None);
-            MappedPart[] parts = colliders.Where(collider => !collider.transform.IsChildOf(scene.Pen.transform))
-                .SelectMany(collider => MappedColliders.Resolve(collider)!.Parts).ToArray();
+            IEnumerable<MappedPart> parts = All<Collider>()
+                .Where(collider => !collider.transform.IsChildOf(scene.Pen.transform))
+                .SelectMany(collider => MappedColliders.Resolve(collider)!.Parts);
             Assert.That(parts.Select(part => part.Rule).Distinct(),
                 Is.EquivalentTo(Enumerable.Range(0, scene.Map.Rules.Count)));
         }
@@ -86,27 +79,13 @@ namespace HaptoFlow.SampleTests
             Assert.That(MaterialMaps.Any, Is.False);
         }
 
-        /// <summary>Lowers the pen onto a place of the bench.</summary>
-        private void Press(float x, float z)
-        {
-            PointAt(camera, new Vector3(x, 0.005f, z));
-            SimulatedInput.MouseButton = true;
-            PlayFor(0.4);
-        }
+        private void Press(float x, float z) => Press(new Vector3(x, 0.005f, z), 0.4);
 
-        private WorkshopScene Open() => Wake<WorkshopScene>(bootstrap => bootstrap.View = camera);
+        private WorkshopScene Open() => Open<WorkshopScene>("Workshop");
     }
 
-    /// <summary>The panel of the Workshop, which learns a material while the scene runs.</summary>
     public sealed class AddMaterialPanelTests : SampleTest
     {
-        private const double PatienceSeconds = 120.0;
-
-        private Camera camera = null!;
-
-        [SetUp]
-        public void MakeCamera() => camera = CameraOf(new SceneFile("Workshop"));
-
         private static TextAsset Asset(string name) => new TextAsset(
             File.ReadAllBytes(Path.Combine(MadeRecordings.DoormatFolder, name)))
         {
@@ -115,7 +94,7 @@ namespace HaptoFlow.SampleTests
 
         private WorkshopScene Open(out AddMaterialPanel panel)
         {
-            WorkshopScene scene = Wake<WorkshopScene>(bootstrap => bootstrap.View = camera);
+            WorkshopScene scene = Open<WorkshopScene>("Workshop");
             panel = scene.gameObject.AddComponent<AddMaterialPanel>();
             World.Frame();
             panel.SetRecording(Asset("doormat.wav.bytes"), Asset("doormat.json"), Asset("doormat.motion.csv"));
@@ -124,7 +103,7 @@ namespace HaptoFlow.SampleTests
 
         private static void WaitFor(AddMaterialPanel panel)
         {
-            DateTime end = DateTime.UtcNow.AddSeconds(PatienceSeconds);
+            DateTime end = DateTime.UtcNow.AddMinutes(2.0);
             while (panel.IsLearning && DateTime.UtcNow < end)
             {
                 World.Frame();
@@ -133,29 +112,20 @@ namespace HaptoFlow.SampleTests
             Assert.That(panel.IsLearning, Is.False, panel.Text);
         }
 
-        private void Press(AddMaterialPanel panel)
-        {
-            PointAt(camera, panel.Button!.transform.position);
-            SimulatedInput.MouseButton = true;
-            PlayFor(0.4);
-        }
-
         [Test]
         public void TouchingTheButtonLearnsTheRecordingForTheSpecimen()
         {
             FinishLoading();
             WorkshopScene scene = Open(out AddMaterialPanel panel);
             Assert.That(panel.Text, Is.EqualTo("Touch to learn doormat"));
-            Press(panel);
+            Press(panel.Button!.transform.position, 0.4);
             Assert.That(panel.IsLearning, Is.True, panel.Text);
             SimulatedInput.MouseButton = false;
             WaitFor(panel);
             Assert.That(panel.Text, Does.StartWith("The specimen now feels like doormat; the nearest label is "));
             Assert.That(scene.SpecimenMaterial.IsLearnt, Is.True);
             HapticSession.Current.FinishRegistrations();
-            PointAt(camera, new Vector3(0.27f, 0.005f, -0.16f));
-            SimulatedInput.MouseButton = true;
-            PlayFor(0.4);
+            Press(new Vector3(0.27f, 0.005f, -0.16f), 0.4);
             Assert.That(scene.Pen.Stylus.Contact.Material, Is.SameAs(scene.SpecimenMaterial.Description));
             Assert.That(scene.Pen.Stylus.Contact.Labels.Label(0), Is.GreaterThanOrEqualTo(Haptics.Labels.Count));
             Assert.That(Haptics.LearntMaterials, Is.EqualTo(1));
@@ -202,12 +172,6 @@ namespace HaptoFlow.SampleTests
 
     public sealed class TextureGalleryTests : SampleTest
     {
-        private Camera camera = null!;
-
-        [SetUp]
-        public void MakeCamera() =>
-            camera = CameraOf(new SceneFile("TextureGallery"));
-
         [Test]
         public void TilesAndBoardAreInTheCamerasViewAndDoNotOverlap()
         {
@@ -240,9 +204,7 @@ namespace HaptoFlow.SampleTests
                 Is.EqualTo(HaptoFlowSettings.Active.Model!.Header.Labels.Select(label => label.Name)));
             HapticSurface fur = gallery.Tiles.Single(tile => tile.Material.Label == "fur");
             Assert.That(gallery.Board.Material.Label, Is.Not.EqualTo("fur"));
-            PointAt(camera, fur.transform.position);
-            SimulatedInput.MouseButton = true;
-            PlayFor(0.3);
+            Press(fur.transform.position, 0.3);
             Assert.That(gallery.Pen.Stylus.Contact.Surface, Is.SameAs(fur));
             Assert.That(gallery.Board.Material.Label, Is.EqualTo("fur"));
 
@@ -253,12 +215,12 @@ namespace HaptoFlow.SampleTests
             for (int frame = 0; frame < 0.8 * World.FrameRateHz; ++frame)
             {
                 float x = 0.1f * (float)Math.Sin(2.0 * Math.PI * frame / World.FrameRateHz);
-                PointAt(camera, gallery.Board.transform.position + new Vector3(x, 0f, 0f));
+                PointAt(gallery.Board.transform.position + new Vector3(x, 0f, 0f));
                 World.Frame();
             }
             Assert.That(gallery.Pen.Stylus.Contact.Surface, Is.SameAs(gallery.Board));
             Assert.That(gallery.Board.Material.Label, Is.EqualTo("fur"));
-            Assert.That(InferencesOf(gallery.Pen.Stylus), Is.GreaterThan(0UL));
+            Assert.That(StatisticsOf(gallery.Pen.Stylus).Inferences, Is.GreaterThan(0UL));
             Assert.That(Loudest(), Is.GreaterThan(Audible));
         }
 
@@ -270,11 +232,9 @@ namespace HaptoFlow.SampleTests
             GalleryScene gallery = Open();
             PlayFor(0.5);
             Assert.That(gallery.Tiles, Is.Empty);
-            StatusBoard[] boards = UnityEngine.Object.FindObjectsByType<StatusBoard>(
-                FindObjectsInactive.Exclude, FindObjectsSortMode.None);
-            Assert.That(boards.Single().Text, Does.Contain("no model is chosen"));
+            Assert.That(All<StatusBoard>().Single().Text, Does.Contain("no model is chosen"));
         }
 
-        private GalleryScene Open() => Wake<GalleryScene>(bootstrap => bootstrap.View = camera);
+        private GalleryScene Open() => Open<GalleryScene>("TextureGallery");
     }
 }

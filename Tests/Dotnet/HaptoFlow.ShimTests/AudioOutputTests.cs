@@ -11,7 +11,6 @@ using UnityShim;
 
 namespace HaptoFlow.ShimTests
 {
-    /// <summary>The signal of an output, a sine that replaces the texture.</summary>
     public sealed class SignalOutputTests : SceneTest
     {
         private HapticOutput output = null!;
@@ -36,8 +35,7 @@ namespace HaptoFlow.ShimTests
             Assert.That(samples.Max(), Is.EqualTo(20.0 / HapticEngineOptions.DefaultFullScaleMps2).Within(1e-3));
             double rms = Math.Sqrt(samples.Average(sample => (double)sample * sample));
             Assert.That(rms, Is.EqualTo(samples.Max() / Math.Sqrt(2.0)).Within(1e-3), "a sine without interruption");
-            Assert.That(stylus.TryGetStatistics(out VoiceStatistics statistics), Is.True);
-            Assert.That(statistics.Inferences, Is.Zero);
+            Assert.That(StatisticsOf(stylus).Inferences, Is.Zero);
             Assert.That(stylus.TryGetSignalStatistics(out SignalStatistics signal), Is.True);
             Assert.That(signal.Starts, Is.EqualTo(1ul));
         }
@@ -69,11 +67,7 @@ namespace HaptoFlow.ShimTests
         public void ASignalOutOfRangeIsRefused(double frequencyHz, double amplitudeMps2) => Assert.That(
             () => output.SetSignal(frequencyHz, amplitudeMps2), Throws.TypeOf<ArgumentOutOfRangeException>());
 
-        private static ulong RunsOf(HapticStylus stylus)
-        {
-            Assert.That(stylus.TryGetEffectStatistics(HapticEffect.Signal, out EffectStatistics statistics), Is.True);
-            return statistics.Runs;
-        }
+        private static ulong RunsOf(HapticStylus stylus) => StatisticsOf(stylus, HapticEffect.Signal).Runs;
     }
 
     public sealed class MixerEffectTests : SceneTest
@@ -97,8 +91,7 @@ namespace HaptoFlow.ShimTests
             Assert.That(slotOfOther, Is.GreaterThanOrEqualTo(0f));
             Assert.That(mixer.Exposed["Pen"], Is.GreaterThanOrEqualTo(0f).And.Not.EqualTo(slotOfOther), "the slot of the second voice");
             Assert.That(tap.Peak(), Is.Zero);
-            Assert.That(stylus.TryGetStatistics(out VoiceStatistics statistics), Is.True);
-            Assert.That(statistics.RenderedFrames, Is.Zero);
+            Assert.That(StatisticsOf(stylus).RenderedFrames, Is.Zero);
             Assert.That(other.TryGetStatistics(out _), Is.True);
         }
 
@@ -111,8 +104,7 @@ namespace HaptoFlow.ShimTests
             output.SetMixer(new AudioMixer(), "Pen");
             StylusAlong(_ => Vector3.up);
             World.Frames(3);
-            int messageCount = Log.Count("\"Pen\"", LogType.Warning);
-            Assert.That(messageCount, Is.EqualTo(1));
+            Assert.That(Log.Count("\"Pen\"", LogType.Warning), Is.EqualTo(1));
         }
     }
 

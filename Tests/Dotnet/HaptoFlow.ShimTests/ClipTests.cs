@@ -36,8 +36,7 @@ namespace HaptoFlow.ShimTests
             Assert.That(PeakOf(20), Is.GreaterThan(Audible));
             World.Frames(40);
             Assert.That(PeakOf(20), Is.Zero);
-            Assert.That(stylus.TryGetEffectStatistics(HapticEffect.Clip, out EffectStatistics effect), Is.True);
-            Assert.That(effect.Events, Is.EqualTo(1UL));
+            Assert.That(ClipsOf(stylus), Is.EqualTo(1UL));
         }
 
         [Test]
@@ -129,8 +128,7 @@ namespace HaptoFlow.ShimTests
         {
             Begin();
             HapticClip clip = Hum(0.3);
-            var output = Object.FindObjectsByType<HapticOutput>(
-                FindObjectsInactive.Include, FindObjectsSortMode.None).Single();
+            HapticOutput output = All<HapticOutput>().Single();
             stylus.Play(clip, 1f, true);
             World.Frames(10);
             output.Muted = true;
@@ -284,24 +282,21 @@ namespace HaptoFlow.ShimTests
         public void ALongClipAndAnEmptyOneAreHarmless()
         {
             Begin();
-            HapticClip hours = Keep(HapticClip.FromText(
+            HapticClip Continuous(string amplitude) => Keep(HapticClip.FromText(
                 "{\"version\":{\"major\":1,\"minor\":0,\"patch\":0},\"signals\":{\"continuous\":{\"envelopes\":{" +
-                "\"amplitude\":[{\"time\":0,\"amplitude\":0.5},{\"time\":599,\"amplitude\":0.5}]}}}}"));
+                "\"amplitude\":[" + amplitude + "]}}}}"));
+            HapticClip hours = Continuous("{\"time\":0,\"amplitude\":0.5},{\"time\":599,\"amplitude\":0.5}");
             Assert.That(hours.Problem, Is.Null);
             Assert.That(stylus.Play(hours, 1f, true), Is.True);
             Assert.That(PeakOf(30), Is.GreaterThan(0.001f));
             stylus.StopClip();
             World.Frames(5);
-            HapticClip empty = Keep(HapticClip.FromText(
-                "{\"version\":{\"major\":1,\"minor\":0,\"patch\":0},\"signals\":{\"continuous\":{\"envelopes\":{" +
-                "\"amplitude\":[]}}}}"));
-            stylus.Play(empty, 1f, true);
+            stylus.Play(Continuous(""), 1f, true);
             Assert.That(PeakOf(20), Is.Zero);
             Assert.That(tap.BrokenSamples, Is.Zero);
         }
 
-        private static ulong ClipsOf(HapticStylus stylus) =>
-            stylus.TryGetEffectStatistics(HapticEffect.Clip, out EffectStatistics effect) ? effect.Events : 0UL;
+        private static ulong ClipsOf(HapticStylus stylus) => StatisticsOf(stylus, HapticEffect.Clip).Events;
 
         [MethodImpl(MethodImplOptions.NoInlining)]
         private long BytesOf(HapticClip clip)
@@ -340,7 +335,6 @@ namespace HaptoFlow.ShimTests
         }
     }
 
-    /// <summary>A clip sounds on every output of a stylus.</summary>
     public sealed class ClipDeviceTests : HeldDeviceTest
     {
         [Test]

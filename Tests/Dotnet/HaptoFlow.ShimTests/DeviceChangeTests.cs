@@ -82,11 +82,10 @@ namespace HaptoFlow.ShimTests
             {
                 AudioDevice.ChangeDevice(48000, 256, AudioSpeakerMode.Stereo);
             }
-            stylus.TryGetStatistics(out VoiceStatistics before);
+            ulong before = StatisticsOf(stylus).RenderedFrames;
             AudioDevice.Forget();
             World.Frames(90);
-            stylus.TryGetStatistics(out VoiceStatistics after);
-            Assert.That(after.RenderedFrames - before.RenderedFrames, Is.EqualTo((ulong)AudioDevice.RecordedFrames));
+            Assert.That(StatisticsOf(stylus).RenderedFrames - before, Is.EqualTo((ulong)AudioDevice.RecordedFrames));
         }
 
         [Test]
@@ -169,7 +168,6 @@ namespace HaptoFlow.ShimTests
             Assert.That(mixer.Exposed["Pen"], Is.EqualTo(voice), "no group has called the effect for a second");
         }
 
-        private static GameObject Ears() => UnityEngine.Object.FindObjectsByType<AudioListener>(
-            FindObjectsInactive.Exclude, FindObjectsSortMode.None)[0].gameObject;
+        private static GameObject Ears() => All<AudioListener>()[0].gameObject;
     }
 }

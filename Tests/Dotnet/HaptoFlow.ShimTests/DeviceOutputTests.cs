@@ -2,7 +2,6 @@ using System;
 using System.Globalization;
 using System.IO;
 using System.Linq;
-using System.Runtime.CompilerServices;
 using HaptoFlow.Tests;
 using HaptoFlow.Tests.Support;
 using NUnit.Framework;
@@ -19,8 +18,7 @@ namespace HaptoFlow.ShimTests
         [Test]
         public void AutoOutputPlaysTheWaveformOnATouchController()
         {
-            OVRPlugin.Connected = OVRPlugin.Controller.RTouch;
-            World.Frames(72);
+            PlayOnTouch();
             Assert.That(OVRInput.Waves.Count, Is.GreaterThan(60));
             Assert.That(OVRInput.Waves.All(wave => wave.Mask == OVRInput.Controller.RTouch && wave.RateHz == 2000f));
             Assert.That(OVRInput.Waves.Max(wave => wave.Samples.Max(Math.Abs)), Is.GreaterThan(0.01f));
@@ -163,31 +161,10 @@ namespace HaptoFlow.ShimTests
             ControllerWaveformOutput output = Add<ControllerWaveformOutput>();
             World.Frames(72);
             Assert.That(OVRInput.Waves[^1].Samples.Length, Is.GreaterThan(20), "it plays");
-            switch (how)
-            {
-                case "panic":
-                    output.Panic();
-                    break;
-                case "panic of all":
-                    Haptics.Panic();
-                    break;
-                case "mute":
-                    output.Muted = true;
-                    break;
-                case "switched off":
-                    output.enabled = false;
-                    break;
-                case "pause":
-                    Pause(output, true);
-                    break;
-                default:
-                    Pen.enabled = false;
-                    break;
-            }
+            Stop(output, how);
             World.Frames(1);
-            int length = OVRInput.Waves[^1].Samples.Length;
-            Assert.That(length, Is.InRange(1, 7), "a fade of 3 ms replaces the queued samples");
             Assert.That(OVRInput.Waves[^1].Append, Is.False);
+            Assert.That(OVRInput.Waves[^1].Samples.Length, Is.InRange(1, 7), "a fade of 3 ms replaces what is queued");
             Assert.That(OVRInput.Waves[^1].Samples[^1], Is.Zero);
             int before = OVRInput.Waves.Count;
             World.Frames(72);
@@ -227,8 +204,7 @@ namespace HaptoFlow.ShimTests
             Assert.That(XrHand.Right.Impulses, Is.Not.Empty);
             Assert.That(output.DeviceName, Is.EqualTo("Another controller"));
             OVRInput.SampleRateHz = 500f;
-            OVRPlugin.Connected = OVRPlugin.Controller.RTouch;
-            World.Frames(72);
+            PlayOnTouch();
             Assert.That(OVRInput.Waves[^1].RateHz, Is.EqualTo(500f));
             Assert.That(OVRInput.FailedCalls, Is.Zero);
         }
@@ -239,14 +215,8 @@ namespace HaptoFlow.ShimTests
         [Test, Explicit, Category("DocumentationPicture")]
         public void WavesForTheDocumentationAreWritten()
         {
-            OVRPlugin.Connected = OVRPlugin.Controller.RTouch;
-            Output(out _);
+            PlayOnBothForSixSeconds();
             float fullScaleMps2 = HaptoFlowSettings.Active.FullScaleMps2;
-            AddAtTrueLevel<ControllerWaveformOutput>(fullScaleMps2);
-            World.Frames(72);
-            AudioDevice.Forget();
-            OVRInput.Waves.Clear();
-            World.Frames(6 * 72);
             float[] audio = AudioDevice.Samples();
             Directory.CreateDirectory(RepositoryFiles.In("out", "pictures"));
             foreach ((string name, float[] wave) in new[] { ("audio", audio), ("controller", Felt()) })
@@ -260,13 +230,7 @@ namespace HaptoFlow.ShimTests
         [Test]
         public void AControllerPlaysTheLevelAndSpectrumOfAnAudioOutput()
         {
-            OVRPlugin.Connected = OVRPlugin.Controller.RTouch;
-            Output(out _);
-            AddAtTrueLevel<ControllerWaveformOutput>(HaptoFlowSettings.Active.FullScaleMps2);
-            World.Frames(72);
-            AudioDevice.Forget();
-            OVRInput.Waves.Clear();
-            World.Frames(6 * 72);
+            PlayOnBothForSixSeconds();
             double[] controller = Bands(Felt(), 2000.0);
             double[] audio = Bands(AudioDevice.Samples(), 48000.0);
             for (int band = 0; band < audio.Length; ++band)
@@ -281,12 +245,11 @@ namespace HaptoFlow.ShimTests
         {
             var output = Add<MotorOutput>();
             XrHand.Right.Take("A controller", true);
+            Func<double, Vector3> circle = Pen.GetComponent<PathMover>().Path!;
             Pen.GetComponent<PathMover>().Path = _ => new Vector3(0f, 0.3f, 0f);
             World.Frames(72);
             XrHand.Right.IsThere = false;
             World.Frames(72);
-            Func<double, Vector3> circle = seconds => new Vector3(
-                0.05f * (float)Math.Cos(4.0 * seconds), 0.001f, 0.05f * (float)Math.Sin(4.0 * seconds));
             Pen.GetComponent<PathMover>().Path = circle;
             World.Frames(36);
             Pen.GetComponent<PathMover>().Path = _ => new Vector3(0f, 0.3f, 0f);
@@ -302,18 +265,14 @@ namespace HaptoFlow.ShimTests
         public void AnOutputEnabledDuringATouchDoesNotRepeatTheImpact()
         {
             XrHand.Right.Take("A controller", true);
-            AddAtTrueLevel<MotorOutput>(HaptoFlowSettings.Active.FullScaleMps2);
-            All<HapticSurface>().Single().Material.Effects = HapticEffects.Impact;
-            // The tip comes down fast and then rests on the board.
-            double start = Clock.Seconds;
-            Pen.GetComponent<PathMover>().Path = _ =>
-                new Vector3(0f, Math.Max(0.001f, 0.3f - (float)Math.Max(0.0, Clock.Seconds - start - 0.5)), 0f);
+            var output = AddAtTrueLevel<MotorOutput>();
+            LandInHalfASecond();
             World.Frames(144);
             Assert.That(XrHand.Right.Impulses, Is.Not.Empty, "the landing itself");
-            All<MotorOutput>().Single().enabled = false;
+            output.enabled = false;
             World.Frames(36);
             XrHand.Right.Impulses.Clear();
-            All<MotorOutput>().Single().enabled = true;
+            output.enabled = true;
             World.Frames(72);
             Assert.That(Pen.IsTouching, Is.True);
             Assert.That(XrHand.Right.Impulses, Is.Empty, "the touch-down was two seconds ago");
@@ -327,17 +286,29 @@ namespace HaptoFlow.ShimTests
             XrHand.Right.Take("A controller", true);
             XrHand.Right.Impulses.Capacity = 1000;
             World.Frames(150);
-            long bytes = BytesOf(180);
-            Assert.That(bytes, Is.Zero);
+            Assert.That(GarbageTests.BytesOf(180), Is.Zero);
             Assert.That(waveform ? OVRInput.Submissions : XrHand.Right.Impulses.Count, Is.GreaterThan(200));
         }
 
-        private void AddAtTrueLevel<T>(float fullScaleMps2)
+        private T AddAtTrueLevel<T>()
             where T : DeviceOutput
         {
             T output = Add<T>();
             output.TrueLevel = true;
-            output.FullScaleMps2 = fullScaleMps2;
+            output.FullScaleMps2 = HaptoFlowSettings.Active.FullScaleMps2;
+            return output;
+        }
+
+        /// <summary>On a controller, and on the audio device.</summary>
+        private void PlayOnBothForSixSeconds()
+        {
+            OVRPlugin.Connected = OVRPlugin.Controller.RTouch;
+            Output(out _);
+            AddAtTrueLevel<ControllerWaveformOutput>();
+            World.Frames(72);
+            AudioDevice.Forget();
+            OVRInput.Waves.Clear();
+            World.Frames(6 * 72);
         }
 
         [Test]
@@ -358,14 +329,6 @@ namespace HaptoFlow.ShimTests
             Assert.That(Average(), Is.EqualTo(0.5 * byLaw).Within(0.15 * byLaw));
             output.TrueLevel = true;
             Assert.That(Average(), Is.LessThan(0.5 * byLaw));
-        }
-
-        [MethodImpl(MethodImplOptions.NoInlining)]
-        private static long BytesOf(int frames)
-        {
-            long before = GC.GetAllocatedBytesForCurrentThread();
-            World.Frames(frames);
-            return GC.GetAllocatedBytesForCurrentThread() - before;
         }
 
         /// <summary>The samples that a controller with an exact clock plays: each submission until the next one
@@ -412,7 +375,6 @@ namespace HaptoFlow.ShimTests
     {
         protected HapticStylus Pen { get; set; } = null!;
 
-        /// <summary>Loads the optional assemblies, which .NET loads on first use only, unlike Unity.</summary>
         [OneTimeSetUp]
         public void LoadOptionalAssemblies() => OptionalAssemblies.Load();
 
@@ -446,11 +408,49 @@ namespace HaptoFlow.ShimTests
             return output;
         }
 
+        /// <summary>Plays a second on a Touch controller in the right hand.</summary>
+        internal static void PlayOnTouch()
+        {
+            OVRPlugin.Connected = OVRPlugin.Controller.RTouch;
+            World.Frames(72);
+        }
+
+        /// <summary>The tip comes down fast after half a second, and then rests on the board, which plays only impacts.
+        /// </summary>
+        internal void LandInHalfASecond()
+        {
+            All<HapticSurface>().Single().Material.Effects = HapticEffects.Impact;
+            double start = Clock.Seconds;
+            Pen.GetComponent<PathMover>().Path = _ =>
+                new Vector3(0f, Math.Max(0.001f, 0.3f - (float)Math.Max(0.0, Clock.Seconds - start - 0.5)), 0f);
+        }
+
+        internal void Stop(DeviceOutput output, string how)
+        {
+            switch (how)
+            {
+                case "panic":
+                    output.Panic();
+                    break;
+                case "panic of all":
+                    Haptics.Panic();
+                    break;
+                case "mute":
+                    output.Muted = true;
+                    break;
+                case "switched off":
+                    output.enabled = false;
+                    break;
+                case "pause":
+                    Pause(output, true);
+                    break;
+                default:
+                    Pen.enabled = false;
+                    break;
+            }
+        }
+
         internal static void Pause(DeviceOutput output, bool paused) =>
             output.SendMessage("OnApplicationPause", paused);
-
-        internal static TComponent[] All<TComponent>()
-            where TComponent : Object => Object.FindObjectsByType<TComponent>(
-            FindObjectsInactive.Include, FindObjectsSortMode.None);
     }
 }

@@ -70,8 +70,7 @@ namespace HaptoFlow.ShimTests
             if (route == OutputRoute.ListenerChannel)
             {
                 Object.DestroyImmediate(output.gameObject);
-                output = Object.FindObjectsByType<AudioListener>(FindObjectsInactive.Exclude, FindObjectsSortMode.None)[0].gameObject
-                    .AddComponent<HapticOutput>();
+                output = All<AudioListener>()[0].gameObject.AddComponent<HapticOutput>();
                 output.Route = route;
                 output.Channel = 0;
                 stylus.Output = output;
@@ -113,8 +112,7 @@ namespace HaptoFlow.ShimTests
         [Test]
         public void ASharedMaterialUnloadedUnderATouchEndsWithAFadeASentenceAndNoOtherMaterial()
         {
-            var shared = ScriptableObject.CreateInstance<HapticMaterial>();
-            shared.Description.Label = "glass";
+            HapticMaterial shared = Feeling("glass");
             HapticSurface? touched = null;
             Sounding(out _, out float usual, board => (touched = board).SharedMaterial = shared);
             ExpectAFade(() => Object.DestroyImmediate(shared), usual);

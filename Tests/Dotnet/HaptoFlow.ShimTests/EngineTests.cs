@@ -60,8 +60,7 @@ namespace HaptoFlow.ShimTests
             }
             HapticSession.Current.FinishRegistrations();
             Assert.That((Haptics.LearntMaterials, Haptics.RefusedMaterials), Is.EqualTo((1, 0)));
-            Assert.That(stylus.TryGetStatistics(out VoiceStatistics statistics), Is.True);
-            Assert.That((statistics.Failures, tap.BrokenSamples), Is.EqualTo((0UL, 0)));
+            Assert.That((StatisticsOf(stylus).Failures, tap.BrokenSamples), Is.EqualTo((0UL, 0)));
         }
     }
 
@@ -71,11 +70,7 @@ namespace HaptoFlow.ShimTests
         [Test]
         public void TheSixtyFifthStylusGetsItsVoiceWhenAnotherOneEnds()
         {
-            FinishLoading();
-            Board();
-            Output(out _);
-            List<HapticStylus> styluses = Enumerable.Range(0, 65).Select(_ => Circling()).ToList();
-            World.Frames(60);
+            List<HapticStylus> styluses = Play(65, 60);
             HapticStylus refused = styluses.Single(each => !each.TryGetStatistics(out _));
             Assert.That(Log.Count("gets no voice"), Is.EqualTo(1), "once, not each time that it asks");
             Object.DestroyImmediate(styluses.First(each => each != refused).gameObject);
@@ -87,11 +82,7 @@ namespace HaptoFlow.ShimTests
         [Test]
         public void AStylusThatIsEnabledAgainAsksAtOnce()
         {
-            FinishLoading();
-            Board();
-            Output(out _);
-            List<HapticStylus> styluses = Enumerable.Range(0, 65).Select(_ => Circling()).ToList();
-            World.Frames(3);
+            List<HapticStylus> styluses = Play(65, 3);
             HapticStylus refused = styluses.Single(each => !each.TryGetStatistics(out _));
             styluses.First(each => each != refused).enabled = false;
             refused.enabled = false;
@@ -103,11 +94,7 @@ namespace HaptoFlow.ShimTests
         [Test]
         public void AFadingVoiceDoesNotKeepItsPlaceFromAnother()
         {
-            FinishLoading();
-            Board();
-            Output(out _);
-            List<HapticStylus> styluses = Enumerable.Range(0, 64).Select(_ => Circling()).ToList();
-            World.Frames(30);
+            List<HapticStylus> styluses = Play(64, 30);
             styluses.ForEach(each => each.enabled = false);
             styluses.ForEach(each => each.enabled = true);
             World.Frames(1);
@@ -152,9 +139,18 @@ namespace HaptoFlow.ShimTests
             Assert.That(stylus.TryGetStatistics(out _), Is.True);
             Assert.That(Log.Count("the scene runs without haptics"), Is.EqualTo(1));
         }
+
+        private List<HapticStylus> Play(int styluses, int frames)
+        {
+            FinishLoading();
+            Board();
+            Output(out _);
+            List<HapticStylus> made = Enumerable.Range(0, styluses).Select(_ => Circling()).ToList();
+            World.Frames(frames);
+            return made;
+        }
     }
 
-    /// <summary>The output while the model is changed during a stroke.</summary>
     public sealed class ModelChangeTests : SceneTest
     {
         private const int RateHz = 48000;

@@ -97,10 +97,7 @@ namespace HaptoFlow.ShimTests
                 map.Add(HapticMaterialRule.ForTag("Player", Feeling("stone")));
             }
             map.DefaultMaterial = Feeling("wood");
-            var box = Make("Plank").AddComponent<BoxCollider>();
-            box.size = new Vector3(0.4f, 0.02f, 0.4f);
-            box.center = new Vector3(0f, -0.01f, 0f);
-            box.gameObject.AddComponent<MeshRenderer>();
+            Bare().gameObject.AddComponent<MeshRenderer>();
             Make("Bystander").AddComponent<SphereCollider>().radius = 0.01f;
         });
 
@@ -201,8 +198,7 @@ namespace HaptoFlow.ShimTests
             World.Frames(WarmUpFrames);
             AudioDevice.Forget();
             long bytes = BytesOf(MeasuredFrames);
-            Assert.That(stylus.TryGetStatistics(out VoiceStatistics statistics), Is.True);
-            Assert.That(statistics.Updates, Is.GreaterThan((ulong)MeasuredFrames));
+            Assert.That(StatisticsOf(stylus).Updates, Is.GreaterThan((ulong)MeasuredFrames));
             Assert.That(log.Began + log.Moved > 0 || path(0.0).y > 0.2f, Is.True, "nothing was touched");
             Assert.That(bytes, Is.Zero, "on the main thread");
             Assert.That(AudioDevice.AllocatedBytes, Is.Zero, "on the audio thread");
@@ -210,7 +206,7 @@ namespace HaptoFlow.ShimTests
         }
 
         [MethodImpl(MethodImplOptions.NoInlining)]
-        private static long BytesOf(int frames)
+        internal static long BytesOf(int frames)
         {
             long before = GC.GetAllocatedBytesForCurrentThread();
             World.Frames(frames);

@@ -229,15 +229,7 @@ namespace HaptoFlow.ShimTests
                 case "controller":
                     return Tagged<CharacterController>("wood", body => (body.radius, body.height) = (0.01f, 0.03f)).gameObject;
                 case "sheet":
-                    return Tagged<MeshCollider>("wood", mesh => mesh.sharedMesh = new Mesh
-                    {
-                        vertices = new[]
-                        {
-                            new Vector3(-0.1f, 0f, -0.1f), new Vector3(-0.1f, 0f, 0.1f),
-                            new Vector3(0.1f, 0f, 0.1f), new Vector3(0.1f, 0f, -0.1f),
-                        },
-                        triangles = new[] { 0, 1, 2, 0, 2, 3 },
-                    }).gameObject;
+                    return Tagged<MeshCollider>("wood", mesh => mesh.sharedMesh = ReliefTests.Sheet()).gameObject;
                 default:
                     return Block(kind, "wood", new Vector3(0.2f, 0.003f, 0.2f)).gameObject;
             }

@@ -9,7 +9,6 @@ using UnityShim;
 
 namespace HaptoFlow.ShimTests
 {
-    /// <summary>The effect of a material's feature scale and tone on the output.</summary>
     public sealed class FeatureScaleTests : SceneTest
     {
         // The ribs of corduroy are 2.5 mm apart.
@@ -69,31 +68,18 @@ namespace HaptoFlow.ShimTests
         private Func<double, double> Stroke(Action<MaterialDescription> describe)
         {
             FinishLoading();
-            GameObject board = Make("Board");
-            var box = board.AddComponent<BoxCollider>();
-            box.size = new Vector3(2f, 0.02f, 2f);
-            box.center = new Vector3(0f, -0.01f, 0f);
-            describe(board.AddComponent<HapticSurface>().Material);
-            return PowerSpectrum();
-        }
-
-        private Func<double, double> PowerSpectrum()
-        {
+            describe(Board("wood", 2f).Material);
             Output(out _);
             HapticStylus stylus = StylusAlong(seconds => new Vector3((float)(SpeedMps * seconds - 0.5), 0.001f, 0f));
             World.Frames((int)(0.5 * World.FrameRateHz));
             AudioDevice.Forget();
             World.Frames((int)(Seconds * World.FrameRateHz));
-            ToneRuns = stylus.TryGetEffectStatistics(HapticEffect.Tone, out EffectStatistics tone) ? tone.Runs : 0UL;
-            var samples = new double[AudioDevice.RecordedFrames];
-            for (int frame = 0; frame < samples.Length; ++frame)
-            {
-                samples[frame] = AudioDevice.Sample(frame, 0);
-            }
+            ToneRuns = StatisticsOf(stylus, HapticEffect.Tone).Runs;
+            float[] samples = AudioDevice.Samples();
             return hertz => PowerAt(samples, hertz);
         }
 
-        private static double PowerAt(double[] samples, double hertz)
+        private static double PowerAt(float[] samples, double hertz)
         {
             double real = 0.0;
             double imaginary = 0.0;
@@ -140,11 +126,7 @@ namespace HaptoFlow.ShimTests
             HaptoFlowSettings.Active.Model = HapticModelAsset.Create(
                 File.ReadAllBytes(RepositoryFiles.In("Tests", "Golden", "model", "skeleton.haptoflow")));
             FinishLoading();
-            HapticSurface board = Tagged<BoxCollider>("smooth", box =>
-            {
-                box.size = new Vector3(2f, 0.02f, 2f);
-                box.center = new Vector3(0f, -0.01f, 0f);
-            });
+            HapticSurface board = Board("smooth", 2f);
             board.Variation = variation;
             board.Seed = seed;
             Output(out _);

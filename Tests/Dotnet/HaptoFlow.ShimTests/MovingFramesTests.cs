@@ -32,44 +32,20 @@ namespace HaptoFlow.ShimTests
     {
         private const float StillMps = 0.003f;
 
-        /// <summary>Moves an object in Update.</summary>
         private sealed class Mover : MonoBehaviour
         {
             public Func<double, Vector3> Path { get; set; } = _ => Vector3.zero;
-            public bool Local { get; set; }
             public bool Scaled { get; set; }
 
-            private void Update()
-            {
-                double now = Scaled ? Time.timeAsDouble : Time.unscaledTimeAsDouble;
-                if (Local)
-                {
-                    transform.localPosition = Path(now);
-                }
-                else
-                {
-                    transform.position = Path(now);
-                }
-            }
+            private void Update() =>
+                transform.localPosition = Path(Scaled ? Time.timeAsDouble : Time.unscaledTimeAsDouble);
         }
 
-        /// <summary>Moves a transform in FixedUpdate.</summary>
         private sealed class StepMover : MonoBehaviour
         {
             public Func<double, Vector3> Path { get; set; } = _ => Vector3.zero;
 
             private void FixedUpdate() => transform.position = Path(Time.fixedTimeAsDouble);
-        }
-
-        /// <summary>Moves an object at ticks of its own, as a network does.</summary>
-        private sealed class TickMover : MonoBehaviour
-        {
-            public Func<double, Vector3> Path { get; set; } = _ => Vector3.zero;
-            public double TicksPerSecond { get; set; }
-            public double Phase { get; set; }
-
-            private void Update() => transform.position =
-                Path((Math.Floor(Time.unscaledTimeAsDouble * TicksPerSecond + Phase) - Phase) / TicksPerSecond);
         }
 
         /// <summary>Steadily along x, whatever the clock's start.</summary>
@@ -105,21 +81,13 @@ namespace HaptoFlow.ShimTests
         private HapticStylus Pen(Func<double, Vector3> path, GameObject? parent = null)
         {
             GameObject made = Make("Pen");
-            Mover mover = made.AddComponent<Mover>();
-            mover.Path = path;
+            made.AddComponent<Mover>().Path = path;
             if (parent != null)
             {
                 made.transform.SetParent(parent.transform, false);
-                mover.Local = true;
             }
             return made.AddComponent<HapticStylus>();
         }
-
-        private HapticSurface Ground(float metres) => Tagged<BoxCollider>("wood", box =>
-        {
-            box.size = new Vector3(metres, 0.02f, metres);
-            box.center = new Vector3(0f, -0.01f, 0f);
-        });
 
         private static Vector3 Circle(double seconds) => new Vector3(
             0.05f * (float)Math.Cos(4.0 * seconds), 0.001f, 0.05f * (float)Math.Sin(4.0 * seconds));
@@ -166,7 +134,7 @@ namespace HaptoFlow.ShimTests
             [Values] Carrier carrier, [Values(0.05, 3.0, 250.0)] double mps)
         {
             SetRates(rates);
-            HapticSurface ground = Ground(2000f);
+            HapticSurface ground = Board("wood", 2000f);
             Carry(ground.gameObject, carrier, mps);
             Func<double, Vector3> drive = Steadily(mps);
             HapticStylus pen = Pen(now => drive(now) + new Vector3(0.1f, 0.001f, 0.2f));
@@ -183,7 +151,7 @@ namespace HaptoFlow.ShimTests
             [Values] Carrier carrier, [Values(0.02f, 0.2f, 1f)] float mps)
         {
             SetRates(rates);
-            Carry(Ground(40f).gameObject, carrier, mps);
+            Carry(Board("wood", 40f).gameObject, carrier, mps);
             AssertSpeed(Pen(_ => new Vector3(0f, 0.001f, 0f)), mps, 0.1 + 2.0 / rates.Steps);
         }
 
@@ -193,10 +161,9 @@ namespace HaptoFlow.ShimTests
             [Values(20.0, 45.0)] double ticksPerSecond, [Values(0.02f, 0.2f, 1f)] float mps, [Values(0.0, 0.5)] double phase)
         {
             SetFrameRate(framesPerSecond);
-            TickMover mover = Ground(40f).gameObject.AddComponent<TickMover>();
-            mover.Path = Steadily(mps);
-            mover.TicksPerSecond = ticksPerSecond;
-            mover.Phase = phase;
+            Func<double, Vector3> drive = Steadily(mps);
+            Board("wood", 40f).gameObject.AddComponent<Mover>().Path =
+                now => drive((Math.Floor(now * ticksPerSecond + phase) - phase) / ticksPerSecond);
             AssertSpeed(Pen(_ => new Vector3(0f, 0.001f, 0f)), mps, 2.0 / ticksPerSecond + 0.1);
         }
 
@@ -240,7 +207,7 @@ namespace HaptoFlow.ShimTests
         {
             FinishLoading();
             SetFrameRate(framesPerSecond);
-            Ground(4f);
+            Board("wood", 4f);
             AudioTap tap = Output(out _);
             GameObject rig = Make("Rig");
             HapticStylus pen = Pen(seconds => new Vector3(0.4f, 0f, 0f) + Circle(seconds), rig);
@@ -314,7 +281,7 @@ namespace HaptoFlow.ShimTests
         [Test]
         public void APenAtRestOnAPlatformIsAtRestInSlowMotionAndAfterHitches([Values] Carrier carrier)
         {
-            HapticSurface ground = Ground(40f);
+            HapticSurface ground = Board("wood", 40f);
             Carry(ground.gameObject, carrier, 0.2);
             if (ground.TryGetComponent(out Mover mover))
             {
@@ -345,7 +312,7 @@ namespace HaptoFlow.ShimTests
         [TestCase(10f)]
         public void UnderAScaledRigSpeedDepthAndForceAreTheHands(float scale)
         {
-            Ground(40f);
+            Board("wood", 40f);
             GameObject rig = Make("Rig");
             rig.transform.localScale = new Vector3(scale, scale, scale);
             HapticStylus pen = Pen(Circle, rig);
@@ -366,7 +333,7 @@ namespace HaptoFlow.ShimTests
         [TestCase(true)]
         public void ThePensOwnScaleIsNoRigNorIsItsRootsWhereARigIsNamed(bool isNamed)
         {
-            Ground(4f);
+            Board("wood", 4f);
             GameObject world = Make("World");
             HapticStylus pen = Pen(Circle, isNamed ? world : null);
             pen.transform.localScale = new Vector3(0.01f, 0.01f, 0.01f);
@@ -393,7 +360,7 @@ namespace HaptoFlow.ShimTests
             [Values(0.05, 0.2, 0.6)] double hitch, [Values(0.01, 0.025)] double step)
         {
             Clock.FixedStepSeconds = step;
-            Ground(4f);
+            Board("wood", 4f);
             GameObject hand = Make("Hand");
             hand.AddComponent<Mover>().Path = Circle;
             GameObject made = Make("Tip");

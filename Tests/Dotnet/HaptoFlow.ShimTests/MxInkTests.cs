@@ -25,7 +25,6 @@ namespace HaptoFlow.ShimTests
         [Test]
         public void AnXrPenFollowsThePenAndReadsItsForceWithoutAnyScript()
         {
-            Pen.enabled = false;
             XrPen pen = HeldPen(PenHand.Right);
             OVRPlugin.Tip = 0.4f;
             World.Frames(72);
@@ -39,7 +38,6 @@ namespace HaptoFlow.ShimTests
         [Test]
         public void AnXrPenIsFeltInThePensOwnMotor([Values] PenHand hand)
         {
-            Pen.enabled = false;
             XrPen pen = HeldPen(hand);
             OVRPlugin.Tip = 0.4f;
             for (int frame = 0; frame < 144; ++frame)
@@ -58,7 +56,6 @@ namespace HaptoFlow.ShimTests
         [Test]
         public void ThePensFrameIsTurnedIntoUnitys()
         {
-            Pen.enabled = false;
             XrPen pen = HeldPen(PenHand.Right);
             // A quarter turn about y to the left in a right-handed frame points along -x in both.
             Move(PenHand.Right, Vector3.zero, new Quaternion(0f, (float)Math.Sqrt(0.5), 0f, (float)Math.Sqrt(0.5)));
@@ -70,7 +67,6 @@ namespace HaptoFlow.ShimTests
         [Test]
         public void APenThatIsPutAwayEndsTheTouchAndAnotherDeviceTakesOver()
         {
-            Pen.enabled = false;
             XrPen pen = HeldPen(PenHand.Right);
             World.Frames(72);
             Assert.That(pen.Stylus!.IsTouching, Is.True);
@@ -78,9 +74,7 @@ namespace HaptoFlow.ShimTests
             OVRPlugin.Connected = OVRPlugin.Controller.RTouch;
             World.Frames(144);
             Assert.That(pen.Stylus.isActiveAndEnabled, Is.False);
-            SimulatedInput.SetControl("<XRController>{RightHand}/isTracked", 1f);
-            SimulatedInput.SetControl("<XRController>{RightHand}/pointerPosition", new Vector3(0f, 0.2f, 0f));
-            SimulatedInput.SetControl("<XRController>{RightHand}/pointerRotation", Quaternion.identity);
+            PointAbove();
             World.Frames(2);
             Assert.That(pen.Stylus.isActiveAndEnabled, Is.True);
             Assert.That(pen.transform.localPosition.y, Is.EqualTo(0.2f).Within(1e-6f));
@@ -89,7 +83,6 @@ namespace HaptoFlow.ShimTests
         [Test]
         public void AnActionSetWithoutThePoseIsNamedOnceWithItsRemedy()
         {
-            Pen.enabled = false;
             HeldPen(PenHand.Right);
             OVRPlugin.Poses.Clear();
             World.Frames(72 * 20);
@@ -101,7 +94,6 @@ namespace HaptoFlow.ShimTests
         [Test]
         public void AnActionSetWithoutTheForceLeavesThePoseAndTheSpringModel()
         {
-            Pen.enabled = false;
             XrPen pen = HeldPen(PenHand.Right);
             World.Frames(72 * 10);
             Assert.That(pen.Stylus!.IsTouching, Is.True);
@@ -165,9 +157,7 @@ namespace HaptoFlow.ShimTests
         {
             Pen.enabled = false;
             GameObject owner = XrPen.Create(null, PenHand.Right).gameObject;
-            SimulatedInput.SetControl("<XRController>{RightHand}/isTracked", 1f);
-            SimulatedInput.SetControl("<XRController>{RightHand}/pointerPosition", new Vector3(0f, 0.2f, 0f));
-            SimulatedInput.SetControl("<XRController>{RightHand}/pointerRotation", Quaternion.identity);
+            PointAbove();
             SimulatedInput.SetControl("<XRController>{RightHand}/thumbstick", new Vector2(1f, 0f));
             SimulatedInput.SetControl("<XRController>{RightHand}/thumbstickTouched", 0f);
             World.Frames(72);
@@ -190,13 +180,20 @@ namespace HaptoFlow.ShimTests
             Assert.That(Log.Count("MX Ink", LogType.Warning), Is.Zero);
         }
 
+        private static void PointAbove()
+        {
+            SimulatedInput.SetControl("<XRController>{RightHand}/isTracked", 1f);
+            SimulatedInput.SetControl("<XRController>{RightHand}/pointerPosition", new Vector3(0f, 0.2f, 0f));
+            SimulatedInput.SetControl("<XRController>{RightHand}/pointerRotation", Quaternion.identity);
+        }
+
         private XrPen HeldPen(PenHand hand)
         {
+            Pen.enabled = false;
             OVRPlugin.Hand held = hand == PenHand.Left ? OVRPlugin.Hand.HandLeft : OVRPlugin.Hand.HandRight;
             OVRPlugin.Take(held, OVRPlugin.MxInkProfile);
             Move(hand, OnTheBoard, new Quaternion(0f, 0f, 0f, 1f));
-            XrPen pen = XrPen.Create(Make("Tracking Space").transform, hand);
-            return pen;
+            return XrPen.Create(Make("Tracking Space").transform, hand);
         }
 
         /// <summary>Moves the pen as Meta's runtime reports it: in a right-handed frame.</summary>

@@ -71,7 +71,7 @@ namespace HaptoFlow.ShimTests
             HapticSurface here = Board("wood");
             HapticSurface there = Board("fur");
             SceneManager.MoveGameObjectToScene(there.gameObject, other);
-            HapticStylus stylus = StylusAlong(_ => new Vector3(0f, 0.001f, 0f));
+            HapticStylus stylus = Resting();
             World.Frames(3);
             Assert.That(stylus.IsTouching, Is.True);
             Assert.That(stylus.Contact.Surface, Is.SameAs(here));
@@ -88,7 +88,7 @@ namespace HaptoFlow.ShimTests
             Scene additive = SceneManager.CreateScene("Added", new CreateSceneParameters(LocalPhysicsMode.None));
             HapticSurface board = Board("wood");
             SceneManager.MoveGameObjectToScene(board.gameObject, additive);
-            HapticStylus stylus = StylusAlong(_ => new Vector3(0f, 0.001f, 0f));
+            HapticStylus stylus = Resting();
             World.Frames(3);
             Assert.That(stylus.IsTouching, Is.True);
         }
@@ -130,7 +130,7 @@ namespace HaptoFlow.ShimTests
         public void TheBackFaceSettingOfPhysicsChangesNothing(bool hitsBacks)
         {
             Physics.queriesHitBackfaces = hitsBacks;
-            Sheet();
+            Tagged<MeshCollider>("wood", mesh => mesh.sharedMesh = ReliefTests.Sheet());
             HapticStylus below = StylusAlong(seconds => new Vector3(0.01f * (float)seconds, -0.001f - 0.02f, 0f));
             HapticStylus rising = StylusAlong(seconds =>
                 new Vector3(0f, Math.Min(-0.0022f, -0.03f + 0.05f * (float)seconds), 0f));
@@ -145,7 +145,7 @@ namespace HaptoFlow.ShimTests
         }
 
         /// <summary>Creates a closed box of 20 cm whose top is the plane y = 0.</summary>
-        private HapticSurface MeshBox(bool convex)
+        private void MeshBox(bool convex)
         {
             HapticSurface box = Tagged<MeshCollider>("wood", mesh =>
             {
@@ -154,19 +154,6 @@ namespace HaptoFlow.ShimTests
             });
             box.transform.position = new Vector3(0f, -0.1f, 0f);
             Physics.SyncTransforms();
-            return box;
-        }
-
-        /// <summary>Creates a square of 20 cm in the plane y = 0 that faces upwards, as Unity's plane does.</summary>
-        private void Sheet()
-        {
-            var corners = new[]
-            {
-                new Vector3(-0.1f, 0f, -0.1f), new Vector3(-0.1f, 0f, 0.1f),
-                new Vector3(0.1f, 0f, 0.1f), new Vector3(0.1f, 0f, -0.1f),
-            };
-            Tagged<MeshCollider>("wood", mesh =>
-                mesh.sharedMesh = new Mesh { vertices = corners, triangles = new[] { 0, 1, 2, 0, 2, 3 } });
         }
     }
 }

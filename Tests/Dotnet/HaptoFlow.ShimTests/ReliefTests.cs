@@ -82,8 +82,7 @@ namespace HaptoFlow.ShimTests
             HapticSurface board = Board();
             board.Relief = Keep(Ribs());
             board.transform.localScale = new Vector3(2f, 1f, 0.5f);
-            ContactState state = Touch(new Vector3(0.03f, 0.001f, -0.05f));
-            Expect(state, 0.5f + 0.3f, 0.5f - 0.25f);
+            Expect(Touch(new Vector3(0.03f, 0.001f, -0.05f)), 0.5f + 0.3f, 0.5f - 0.25f);
         }
 
         [Test]
@@ -92,8 +91,7 @@ namespace HaptoFlow.ShimTests
             HapticSurface sheet = Tagged<MeshCollider>("wood", mesh => mesh.sharedMesh = Sheet());
             sheet.transform.localScale = new Vector3(scale, 1f, 1f);
             sheet.Relief = Keep(Ribs());
-            ContactState state = Touch(new Vector3(0.04f * scale, 0.001f, -0.03f));
-            Expect(state, 3f * 0.07f / 0.2f, 0.06f / 0.2f);
+            Expect(Touch(new Vector3(0.04f * scale, 0.001f, -0.03f)), 3f * 0.07f / 0.2f, 0.06f / 0.2f);
         }
 
         [Test]
@@ -102,8 +100,8 @@ namespace HaptoFlow.ShimTests
             HapticSurface sheet = Tagged<MeshCollider>("wood", mesh => mesh.sharedMesh = Sheet());
             sheet.Relief = Keep(Ribs());
             (sheet.Relief.Tiling, sheet.Relief.Offset) = (new Vector2(2f, 4f), new Vector2(0.25f, 0.125f));
-            ContactState state = Touch(new Vector3(0.04f, 0.001f, -0.03f));
-            Expect(state, 2f * 3f * 0.07f / 0.2f + 0.25f, 4f * 0.06f / 0.2f + 0.125f);
+            Expect(Touch(new Vector3(0.04f, 0.001f, -0.03f)),
+                2f * 3f * 0.07f / 0.2f + 0.25f, 4f * 0.06f / 0.2f + 0.125f);
         }
 
         [Test]
@@ -197,8 +195,7 @@ namespace HaptoFlow.ShimTests
             map.Add(HapticMaterialRule.ForName("Plank", Feeling("wood")));
             map.Rules[0].Relief = Keep(Ribs());
             HaptoFlowSettings.Active.MaterialMap = map;
-            var box = Make("Plank").AddComponent<BoxCollider>();
-            (box.size, box.center) = (new Vector3(0.4f, 0.02f, 0.4f), new Vector3(0f, -0.01f, 0f));
+            Bare();
             MaterialMaps.Poll();
             Expect(Touch(new Vector3(0.03f, 0.001f, -0.05f)), 0.5f + 0.3f, 0.5f - 0.25f);
         }
@@ -296,10 +293,8 @@ namespace HaptoFlow.ShimTests
             return way;
         }
 
-        private ContactState Touch(Vector3 tip, double scale = 1.0) => Read(tip, scale).State;
-
-        /// <summary>The reading of a tip that rests at a place of the world, as a stylus publishes it.</summary>
-        private ContactReading Read(Vector3 tip, double scale = 1.0)
+        /// <summary>The state of a tip that rests at a place of the world, as a stylus publishes it.</summary>
+        private ContactState Touch(Vector3 tip, double scale = 1.0)
         {
             FinishLoading();
             Physics.SyncTransforms();
@@ -311,7 +306,7 @@ namespace HaptoFlow.ShimTests
                     HapticSession.Current, contacts.Touched?.Collider!);
             }
             ReliefPlace.Write(contacts.Touched, ref reading);
-            return reading;
+            return reading.State;
         }
 
         /// <summary>The RMS level of the output while a board is stroked at 0.1 m/s across the ribs.</summary>
@@ -327,9 +322,8 @@ namespace HaptoFlow.ShimTests
             World.Frames(45);
             AudioDevice.Forget();
             World.Frames(90);
-            Assert.That(stylus.TryGetEffectStatistics(HapticEffect.Relief, out effect), Is.True);
-            return Math.Sqrt(Enumerable.Range(0, (int)AudioDevice.RecordedFrames)
-                .Average(frame => Math.Pow(AudioDevice.Sample(frame, 0), 2.0)));
+            effect = StatisticsOf(stylus, HapticEffect.Relief);
+            return Math.Sqrt(AudioDevice.Samples().Average(sample => Math.Pow(sample, 2.0)));
         }
     }
 }

@@ -27,11 +27,13 @@ namespace HaptoFlow.ShimTests
             map.Add(HapticMaterialRule.ForTerrainLayer(layers[0], Feeling("wood")));
             map.Add(HapticMaterialRule.ForTerrainLayer(layers[1], Feeling("stone")));
             map.Add(HapticMaterialRule.ForName("Crate", Feeling("wood")));
+            HaptoFlowSettings.Active.MaterialMap = map;
         }
 
         [Test]
         public void TenThousandSpawnsBelowASurfaceLeaveNothingAndCostTheSameInEveryFrame()
         {
+            HaptoFlowSettings.Active.MaterialMap = null;
             HapticSurface surface = Board();
             Transform pool = Make("Pool").transform;
             pool.SetParent(surface.transform, false);
@@ -46,7 +48,6 @@ namespace HaptoFlow.ShimTests
         [Test]
         public void TenThousandSpawnsThatRulesMatchLeaveABoundedCacheAndCostTheSameInEveryFrame()
         {
-            HaptoFlowSettings.Active.MaterialMap = map;
             Transform root = Make("Root").transform;
             Circling();
             AssertFlat(SpawnAndCount(() => SpawnBelow(root)));
@@ -58,7 +59,6 @@ namespace HaptoFlow.ShimTests
         [Test]
         public void TenThousandSwapsOfAMeshUnderTheTipKeepOneEntry()
         {
-            HaptoFlowSettings.Active.MaterialMap = map;
             GameObject crate = SpawnBelow(Make("Root").transform);
             Object.DestroyImmediate(crate.GetComponent<BoxCollider>());
             crate.transform.localPosition = new Vector3(0f, -0.15f, 0f);
@@ -82,7 +82,6 @@ namespace HaptoFlow.ShimTests
         [Test]
         public void ScenesWithTerrainsThatComeAndGoLeaveNoTerrainBehind()
         {
-            HaptoFlowSettings.Active.MaterialMap = map;
             HapticStylus stylus = Circling();
             Object.DontDestroyOnLoad(stylus.gameObject);
             Object.DontDestroyOnLoad(Stepper.gameObject);
@@ -102,7 +101,6 @@ namespace HaptoFlow.ShimTests
         [Test]
         public void ATileThatIsLoadedLaterIsReadBeforeItIsTouchedOneStripAFrame()
         {
-            HaptoFlowSettings.Active.MaterialMap = map;
             bool lands = false;
             StylusAlong(_ => new Vector3(0.3f, lands ? 0.001f : 1f, 0.3f));
             World.Frames(50);
@@ -115,7 +113,6 @@ namespace HaptoFlow.ShimTests
         [Test]
         public void ATileUnderTheTipCostsTheStripsThereAndOneMoreAndFeelsRightAtOnce()
         {
-            HaptoFlowSettings.Active.MaterialMap = map;
             HapticStylus stylus = StylusAlong(_ => new Vector3(0.3f, 0.001f, 0.3f));
             World.Frames(50);
             TerrainCollider tile = Tile(1024, Vector3.zero, z => z > 0.5f);
@@ -133,7 +130,6 @@ namespace HaptoFlow.ShimTests
         [Test]
         public void ATerrainThatChangesItsResolutionOrLayersIsReadAnew()
         {
-            HaptoFlowSettings.Active.MaterialMap = map;
             HapticStylus stylus = StylusAlong(_ => new Vector3(0.3f, 0.001f, 0.3f));
             TerrainCollider tile = Tile(256, Vector3.zero, _ => true);
             World.Frames(50);
@@ -149,7 +145,6 @@ namespace HaptoFlow.ShimTests
         [Test]
         public void ATerrainOfOneMaterialIsNotRead()
         {
-            HaptoFlowSettings.Active.MaterialMap = map;
             map.Clear();
             map.Add(HapticMaterialRule.ForName("Tile", Feeling("wood")));
             Circling();

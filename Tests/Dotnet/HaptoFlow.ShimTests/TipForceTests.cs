@@ -6,7 +6,6 @@ using UnityShim;
 
 namespace HaptoFlow.ShimTests
 {
-    /// <summary>The tip force of pens, read through optional packages.</summary>
     public sealed class TipForceTests : SceneTest
     {
         [Test]
@@ -75,9 +74,8 @@ namespace HaptoFlow.ShimTests
 
         private HapticStylus PressedStylus()
         {
-            HapticSurface board = Board();
-            board.Material.StiffnessNewtonsPerMetre = 700f;
-            return StylusAlong(_ => new Vector3(0f, 0.001f, 0f));
+            Board().Material.StiffnessNewtonsPerMetre = 700f;
+            return Resting();
         }
     }
 
@@ -91,9 +89,8 @@ namespace HaptoFlow.ShimTests
         {
             OVRPlugin.Reset();
             OVRPlugin.Connected = OVRPlugin.Controller.RTouch;
-            HapticSurface board = Board();
-            board.Material.StiffnessNewtonsPerMetre = 700f;
-            HapticStylus stylus = StylusAlong(_ => new Vector3(0f, 0.001f, 0f));
+            Board().Material.StiffnessNewtonsPerMetre = 700f;
+            HapticStylus stylus = Resting();
             source = stylus.gameObject.AddComponent<MetaActionTipForce>();
             stylus.Force = source;
         }

@@ -18,8 +18,7 @@ namespace HaptoFlow.ShimTests
                 Add<ControllerWaveformOutput>(made => made.QueueSubmissions = queued);
             World.Frames(72);
             int before = OVRInput.Waves.Count;
-            double start = Clock.UnscaledSeconds;
-            Haptics.Yield(HapticHand.Right, 0.25f);
+            double start = Yield(0.25f);
             World.Frames(72);
             var after = OVRInput.Waves.Skip(before).ToArray();
             Assert.That(after[0].Seconds - start, Is.InRange(0.25, 0.29));
@@ -40,8 +39,7 @@ namespace HaptoFlow.ShimTests
             World.Frames(72);
             double[] Sent() => hand.Impulses.Select(each => each.Seconds).Concat(hand.Buffers.Select(each => each.Seconds)).ToArray();
             (int before, int stops) = (Sent().Length, hand.Stops.Count);
-            double start = Clock.UnscaledSeconds;
-            Haptics.Yield(HapticHand.Right, 0.25f);
+            double start = Yield(0.25f);
             World.Frames(17);
             Assert.That(hand.Stops.Count, Is.EqualTo(stops), "a stop would end the other vibration");
             World.Frames(55);
@@ -56,8 +54,7 @@ namespace HaptoFlow.ShimTests
             Add<ControllerParametricOutput>(output => output.UseExperimentalFeature = true);
             World.Frames(72);
             int before = OVRInput.Parametric.Count;
-            double start = Clock.UnscaledSeconds;
-            Haptics.Yield(HapticHand.Right, 0.25f);
+            double start = Yield(0.25f);
             World.Frames(72);
             Assert.That(OVRInput.Parametric[before].Seconds - start, Is.InRange(0.25, 0.29));
             Assert.That(OVRInput.Parametric[before].Sent.StreamFrameType,
@@ -83,11 +80,9 @@ namespace HaptoFlow.ShimTests
         [Test]
         public void ImpulsesDuringImpulsesLastUntilTheLaterEnd()
         {
-            OVRPlugin.Connected = OVRPlugin.Controller.RTouch;
-            World.Frames(72);
+            PlayOnTouch();
             int before = OVRInput.Waves.Count;
-            double start = Clock.UnscaledSeconds;
-            Haptics.Yield(HapticHand.Right, 0.3f);
+            double start = Yield(0.3f);
             World.Frames(7);
             Haptics.Yield(HapticHand.Right, 0.1f);
             World.Frames(7);
@@ -99,10 +94,8 @@ namespace HaptoFlow.ShimTests
         [Test]
         public void ADeviceThatReturnsDuringAYieldWaitsForItsEnd()
         {
-            OVRPlugin.Connected = OVRPlugin.Controller.RTouch;
-            World.Frames(72);
-            double start = Clock.UnscaledSeconds;
-            Haptics.Yield(HapticHand.Right, 0.5f);
+            PlayOnTouch();
+            double start = Yield(0.5f);
             OVRPlugin.Connected = OVRPlugin.Controller.None;
             World.Frames(10);
             OVRPlugin.Connected = OVRPlugin.Controller.RTouch;
@@ -116,10 +109,7 @@ namespace HaptoFlow.ShimTests
         {
             XrHand.Right.Take("A controller", true);
             Add<MotorOutput>().FullScaleMps2 = HaptoFlowSettings.Active.FullScaleMps2;
-            All<HapticSurface>().Single().Material.Effects = HapticEffects.Impact;
-            double start = Clock.Seconds;
-            Pen.GetComponent<HaptoFlow.Tests.PathMover>().Path = _ => new UnityEngine.Vector3(
-                0f, Math.Max(0.001f, 0.3f - (float)Math.Max(0.0, Clock.Seconds - start - 0.5)), 0f);
+            LandInHalfASecond();
             World.Frames(36);
             Haptics.Yield(HapticHand.Right, 0.5f);
             World.Frames(72);
@@ -131,8 +121,7 @@ namespace HaptoFlow.ShimTests
         public void ALengthWithoutSenseDoesNotSilenceTheHand(
             [Values(0f, -1f, float.NaN, float.NegativeInfinity)] float seconds)
         {
-            OVRPlugin.Connected = OVRPlugin.Controller.RTouch;
-            World.Frames(72);
+            PlayOnTouch();
             int before = OVRInput.Waves.Count;
             Haptics.Yield(HapticHand.Right, seconds);
             World.Frames(36);
@@ -142,8 +131,7 @@ namespace HaptoFlow.ShimTests
         [Test]
         public void AnEndlessLengthEndsAfterAMinute()
         {
-            OVRPlugin.Connected = OVRPlugin.Controller.RTouch;
-            World.Frames(72);
+            PlayOnTouch();
             int before = OVRInput.Waves.Count;
             Haptics.Yield(HapticHand.Right, float.PositiveInfinity);
             World.Frames(59 * 72);
@@ -163,21 +151,7 @@ namespace HaptoFlow.ShimTests
             int stops = XrHand.Right.Stops.Count;
             Haptics.Yield(HapticHand.Right, 0.5f);
             World.Frames(2);
-            switch (how)
-            {
-                case "mute":
-                    output.Muted = true;
-                    break;
-                case "panic":
-                    output.Panic();
-                    break;
-                case "pause":
-                    Pause(output, true);
-                    break;
-                default:
-                    output.enabled = false;
-                    break;
-            }
+            Stop(output, how);
             World.Frames(72);
             Assert.That(XrHand.Right.Impulses.Count, Is.EqualTo(impulses), "and it stays silent afterwards");
             Assert.That(XrHand.Right.Stops.Count, Is.EqualTo(stops));
@@ -226,6 +200,13 @@ namespace HaptoFlow.ShimTests
             World.ExitPlayMode();
             World.EnterPlayMode();
             Assert.That(HandYields.UntilSeconds(HapticHand.Right), Is.Zero);
+        }
+
+        /// <summary>Makes way in the right hand, and returns the time.</summary>
+        private static double Yield(float seconds)
+        {
+            Haptics.Yield(HapticHand.Right, seconds);
+            return Clock.UnscaledSeconds;
         }
     }
 }

@@ -129,8 +129,7 @@ namespace HaptoFlow.MissingLibraryTests
             return made;
         }
 
-        private AudioSource[] Sources() => UnityEngine.Object.FindObjectsByType<AudioSource>(
-            FindObjectsInactive.Include, FindObjectsSortMode.None).Where(each => each.clip != null).ToArray();
+        private AudioSource[] Sources() => All<AudioSource>().Where(each => each.clip != null).ToArray();
 
         private string[] Playing() => Sources().Where(each => each.isPlaying && each.volume > 0f)
             .Select(each => each.clip!.name).OrderBy(name => name, StringComparer.Ordinal).ToArray();

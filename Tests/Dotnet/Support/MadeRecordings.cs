@@ -12,7 +12,6 @@ namespace HaptoFlow.Tests.Support
         public static string DoormatFolder => RepositoryFiles.In(
             "Packages", "com.haptoflow.runtime", "Runtime", "SampleScenes");
 
-        /// <summary>The recording of the sample Workshop.</summary>
         public static Recording Doormat() => RecordingReader.Read("doormat.wav", Directory
             .GetFiles(DoormatFolder, "doormat*")
             .ToDictionary(path => Path.GetFileName(path).Replace(".bytes", ""), File.ReadAllBytes));

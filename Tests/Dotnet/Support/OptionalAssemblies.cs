@@ -2,7 +2,6 @@ using System.Reflection;
 
 namespace HaptoFlow.Tests.Support
 {
-    /// <summary>The package's assemblies for optional packages.</summary>
     internal static class OptionalAssemblies
     {
         /// <summary>Loads them: .NET loads an assembly on first use only, unlike Unity, so that they would not register.

@@ -232,7 +232,6 @@ namespace HaptoFlow.Tests.Support
                 .ToArray();
     }
 
-    /// <summary>An object of a prefab.</summary>
     internal sealed class PrefabObject
     {
         private readonly Dictionary<string, string> fields = new Dictionary<string, string>();
@@ -281,7 +280,6 @@ namespace HaptoFlow.Tests.Support
         public IEnumerable<string> ScriptFields => fields.Keys.SkipWhile(name => name != "m_EditorClassIdentifier")
             .Skip(1).Where(name => !name.Contains('.'));
 
-        /// <summary>The fields inside a field.</summary>
         public IEnumerable<string> NestedFields(string name) => fields.Keys
             .Where(key => key.StartsWith(name + ".")).Select(key => key.Substring(name.Length + 1));
 

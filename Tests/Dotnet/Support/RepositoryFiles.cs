@@ -5,7 +5,6 @@ using System.Runtime.InteropServices;
 
 namespace HaptoFlow.Tests.Support
 {
-    /// <summary>Paths of repository files that tests read.</summary>
     internal static class RepositoryFiles
     {
         public static string Root { get; } = Path.GetFullPath(Path.Combine(Path.GetDirectoryName(ThisFile())!, "..", "..", ".."));
@@ -37,7 +36,6 @@ namespace HaptoFlow.Tests.Support
         private static string ThisFile([CallerFilePath] string path = "") => path;
     }
 
-    /// <summary>Files of the packages' samples.</summary>
     internal static class SampleFiles
     {
         public static string In(string sample, string name) => sample.EndsWith("Study")

@@ -82,7 +82,6 @@ namespace HaptoFlow.Tests
         }
     }
 
-    /// <summary>The filter of a tap.</summary>
     internal sealed class TapFilter : MonoBehaviour
     {
         internal AudioTap? Tap { get; set; }

@@ -39,6 +39,14 @@ namespace HaptoFlow.Tests
             return tracker.EndFrame();
         }
 
+        private void StandStill()
+        {
+            for (int still = 0; still < 10; ++still)
+            {
+                Frame(new Double3(0.1, 0.001, 0.0), null, (low, 0.0));
+            }
+        }
+
         private void Consider(ContactBody surface, double height, Double3 tip, Double3 scale)
         {
             var pose = new RigidPose(new Double3(0.0, height, 0.0), Rotation.Identity);
@@ -77,10 +85,7 @@ namespace HaptoFlow.Tests
         [TestCase(0.0, 0.1)]
         public void ATipThatStaysOnItsPlaceOfASurfaceWithAnotherScaleIsAtRest(double scale, double x)
         {
-            for (int still = 0; still < 10; ++still)
-            {
-                Frame(new Double3(0.1, 0.001, 0.0), null, (low, 0.0));
-            }
+            StandStill();
             var tip = new Double3(x, 0.001, 0.0);
             Assert.That(tracker.BeginFrame(new TipSample(++frame / 90.0, tip)), Is.True);
             Consider(low, 0.0, tip, new Double3(scale, 1.0, 1.0));
@@ -93,10 +98,7 @@ namespace HaptoFlow.Tests
         [Test]
         public void ASurfaceWhoseMotionIsNoLongerFeltIsTouchedOnInTheWorld()
         {
-            for (int still = 0; still < 10; ++still)
-            {
-                Frame(new Double3(0.1, 0.001, 0.0), null, (low, 0.0));
-            }
+            StandStill();
             var tip = new Double3(0.1, 0.001, 0.0);
             Assert.That(tracker.BeginFrame(new TipSample(++frame / 90.0, tip)), Is.True);
             low.Track.Clear();
@@ -199,10 +201,8 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator ATurningBoardGivesItsSpeedAtTheTip()
         {
-            HapticSurface board = Board();
-            var turner = board.gameObject.AddComponent<Turner>();
-            turner.DegreesPerSecond = 90f;
-            HapticStylus stylus = StylusAlong(_ => new Vector3(0.1f, 0.001f, 0f));
+            Board().gameObject.AddComponent<Turner>().DegreesPerSecond = 90f;
+            HapticStylus stylus = Resting(0.1f);
             yield return Frames(45);
             // 90 degrees per second at a distance of 10 cm.
             Assert.That(stylus.Contact.TangentialVelocity.magnitude, Is.EqualTo(0.1f * 0.5f * Mathf.PI).Within(0.004f));
@@ -227,7 +227,7 @@ namespace HaptoFlow.Tests
             HapticSurface block = Tagged<MeshCollider>("wood", mesh => mesh.sharedMesh = TestMeshes.Box(0.4f));
             PlatformMover.On(block.gameObject, RigidbodyInterpolation.Interpolate, seconds =>
                 new Vector3(-0.1f + 0.2f * (float)seconds, -0.2f, 0f));
-            HapticStylus stylus = StylusAlong(_ => new Vector3(0f, 0.001f, 0f));
+            HapticStylus stylus = Resting();
             yield return Frames(45);
             Assert.That(stylus.Contact.TangentialVelocity.magnitude, Is.EqualTo(0.2f).Within(0.01f));
         }

@@ -4,7 +4,6 @@ using UnityEngine;
 
 namespace HaptoFlow.Tests
 {
-    /// <summary>The model of the package.</summary>
     internal static class DefaultModel
     {
 #if HAPTOFLOW_OUTSIDE_UNITY

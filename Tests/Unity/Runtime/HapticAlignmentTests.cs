@@ -48,14 +48,7 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator ThreeRestsOfAPressingPenAlignTheBoardWithTheDesk()
         {
-            yield return null;
-            alignment.Begin();
-            Assert.That(alignment.Message, Does.Contain("mark 1 of 3"));
-            for (int corner = 0; corner < 3; ++corner)
-            {
-                yield return Rest(corner);
-            }
-            Assert.That(alignment.IsTaking, Is.False, alignment.Message);
+            yield return TakeAll();
             Assert.That(alignment.Message, Does.StartWith("Aligned; 0.0 mm"));
             AssertOnDesk(board.transform);
         }
@@ -63,15 +56,7 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator APenWithoutForceTakesPointsByCallingTakePoint()
         {
-            stylus.Force = null;
-            yield return null;
-            alignment.Begin();
-            for (int corner = 0; corner < 3; ++corner)
-            {
-                hand = TipOn(corner);
-                yield return null;
-                alignment.TakePoint();
-            }
+            yield return TakePoints(0, 1, 2);
             AssertOnDesk(board.transform);
             Assert.That(() => alignment.TakePoint(), Throws.TypeOf<InvalidOperationException>());
         }
@@ -107,11 +92,7 @@ namespace HaptoFlow.Tests
                 : Mathf.Max(fastest, contact.TangentialVelocity.magnitude);
             stylus.TouchBegan += Watch;
             stylus.TouchMoved += Watch;
-            for (int corner = 0; corner < 3; ++corner)
-            {
-                yield return Rest(corner);
-            }
-            Assert.That(alignment.IsTaking, Is.False, alignment.Message);
+            yield return RestOnAll();
             force.ForceNewtons = 1f;
             yield return Frames(20);
             Assert.That(stylus.IsTouching, Is.True);
@@ -142,15 +123,7 @@ namespace HaptoFlow.Tests
         public IEnumerator ATouchedTriangleThatDiffersIsRefusedWithAReason()
         {
             Vector3 before = board.transform.position;
-            stylus.Force = null;
-            yield return null;
-            alignment.Begin();
-            foreach (int corner in new[] { 1, 0, 2 })
-            {
-                hand = TipOn(corner);
-                yield return null;
-                alignment.TakePoint();
-            }
+            yield return TakePoints(1, 0, 2);
             Assert.That(alignment.Message, Does.StartWith("Not aligned: ").And.Contain("order of their numbers"));
             Assert.That(alignment.IsTaking, Is.True, "it starts again from the first");
             Assert.That(alignment.PointsTaken, Is.Zero);
@@ -190,10 +163,29 @@ namespace HaptoFlow.Tests
             Assert.That(alignment.IsTaking, Is.False);
         }
 
+        private IEnumerator TakePoints(params int[] corners)
+        {
+            stylus.Force = null;
+            yield return null;
+            alignment.Begin();
+            foreach (int corner in corners)
+            {
+                hand = TipOn(corner);
+                yield return null;
+                alignment.TakePoint();
+            }
+        }
+
         private IEnumerator TakeAll()
         {
             yield return null;
             alignment.Begin();
+            Assert.That(alignment.Message, Does.Contain("mark 1 of 3"));
+            yield return RestOnAll();
+        }
+
+        private IEnumerator RestOnAll()
+        {
             for (int corner = 0; corner < 3; ++corner)
             {
                 yield return Rest(corner);
@@ -221,9 +213,10 @@ namespace HaptoFlow.Tests
         private void AssertOnDesk(Transform moved)
         {
             Assert.That(Vector3.Distance(moved.position, deskPosition), Is.LessThan(1e-4f));
-            Assert.That(Vector3.Distance(moved.rotation * Vector3.up, deskRotation * Vector3.up), Is.LessThan(1e-3f));
-            Assert.That(
-                Vector3.Distance(moved.rotation * Vector3.right, deskRotation * Vector3.right), Is.LessThan(1e-3f));
+            foreach (Vector3 axis in new[] { Vector3.up, Vector3.right })
+            {
+                Assert.That(Vector3.Distance(moved.rotation * axis, deskRotation * axis), Is.LessThan(1e-3f));
+            }
         }
     }
 }

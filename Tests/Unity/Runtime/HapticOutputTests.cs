@@ -39,10 +39,9 @@ namespace HaptoFlow.Tests
             Assert.That(tap.Blocks, Is.GreaterThan(5));
             Assert.That(tap.Peak(), Is.Zero);
             Assert.That(tap.BrokenSamples, Is.Zero);
-            Assert.That(stylus.TryGetStatistics(out VoiceStatistics statistics), Is.True);
-            Assert.That(statistics.Onsets, Is.EqualTo(1UL));
+            VoiceStatistics statistics = StatisticsOf(stylus);
+            Assert.That((statistics.Onsets, statistics.Sanitised), Is.EqualTo((1UL, 0UL)));
             Assert.That(statistics.Inferences, Is.GreaterThan(10UL));
-            Assert.That(statistics.Sanitised, Is.Zero);
         }
 
         [UnityTest]
@@ -50,7 +49,7 @@ namespace HaptoFlow.Tests
         {
             HapticStylus stylus = StylusAlong(seconds => new Vector3(0.05f * (float)seconds, 0.05f, 0f));
             yield return Frames(60);
-            Assert.That(stylus.TryGetStatistics(out VoiceStatistics statistics), Is.True);
+            VoiceStatistics statistics = StatisticsOf(stylus);
             Assert.That(statistics.Updates, Is.GreaterThan(50UL));
             Assert.That(statistics.Inferences, Is.Zero);
             Assert.That(Haptics.TryGetStatistics(out EngineStatistics engine), Is.True);
@@ -65,10 +64,9 @@ namespace HaptoFlow.Tests
             yield return Frames(60);
             Assert.That(tap.Peak(), Is.GreaterThan(Audible));
             Assert.That(tap.BrokenSamples, Is.Zero);
-            first.TryGetStatistics(out VoiceStatistics ofFirst);
-            second.TryGetStatistics(out VoiceStatistics ofSecond);
-            Assert.That(ofFirst.RenderedFrames, Is.GreaterThan(10000UL));
-            Assert.That(ofSecond.RenderedFrames, Is.EqualTo(ofFirst.RenderedFrames));
+            ulong rendered = StatisticsOf(first).RenderedFrames;
+            Assert.That(rendered, Is.GreaterThan(10000UL));
+            Assert.That(StatisticsOf(second).RenderedFrames, Is.EqualTo(rendered));
             Assert.That(output.Level, Is.GreaterThan(0f));
         }
 
@@ -137,11 +135,7 @@ namespace HaptoFlow.Tests
             Object.DestroyImmediate(asset);
         }
 
-        private static ulong RunsOf(HapticStylus stylus, HapticEffect effect)
-        {
-            Assert.That(stylus.TryGetEffectStatistics(effect, out EffectStatistics statistics), Is.True);
-            return statistics.Runs;
-        }
+        private static ulong RunsOf(HapticStylus stylus, HapticEffect effect) => StatisticsOf(stylus, effect).Runs;
 
         [UnityTest]
         public IEnumerator AMutedOutputIsSilentAndCostsNoInference()
@@ -151,13 +145,12 @@ namespace HaptoFlow.Tests
             Assert.That(tap.Peak(), Is.GreaterThan(Audible));
             output.Muted = true;
             yield return Frames(10);
-            stylus.TryGetStatistics(out VoiceStatistics before);
+            ulong inferences = StatisticsOf(stylus).Inferences;
             tap.Restart();
             yield return Frames(20);
-            stylus.TryGetStatistics(out VoiceStatistics after);
             Assert.That(tap.Blocks, Is.GreaterThan(0));
             Assert.That(tap.Peak(), Is.Zero);
-            Assert.That(after.Inferences, Is.EqualTo(before.Inferences));
+            Assert.That(StatisticsOf(stylus).Inferences, Is.EqualTo(inferences));
             output.Muted = false;
             yield return Frames(30);
             Assert.That(tap.Peak(), Is.GreaterThan(Audible));
@@ -278,12 +271,11 @@ namespace HaptoFlow.Tests
             Time.timeScale = 0f;
             AudioListener.pause = true;
             yield return Frames(20);
-            Assert.That(stylus.TryGetStatistics(out VoiceStatistics before), Is.True);
+            VoiceStatistics before = StatisticsOf(stylus);
             Assert.That(before.Silence, Is.EqualTo(HapticSilence.Paused));
             yield return Frames(60);
             Assert.That(output.Level, Is.LessThan(Audible));
-            stylus.TryGetStatistics(out VoiceStatistics paused);
-            Assert.That(paused.Inferences, Is.EqualTo(before.Inferences), "a pause costs nothing");
+            Assert.That(StatisticsOf(stylus).Inferences, Is.EqualTo(before.Inferences), "a pause costs nothing");
             Time.timeScale = 1f;
             AudioListener.pause = false;
             yield return Frames(40);

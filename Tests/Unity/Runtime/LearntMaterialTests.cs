@@ -1,7 +1,6 @@
 #nullable enable
 using System;
 using System.Collections;
-using System.Collections.Generic;
 using System.Linq;
 using System.Text.RegularExpressions;
 using HaptoFlow.Model;
@@ -25,9 +24,14 @@ namespace HaptoFlow.Tests
             return MaterialText.With(plain, changes.ToDictionary(each => each.Key, each => each.Value));
         }
 
-        private HapticMaterial Learnt(string of, string label, params (string Key, object? Value)[] changes)
+        private HapticMaterial Learnt(string of, string label, params (string Key, object? Value)[] changes) =>
+            Keep(HapticMaterial.Create(Text(of, changes), label));
+
+        private HapticSurface Board(HapticMaterial material)
         {
-            return Keep(HapticMaterial.Create(Text(of, changes), label));
+            HapticSurface board = Board();
+            board.SharedMaterial = material;
+            return board;
         }
 
         private static LabelBlend BlendOf(HapticSurface surface)
@@ -41,8 +45,7 @@ namespace HaptoFlow.Tests
         public IEnumerator ALearntMaterialIsFeltInAdditionToTheLabels()
         {
             FinishLoading();
-            HapticSurface board = Board("fur");
-            board.SharedMaterial = Learnt("glass", "fur", ("stiffness_newtons_per_metre", 432.0));
+            HapticSurface board = Board(Learnt("glass", "fur", ("stiffness_newtons_per_metre", 432.0)));
             LabelBlend blend = BlendOf(board);
             Assert.That((blend.Count, blend.Label(0), blend.Weight(0)), Is.EqualTo((1, LabelCount, 1f)));
             Assert.That(board.LookUp(Session).StiffnessNewtonsPerMetre, Is.EqualTo(432.0));
@@ -54,39 +57,31 @@ namespace HaptoFlow.Tests
             Assert.That(tap.Peak(), Is.GreaterThan(0.001f));
         }
 
-        [UnityTest]
-        public IEnumerator TheLabelIsFeltWhileTheMaterialIsBeingRegistered()
+        [Test]
+        public void TheLabelIsFeltWhileTheMaterialIsBeingRegistered()
         {
-            HapticSurface board = Board("wood");
-            board.SharedMaterial = Learnt("glass", "fur");
+            HapticSurface board = Board(Learnt("glass", "fur"));
             FinishLoading();
             Assert.That(board.LookUp(Session).Labels.Label(0), Is.EqualTo(Session.Labels.All.ToList().IndexOf("fur")));
             Session.FinishRegistrations();
             Assert.That(board.LookUp(Session).Labels.Label(0), Is.EqualTo(LabelCount));
-            yield return null;
         }
 
-        [UnityTest]
-        public IEnumerator MaterialsOfSurfacesAreRegisteredBeforeTheyAreTouched()
+        [Test]
+        public void MaterialsOfSurfacesAreRegisteredBeforeTheyAreTouched()
         {
-            HapticSurface before = Board();
-            before.SharedMaterial = Learnt("glass", "fur");
+            Board(Learnt("glass", "fur"));
             FinishLoading();
-            HapticSurface after = Board();
-            after.SharedMaterial = Learnt("stone", "fur");
+            Board(Learnt("stone", "fur"));
             Session.FinishRegistrations();
             Assert.That(Haptics.LearntMaterials, Is.EqualTo(2), "nothing was touched");
-            yield return null;
         }
 
         [UnityTest]
         public IEnumerator ALearntMaterialOfARuleIsRegisteredAndFelt()
         {
             HapticMaterial material = Learnt("glass", "fur");
-            GameObject plate = Make("Plate");
-            var box = plate.AddComponent<BoxCollider>();
-            box.size = new Vector3(0.4f, 0.02f, 0.4f);
-            box.center = new Vector3(0f, -0.01f, 0f);
+            Bare("Plate");
             HapticMaterialMap map = Keep(ScriptableObject.CreateInstance<HapticMaterialMap>());
             map.Add(HapticMaterialRule.ForName("Plate", material));
             Make("Scope").AddComponent<HapticMaterialMapScope>().Map = map;
@@ -99,13 +94,12 @@ namespace HaptoFlow.Tests
             Assert.That(stylus.Contact.Labels.Label(0), Is.EqualTo(LabelCount));
         }
 
-        [UnityTest]
-        public IEnumerator ACopyOfALearntMaterialStaysLearntAndBlendsWithLabels()
+        [Test]
+        public void ACopyOfALearntMaterialStaysLearntAndBlendsWithLabels()
         {
             FinishLoading();
             HapticMaterial shared = Learnt("glass", "fur");
-            HapticSurface board = Board();
-            board.SharedMaterial = shared;
+            HapticSurface board = Board(shared);
             board.Material.Strength = 0.5f;
             Assert.That(board.SharedMaterial, Is.Null);
             Assert.That(board.Material.Learnt, Is.SameAs(shared));
@@ -115,30 +109,23 @@ namespace HaptoFlow.Tests
             Assert.That((blend.Count, blend.Label(0), blend.Label(1)), Is.EqualTo((2, LabelCount, 0)));
             board.Material.Learnt = null;
             Assert.That(board.LookUp(Session).Labels.Label(0), Is.LessThan(LabelCount));
-            yield return null;
         }
 
-        [UnityTest]
-        public IEnumerator AMaterialOfAnotherModelIsFeltAsItsLabelWithOneWarningThatNamesTheRemedy()
+        [Test]
+        public void AMaterialOfAnotherModelIsFeltAsItsLabelWithOneWarningThatNamesTheRemedy()
         {
             FinishLoading();
             LogAssert.Expect(LogType.Warning, new Regex(
                 "foreign is felt as its label \"fur\": it was learnt for another model .*0badcafe.*Learn it again"));
             HapticMaterial foreign = Learnt("glass", "fur", ("space", "0badcafe"));
             foreign.name = "foreign";
-            int warnings = 0;
-            void Count(string text, string trace, LogType type) => ++warnings;
-            Application.logMessageReceived += Count;
+            using var log = new LogRecord();
             foreach (int _ in Enumerable.Range(0, 3))
             {
-                HapticSurface board = Board();
-                board.SharedMaterial = foreign;
-                Assert.That(BlendOf(board).Label(0), Is.EqualTo(Session.Labels.All.ToList().IndexOf("fur")));
+                Assert.That(BlendOf(Board(foreign)).Label(0), Is.EqualTo(Session.Labels.All.ToList().IndexOf("fur")));
             }
-            Application.logMessageReceived -= Count;
-            Assert.That(warnings, Is.EqualTo(1));
+            Assert.That(log.Lines, Has.Count.EqualTo(1));
             Assert.That((Haptics.LearntMaterials, Haptics.RefusedMaterials), Is.EqualTo((0, 1)));
-            yield return null;
         }
 
         [UnityTest]
@@ -146,8 +133,7 @@ namespace HaptoFlow.Tests
         {
             FinishLoading();
             HapticMaterial material = Learnt("glass", "fur", ("stiffness_newtons_per_metre", 300.0));
-            HapticSurface board = Board();
-            board.SharedMaterial = material;
+            HapticSurface board = Board(material);
             HapticStylus stylus = Circling();
             yield return Frames(10);
             Assert.That(BlendOf(board).Label(0), Is.EqualTo(LabelCount));
@@ -162,66 +148,53 @@ namespace HaptoFlow.Tests
             Assert.That(stylus.IsTouching, Is.True);
         }
 
-        [UnityTest]
-        public IEnumerator SixOfSeventyMaterialsExceedTheLimitAndAFreedIndexGoesToTheFirstThatWaits()
+        [Test]
+        public void SixOfSeventyMaterialsExceedTheLimitAndAFreedIndexGoesToTheFirstThatWaits()
         {
             FinishLoading();
             LogAssert.ignoreFailingMessages = true;
-            var refusals = new List<string>();
-            void Note(string text, string trace, LogType type) => refusals.Add(text);
-            Application.logMessageReceived += Note;
-            var boards = new List<HapticSurface>();
-            foreach (int number in Enumerable.Range(0, 70))
-            {
-                HapticSurface board = Board();
-                board.SharedMaterial = Learnt("glass", "fur", ("name", "glass " + number));
-                boards.Add(board);
-            }
+            using var log = new LogRecord();
+            HapticSurface[] boards = Enumerable.Range(0, 70)
+                .Select(number => Board(Learnt("glass", "fur", ("name", "glass " + number)))).ToArray();
             Session.FinishRegistrations();
-            Application.logMessageReceived -= Note;
             Assert.That((Haptics.LearntMaterials, Haptics.RefusedMaterials), Is.EqualTo((64, 6)));
-            Assert.That(refusals, Has.Count.EqualTo(6).And.All.Contains("64 learnt materials are in use"));
+            Assert.That(log.Lines.Select(line => line.Text),
+                Has.Exactly(6).Items.And.All.Contains("64 learnt materials are in use"));
             Assert.That(boards.Select(board => board.LookUp(Session).Labels.Label(0)).Distinct().Count(), Is.EqualTo(65));
             Object.DestroyImmediate(boards[3].SharedMaterial!);
             Session.FinishRegistrations();
             Assert.That(BlendOf(boards[64]).Label(0), Is.EqualTo(LabelCount + 3));
             Assert.That((Haptics.LearntMaterials, Haptics.RefusedMaterials), Is.EqualTo((64, 5)));
-            yield return null;
         }
 
-        [UnityTest]
-        public IEnumerator AMaterialDestroyedDuringRegistrationFreesItsIndex()
+        [Test]
+        public void AMaterialDestroyedDuringRegistrationFreesItsIndex()
         {
             FinishLoading();
             foreach (int _ in Enumerable.Range(0, 80))
             {
                 HapticMaterial material = Learnt("glass", "fur");
-                HapticSurface board = Board();
-                board.SharedMaterial = material;
+                Board(material);
                 Object.DestroyImmediate(material);
                 Session.FinishRegistrations();
             }
             Assert.That((Haptics.LearntMaterials, Haptics.RefusedMaterials), Is.EqualTo((0, 0)));
-            HapticSurface last = Board();
-            last.SharedMaterial = Learnt("glass", "fur");
-            Assert.That(BlendOf(last).Label(0), Is.GreaterThanOrEqualTo(LabelCount));
-            yield return null;
+            Assert.That(BlendOf(Board(Learnt("glass", "fur"))).Label(0), Is.GreaterThanOrEqualTo(LabelCount));
         }
 
-        [UnityTest]
-        public IEnumerator ClosingAnEngineWaitsForRegistrationsUnderWay()
+        [Test]
+        public void ClosingAnEngineWaitsForRegistrationsUnderWay()
         {
             FinishLoading();
             foreach (int number in Enumerable.Range(0, 20))
             {
-                Board().SharedMaterial = Learnt("glass", "fur", ("name", "glass " + number));
+                Board(Learnt("glass", "fur", ("name", "glass " + number)));
             }
             Haptics.Restart();
             Assert.That(HapticSession.Existing, Is.Null);
             FinishLoading();
             Session.FinishRegistrations();
             Assert.That(Haptics.LearntMaterials, Is.EqualTo(20));
-            yield return null;
         }
 
         [Test]

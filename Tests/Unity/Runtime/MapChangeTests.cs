@@ -21,12 +21,10 @@ namespace HaptoFlow.Tests
             yield return Frames(2);
             Assert.That(FeltAlone(stylus), Is.EqualTo("wood"));
             box.gameObject.tag = "Finish";
-            yield return null;
-            Assert.That(FeltAlone(stylus), Is.EqualTo("stone"));
+            yield return FeelsNext(stylus, "stone");
             box.gameObject.tag = "Untagged";
             box.gameObject.layer = 4;
-            yield return null;
-            Assert.That(FeltAlone(stylus), Is.EqualTo("glass"));
+            yield return FeelsNext(stylus, "glass");
             Assert.That(log.Began, Is.EqualTo(1), "the touch is not interrupted");
             Assert.That(log.Ended, Is.Zero);
         }
@@ -45,12 +43,10 @@ namespace HaptoFlow.Tests
             yield return Frames(2);
             Assert.That(FeltAlone(stylus), Is.EqualTo("wood"));
             renderer.sharedMaterial = ice;
-            yield return null;
-            Assert.That(FeltAlone(stylus), Is.EqualTo("glass"));
+            yield return FeelsNext(stylus, "glass");
             Material own = Keep(new Material(ice) { name = "Ice (Instance)" });
             renderer.sharedMaterial = own;
-            yield return null;
-            Assert.That(FeltAlone(stylus), Is.EqualTo("glass"), "an instance made by Renderer.material");
+            yield return FeelsNext(stylus, "glass", "an instance made by Renderer.material");
         }
 
         [UnityTest]
@@ -63,13 +59,11 @@ namespace HaptoFlow.Tests
             var log = new TouchLog(stylus);
             yield return Frames(2);
             rule.Material = Feeling("stone");
-            yield return null;
-            Assert.That(FeltAlone(stylus), Is.EqualTo("stone"));
+            yield return FeelsNext(stylus, "stone");
             HapticMaterialMap other = MapNamed("Other");
             other.DefaultMaterial = Feeling("fur");
             HaptoFlowSettings.Active.MaterialMap = other;
-            yield return null;
-            Assert.That(FeltAlone(stylus), Is.EqualTo("fur"));
+            yield return FeelsNext(stylus, "fur");
             Assert.That(log.Began, Is.EqualTo(1), "the touch is not interrupted");
             Object.DestroyImmediate(other);
             yield return null;
@@ -98,12 +92,10 @@ namespace HaptoFlow.Tests
             BoxCollider box = Bare();
             Map.Add(HapticMaterialRule.ForName("Rug*", Feeling("fur")));
             Map.DefaultMaterial = Feeling("wood");
-            HapticStylus stylus = Resting();
-            yield return Frames(2);
+            yield return Feels((0f, "wood"));
             box.gameObject.name = "Rug";
             HapticMaterialMap.Refresh();
-            yield return null;
-            Assert.That(FeltAlone(stylus), Is.EqualTo("fur"));
+            yield return Feels((0f, "fur"));
         }
 
         [UnityTest]
@@ -115,11 +107,9 @@ namespace HaptoFlow.Tests
             yield return Frames(2);
             var surface = box.gameObject.AddComponent<HapticSurface>();
             surface.Material.Label = "glass";
-            yield return null;
-            Assert.That(FeltAlone(stylus), Is.EqualTo("glass"));
+            yield return FeelsNext(stylus, "glass");
             Object.DestroyImmediate(surface);
-            yield return null;
-            Assert.That(FeltAlone(stylus), Is.EqualTo("wood"));
+            yield return FeelsNext(stylus, "wood");
         }
     }
 }

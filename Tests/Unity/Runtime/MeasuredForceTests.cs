@@ -1,6 +1,7 @@
 #nullable enable
 using System;
 using System.Collections;
+using System.Linq;
 using HaptoFlow.Contact;
 using NUnit.Framework;
 using UnityEngine;
@@ -37,15 +38,11 @@ namespace HaptoFlow.Tests
         {
             Board();
             HapticStylus stylus = Pen(_ => new Vector3(0f, -0.002f, 0f));
-            force.ForceNewtons = 0f;
-            yield return Frames(5);
-            Assert.That(stylus.IsTouching, Is.False);
+            yield return Press(stylus, 0f, false);
             stylus.TouchBy = TouchDecision.Geometry;
-            yield return Frames(2);
-            Assert.That(stylus.IsTouching, Is.True);
+            yield return Press(stylus, 0f, true);
             stylus.TouchBy = TouchDecision.MeasuredForce;
-            yield return Frames(1);
-            Assert.That(stylus.IsTouching, Is.False);
+            yield return Press(stylus, 0f, false);
         }
 
         [UnityTest]
@@ -53,12 +50,9 @@ namespace HaptoFlow.Tests
         {
             Board();
             HapticStylus stylus = Pen(_ => new Vector3(0f, 0.03f, 0f));
-            force.ForceNewtons = 2f;
-            yield return Frames(5);
-            Assert.That(stylus.IsTouching, Is.False);
+            yield return Press(stylus, 2f, false);
             stylus.ForceDecision.NearMetres = 0.035f;
-            yield return Frames(2);
-            Assert.That(stylus.IsTouching, Is.True);
+            yield return Press(stylus, 2f, true);
         }
 
         [UnityTest]
@@ -83,33 +77,31 @@ namespace HaptoFlow.Tests
         {
             Board();
             HapticStylus stylus = Pen(_ => new Vector3(0f, 0.006f, 0f));
-            force.ForceNewtons = 0.3f;
-            yield return Frames(2);
-            Assert.That(stylus.IsTouching, Is.True);
+            yield return Press(stylus, 0.3f, true);
             stylus.ForceDecision.PressNewtons = 0.5f;
             stylus.ForceDecision.ReleaseNewtons = 5f;
-            yield return Frames(2);
-            Assert.That(stylus.IsTouching, Is.False);
-            force.ForceNewtons = 0.5f;
-            yield return Frames(2);
-            Assert.That(stylus.IsTouching, Is.True);
-            force.ForceNewtons = 0.46f;
-            yield return Frames(2);
-            Assert.That(stylus.IsTouching, Is.True);
-            force.ForceNewtons = 0.44f;
-            yield return Frames(2);
-            Assert.That(stylus.IsTouching, Is.False);
+            yield return Press(stylus, 0.3f, false);
+            yield return Press(stylus, 0.5f, true);
+            yield return Press(stylus, 0.46f, true);
+            yield return Press(stylus, 0.44f, false);
         }
 
         [UnityTest]
         public IEnumerator WithoutAForceSourceGeometryDecides()
         {
             Board();
-            HapticStylus stylus = StylusAlong(_ => new Vector3(0f, 0.001f, 0f));
+            HapticStylus stylus = Resting();
             stylus.TouchBy = TouchDecision.MeasuredForce;
             yield return Frames(3);
             Assert.That(stylus.IsTouching, Is.True);
             Assert.That(stylus.Contact.PenetrationMetres, Is.EqualTo(0.001f).Within(1e-5f));
+        }
+
+        private IEnumerator Press(HapticStylus stylus, float newtons, bool touches)
+        {
+            force.ForceNewtons = newtons;
+            yield return Frames(2);
+            Assert.That(stylus.IsTouching, Is.EqualTo(touches));
         }
 
         private HapticStylus Pen(Func<double, Vector3> path)
@@ -138,15 +130,12 @@ namespace HaptoFlow.Tests
         }
 
         [Test]
-        public void ATouchBeginsAtThePressForceAndEndsAtTheReleaseForce()
-        {
-            Assert.That(After(0.0), Is.EqualTo(ForceVerdict.Lifted));
-            Assert.That(After(0.049), Is.EqualTo(ForceVerdict.Lifted));
-            Assert.That(After(0.05), Is.EqualTo(ForceVerdict.Pressed));
-            Assert.That(After(0.021), Is.EqualTo(ForceVerdict.Pressed));
-            Assert.That(After(0.02), Is.EqualTo(ForceVerdict.Lifted));
-            Assert.That(After(0.049), Is.EqualTo(ForceVerdict.Lifted));
-        }
+        public void ATouchBeginsAtThePressForceAndEndsAtTheReleaseForce() => Assert.That(
+            new[] { 0.0, 0.049, 0.05, 0.021, 0.02, 0.049 }.Select(newtons => After(newtons)), Is.EqualTo(new[]
+            {
+                ForceVerdict.Lifted, ForceVerdict.Lifted, ForceVerdict.Pressed, ForceVerdict.Pressed,
+                ForceVerdict.Lifted, ForceVerdict.Lifted,
+            }));
 
         [Test]
         public void SensorNoiseBelowTheHysteresisCausesOneTouchHoweverSlowThePenIs()
@@ -203,17 +192,15 @@ namespace HaptoFlow.Tests
             Assert.That(touch.Update(double.NaN, null), Is.EqualTo(ForceVerdict.Unknown));
         }
 
-        [Test]
-        public void TheNearDistanceAppliesOnBothSidesAndIsLongerForATouchedSurface()
-        {
-            Assert.That(touch.IsNear(0.02, false), Is.True);
-            Assert.That(touch.IsNear(-0.02, false), Is.True);
-            Assert.That(touch.IsNear(0.021, false), Is.False);
-            Assert.That(touch.IsNear(-0.021, false), Is.False);
-            Assert.That(touch.IsNear(0.024, true), Is.True);
-            Assert.That(touch.IsNear(0.026, true), Is.False);
-            Assert.That(touch.IsNear(double.NaN, true), Is.False);
-        }
+        [TestCase(0.02, false, ExpectedResult = true)]
+        [TestCase(-0.02, false, ExpectedResult = true)]
+        [TestCase(0.021, false, ExpectedResult = false)]
+        [TestCase(-0.021, false, ExpectedResult = false)]
+        [TestCase(0.024, true, ExpectedResult = true)]
+        [TestCase(0.026, true, ExpectedResult = false)]
+        [TestCase(double.NaN, true, ExpectedResult = false)]
+        public bool TheNearDistanceAppliesOnBothSidesAndIsLongerForATouchedSurface(double metres, bool isTouched) =>
+            touch.IsNear(metres, isTouched);
 
         private ForceVerdict After(double? forceNewtons)
         {

@@ -10,11 +10,9 @@ namespace HaptoFlow.Tests
     public static class ModelBytes
     {
         private const int HeaderStart = 32;
-        private static readonly uint[] CrcTable = MakeCrcTable();
 
         public static byte[] Truncated(byte[] file, int length) => file.AsSpan(0, length).ToArray();
 
-        /// <summary>A copy with one bit flipped.</summary>
         public static byte[] Flipped(byte[] file, int position)
         {
             byte[] copy = (byte[])file.Clone();
@@ -54,24 +52,13 @@ namespace HaptoFlow.Tests
             uint crc = 0xffffffffu;
             foreach (byte value in bytes)
             {
-                crc = CrcTable[(crc ^ value) & 0xff] ^ (crc >> 8);
-            }
-            return ~crc;
-        }
-
-        private static uint[] MakeCrcTable()
-        {
-            var table = new uint[256];
-            for (uint index = 0; index < table.Length; ++index)
-            {
-                uint entry = index;
+                crc ^= value;
                 for (int bit = 0; bit < 8; ++bit)
                 {
-                    entry = (entry & 1) != 0 ? 0xedb88320u ^ (entry >> 1) : entry >> 1;
+                    crc = (crc & 1) != 0 ? 0xedb88320u ^ (crc >> 1) : crc >> 1;
                 }
-                table[index] = entry;
             }
-            return table;
+            return ~crc;
         }
     }
 }

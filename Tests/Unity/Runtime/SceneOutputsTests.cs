@@ -1,6 +1,5 @@
 #nullable enable
 using System.Collections;
-using System.Linq;
 using System.Text.RegularExpressions;
 using NUnit.Framework;
 using UnityEngine;
@@ -13,12 +12,17 @@ namespace HaptoFlow.Tests
     {
         private const float Audible = 0.001f;
 
+        [SetUp]
+        public void MakeABoard()
+        {
+            FinishLoading();
+            Board();
+        }
+
         [UnityTest]
         public IEnumerator AnAuthorsOutputReplacesTheCreatedOne()
         {
-            FinishLoading();
             LogAssert.Expect(LogType.Log, new Regex("the scene has no Haptic Output"));
-            Board();
             HapticStylus stylus = Circling();
             yield return Frames(30);
             Assert.That(Outputs(), Has.Length.EqualTo(1), "one was created");
@@ -32,8 +36,6 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator ACreatedOutputIsDestroyedWithItsScene()
         {
-            FinishLoading();
-            Board();
             Circling();
             yield return Frames(5);
             Assert.That(Outputs(), Has.Length.EqualTo(1));
@@ -46,8 +48,6 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator ADisabledAssignedOutputIsSilentAndNoneIsCreated()
         {
-            FinishLoading();
-            Board();
             AudioTap tap = Output(out HapticOutput output);
             HapticStylus stylus = Circling();
             stylus.Output = output;
@@ -66,8 +66,6 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator ADestroyedOutputIsReplacedByACreatedOne()
         {
-            FinishLoading();
-            Board();
             Output(out HapticOutput output);
             HapticStylus stylus = Circling();
             stylus.Output = output;
@@ -83,8 +81,6 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator ADisabledOutputOfTheAuthorSilencesTheCreatedOne()
         {
-            FinishLoading();
-            Board();
             HapticStylus stylus = Circling();
             yield return Frames(5);
             GameObject owner = Make("Late");
@@ -100,8 +96,6 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator AnOutputOnAnInactiveObjectIsSilentUntilItIsActive()
         {
-            FinishLoading();
-            Board();
             GameObject owner = Make("Sleeping");
             owner.SetActive(false);
             var output = owner.AddComponent<HapticOutput>();
@@ -114,7 +108,6 @@ namespace HaptoFlow.Tests
             Assert.That(stylus.TryGetStatistics(out _), Is.True);
         }
 
-        private static HapticOutput[] Outputs() => Object.FindObjectsByType<HapticOutput>(
-            FindObjectsInactive.Include, FindObjectsSortMode.None).ToArray();
+        private static HapticOutput[] Outputs() => All<HapticOutput>();
     }
 }

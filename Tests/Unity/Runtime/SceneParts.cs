@@ -1,6 +1,8 @@
 #nullable enable
 using System;
+using System.Collections;
 using System.Collections.Generic;
+using System.Linq;
 using NUnit.Framework;
 using UnityEngine;
 using Object = UnityEngine.Object;
@@ -22,10 +24,7 @@ namespace HaptoFlow.Tests
             {
                 beganSeconds = Time.unscaledTimeAsDouble;
             }
-            if (Path != null)
-            {
-                transform.position = Path(Seconds);
-            }
+            transform.position = Path!(Seconds);
         }
     }
 
@@ -50,6 +49,18 @@ namespace HaptoFlow.Tests
         }
 
         private void FixedUpdate() => body.MovePosition(Path!(Time.fixedTimeAsDouble - beganSeconds));
+    }
+
+    /// <summary>Keeps the lines that are logged during its lifetime.</summary>
+    internal sealed class LogRecord : IDisposable
+    {
+        public LogRecord() => Application.logMessageReceived += Receive;
+
+        public List<(LogType Type, string Text)> Lines { get; } = new List<(LogType Type, string Text)>();
+
+        public void Dispose() => Application.logMessageReceived -= Receive;
+
+        private void Receive(string text, string trace, LogType type) => Lines.Add((type, text));
     }
 
     /// <summary>Counts a stylus's events and keeps the last contacts.</summary>
@@ -79,7 +90,6 @@ namespace HaptoFlow.Tests
         public HapticContact Last { get; private set; }
     }
 
-    /// <summary>A force that a test sets.</summary>
     internal sealed class FixedForce : TipForceSource
     {
         public float ForceNewtons { get; set; }
@@ -114,7 +124,6 @@ namespace HaptoFlow.Tests
             return map;
         }
 
-        /// <summary>A renderer's material.</summary>
         internal Material Paint(string name)
         {
             GameObject sphere = GameObject.CreatePrimitive(PrimitiveType.Sphere);
@@ -122,18 +131,6 @@ namespace HaptoFlow.Tests
             Object.DestroyImmediate(sphere);
             return paint;
         }
-
-        /// <summary>A board like that of <see cref="SceneTest.Board"/>, without a surface.</summary>
-        internal BoxCollider Bare(string name = "Plank")
-        {
-            var box = Make(name).AddComponent<BoxCollider>();
-            box.size = new Vector3(0.4f, 0.02f, 0.4f);
-            box.center = new Vector3(0f, -0.01f, 0f);
-            return box;
-        }
-
-        /// <summary>A stylus at rest 1 mm deep in the board.</summary>
-        internal HapticStylus Resting(float x = 0f, float z = 0f) => StylusAlong(_ => new Vector3(x, 0.001f, z));
 
         /// <summary>The labels at the tip with their weights, in order of weight.</summary>
         internal static List<(string Label, float Weight)> Felt(HapticStylus stylus)
@@ -145,6 +142,24 @@ namespace HaptoFlow.Tests
                 felt.Add((HapticSession.Current.Labels.All[blend.Label(index)], blend.Weight(index)));
             }
             return felt;
+        }
+
+        internal static float WeightOf(HapticStylus stylus, string label) =>
+            Felt(stylus).Where(each => each.Label == label).Sum(each => each.Weight);
+
+        /// <summary>Rests a tip on each place of the board; it feels one material alone there, "" for none.</summary>
+        internal IEnumerator Feels(params (float X, string Label)[] places)
+        {
+            HapticStylus[] styluses = Array.ConvertAll(places, place => Resting(place.X));
+            yield return Frames(2);
+            Assert.That(Array.ConvertAll(styluses, FeltAlone), Is.EqualTo(places.Select(place => place.Label)));
+        }
+
+        /// <summary>In the next frame a tip feels one material alone.</summary>
+        internal static IEnumerator FeelsNext(HapticStylus stylus, string label, string why = "")
+        {
+            yield return null;
+            Assert.That(FeltAlone(stylus), Is.EqualTo(label), why);
         }
 
         internal static string FeltAlone(HapticStylus stylus)

@@ -58,7 +58,6 @@ namespace HaptoFlow.Tests
             return gameObject;
         }
 
-        /// <summary>An asset that is destroyed after the test.</summary>
         internal T Keep<T>(T asset)
             where T : Object
         {
@@ -75,7 +74,6 @@ namespace HaptoFlow.Tests
             return material;
         }
 
-        /// <summary>A tagged object with a collider.</summary>
         internal HapticSurface Tagged<TCollider>(string label, Action<TCollider>? shape = null)
             where TCollider : Collider
         {
@@ -87,12 +85,22 @@ namespace HaptoFlow.Tests
             return surface;
         }
 
-        /// <summary>A board of 40 x 2 x 40 cm whose top is the plane y = 0.</summary>
-        internal HapticSurface Board(string label = "wood") => Tagged<BoxCollider>(label, box =>
+        /// <summary>A square board of 2 cm whose top is the plane y = 0.</summary>
+        internal HapticSurface Board(string label = "wood", float metres = 0.4f)
         {
-            box.size = new Vector3(0.4f, 0.02f, 0.4f);
+            var surface = Bare(label, metres).gameObject.AddComponent<HapticSurface>();
+            surface.Material.Label = label;
+            return surface;
+        }
+
+        /// <summary>A board without a surface.</summary>
+        internal BoxCollider Bare(string name = "Plank", float metres = 0.4f)
+        {
+            var box = Make(name).AddComponent<BoxCollider>();
+            box.size = new Vector3(metres, 0.02f, metres);
             box.center = new Vector3(0f, -0.01f, 0f);
-        });
+            return box;
+        }
 
         /// <summary>A circle of 5 cm radius on the board, 1 mm deep, at 0.2 m/s.</summary>
         internal HapticStylus Circling() => StylusAlong(seconds => new Vector3(
@@ -105,6 +113,21 @@ namespace HaptoFlow.Tests
             owner.transform.position = path(0.0);
             owner.AddComponent<PathMover>().Path = path;
             return owner.AddComponent<HapticStylus>();
+        }
+
+        /// <summary>A stylus at rest 1 mm deep in the board.</summary>
+        internal HapticStylus Resting(float x = 0f, float z = 0f) => StylusAlong(_ => new Vector3(x, 0.001f, z));
+
+        internal static VoiceStatistics StatisticsOf(HapticStylus stylus)
+        {
+            Assert.That(stylus.TryGetStatistics(out VoiceStatistics statistics), Is.True);
+            return statistics;
+        }
+
+        internal static EffectStatistics StatisticsOf(HapticStylus stylus, HapticEffect effect)
+        {
+            Assert.That(stylus.TryGetEffectStatistics(effect, out EffectStatistics statistics), Is.True);
+            return statistics;
         }
 
         /// <summary>An output on an object of its own, with a tap that records it.</summary>
@@ -139,6 +162,10 @@ namespace HaptoFlow.Tests
                 yield return null;
             }
         }
+
+        /// <summary>The components of the scene, those of inactive objects too.</summary>
+        internal static T[] All<T>()
+            where T : Object => Object.FindObjectsByType<T>(FindObjectsInactive.Include, FindObjectsSortMode.None);
 
         internal static void FinishLoading() => HapticSession.Current.FinishLoading();
     }

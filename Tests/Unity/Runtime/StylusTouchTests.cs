@@ -2,6 +2,7 @@
 using System;
 using System.Collections;
 using System.Collections.Generic;
+using System.Linq;
 using NUnit.Framework;
 using UnityEngine;
 using UnityEngine.TestTools;
@@ -24,15 +25,11 @@ namespace HaptoFlow.Tests
             var log = new TouchLog(stylus);
             var mover = stylus.GetComponent<PathMover>();
             yield return Until(mover, 0.5);
-            Assert.That(log.Began, Is.EqualTo(1));
-            Assert.That(log.Ended, Is.Zero);
-            Assert.That(stylus.IsTouching, Is.True);
+            Assert.That((log.Began, log.Ended, stylus.IsTouching), Is.EqualTo((1, 0, true)));
             Assert.That(log.Last.Surface, Is.SameAs(board));
             yield return Until(mover, 0.8);
-            Assert.That(log.Began, Is.EqualTo(1));
+            Assert.That((log.Began, log.Ended, stylus.IsTouching), Is.EqualTo((1, 1, false)));
             Assert.That(log.Moved, Is.GreaterThan(5));
-            Assert.That(log.Ended, Is.EqualTo(1));
-            Assert.That(stylus.IsTouching, Is.False);
         }
 
         [UnityTest]
@@ -67,7 +64,7 @@ namespace HaptoFlow.Tests
         {
             FinishLoading();
             HapticSurface board = Board("wood");
-            HapticStylus stylus = StylusAlong(_ => new Vector3(0f, Pressed, 0f));
+            HapticStylus stylus = Resting();
             yield return Frames(2);
             double ofWood = StiffnessOf("wood");
             Assert.That(stylus.Contact.ForceNewtons, Is.EqualTo(Math.Min(5.0, 0.001 * ofWood)).Within(1e-3));
@@ -83,7 +80,7 @@ namespace HaptoFlow.Tests
             HapticSurface low = Board("wood");
             HapticSurface high = Board("fur");
             high.transform.position = new Vector3(0f, 0.0003f, 0f);
-            HapticStylus stylus = StylusAlong(_ => new Vector3(0f, Pressed, 0f));
+            HapticStylus stylus = Resting();
             yield return Frames(2);
             Assert.That(stylus.Contact.Surface, Is.SameAs(high));
             low.transform.position = new Vector3(0f, 0.0006f, 0f);
@@ -114,7 +111,7 @@ namespace HaptoFlow.Tests
         public IEnumerator ASurfaceSwitchedOffOrDestroyedUnderTheTipEndsTheTouch()
         {
             HapticSurface board = Board();
-            HapticStylus stylus = StylusAlong(_ => new Vector3(0f, Pressed, 0f));
+            HapticStylus stylus = Resting();
             var log = new TouchLog(stylus);
             yield return Frames(2);
             Assert.That(log.Began, Is.EqualTo(1));
@@ -134,7 +131,7 @@ namespace HaptoFlow.Tests
         {
             HapticSurface board = Board();
             board.gameObject.layer = 8;
-            HapticStylus stylus = StylusAlong(_ => new Vector3(0f, Pressed, 0f));
+            HapticStylus stylus = Resting();
             stylus.Layers = ~(1 << 8);
             yield return Frames(2);
             Assert.That(stylus.IsTouching, Is.False);
@@ -143,17 +140,8 @@ namespace HaptoFlow.Tests
             Assert.That(stylus.IsTouching, Is.True);
         }
 
-        private static double StiffnessOf(string label)
-        {
-            foreach (HapticLabel each in HaptoFlowSettings.Active.Model!.Header.Labels)
-            {
-                if (each.Name == label)
-                {
-                    return each.StiffnessNewtonsPerMetre;
-                }
-            }
-            throw new ArgumentException(label);
-        }
+        private static double StiffnessOf(string label) => HaptoFlowSettings.Active.Model!.Header.Labels
+            .Single(each => each.Name == label).StiffnessNewtonsPerMetre;
     }
 
     /// <summary>The UnityEvents are raised together with the C# events.</summary>
@@ -184,7 +172,7 @@ namespace HaptoFlow.Tests
         public IEnumerator AHandlerThatDisablesTheStylusReceivesOnlyTheEndOfTheTouch()
         {
             Board();
-            HapticStylus stylus = StylusAlong(_ => new Vector3(0f, 0.001f, 0f));
+            HapticStylus stylus = Resting();
             var received = new List<string>();
             stylus.Events.TouchBegan.AddListener(_ =>
             {
@@ -201,13 +189,20 @@ namespace HaptoFlow.Tests
     /// <summary>Event handlers that disable or destroy objects during a touch.</summary>
     public sealed class StylusHandlerTests : SceneTest
     {
+        private HapticSurface board = null!;
+
+        [SetUp]
+        public void MakeABoardAndAnOutput()
+        {
+            FinishLoading();
+            board = Board();
+            Output(out _);
+        }
+
         [UnityTest]
         public IEnumerator AStylusDisabledByItsFirstTouchLeavesNoVoiceOpen()
         {
-            FinishLoading();
-            Board();
-            Output(out _);
-            HapticStylus stylus = Pressing();
+            HapticStylus stylus = Resting();
             stylus.TouchBegan += (HapticStylus sender, in HapticContact _) => sender.enabled = false;
             yield return Frames(2);
             Assert.That(stylus.enabled, Is.False);
@@ -218,10 +213,7 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator AStylusDestroyedByItsFirstTouchLeavesNoVoiceOpen()
         {
-            FinishLoading();
-            Board();
-            Output(out _);
-            HapticStylus stylus = Pressing();
+            HapticStylus stylus = Resting();
             yield return null;
             stylus.TouchMoved += (HapticStylus sender, in HapticContact _) => Object.DestroyImmediate(sender);
             yield return Frames(2);
@@ -231,10 +223,7 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator AStylusDisabledAndEnabledByAHandlerStartsANewTouch()
         {
-            FinishLoading();
-            Board();
-            Output(out _);
-            HapticStylus stylus = Pressing();
+            HapticStylus stylus = Resting();
             var log = new TouchLog(stylus);
             bool done = false;
             stylus.TouchBegan += (HapticStylus sender, in HapticContact _) =>
@@ -255,15 +244,12 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator ASurfaceDestroyedByItsFirstTouchIsNotPublished()
         {
-            FinishLoading();
-            Board();
-            Output(out _);
-            HapticStylus stylus = Pressing();
+            HapticStylus stylus = Resting();
             stylus.TouchBegan += (HapticStylus _, in HapticContact contact) =>
                 Object.DestroyImmediate(contact.Surface!.gameObject);
             yield return Frames(2);
             Assert.That(stylus.IsTouching, Is.False);
-            stylus.TryGetStatistics(out VoiceStatistics statistics);
+            VoiceStatistics statistics = StatisticsOf(stylus);
             Assert.That(statistics.Updates, Is.GreaterThan(0UL));
             Assert.That(statistics.Onsets, Is.Zero);
         }
@@ -271,20 +257,15 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator ATouchBeginsWithTheMaterialThatItsHandlersGaveTheSurface()
         {
-            FinishLoading();
-            HapticSurface board = Board();
-            Output(out _);
             HapticStylus stylus = StylusAlong(seconds => new Vector3(0.1f * (float)seconds, 0.001f, 0f));
             stylus.TouchBegan += (HapticStylus _, in HapticContact _) => board.Material.Label = "nothing known";
             yield return Frames(20);
             Assert.That(stylus.IsTouching, Is.True);
-            Assert.That(stylus.TryGetStatistics(out VoiceStatistics statistics), Is.True);
+            VoiceStatistics statistics = StatisticsOf(stylus);
             Assert.That((statistics.Onsets, statistics.Inferences), Is.EqualTo((0UL, 0UL)));
         }
 
         private static uint Voices() =>
             Haptics.TryGetStatistics(out EngineStatistics engine) ? engine.Voices : uint.MaxValue;
-
-        private HapticStylus Pressing() => StylusAlong(_ => new Vector3(0f, 0.001f, 0f));
     }
 }

@@ -11,8 +11,8 @@ namespace HaptoFlow.Tests
     /// <summary>Own and shared materials behave like Renderer.material and Renderer.sharedMaterial.</summary>
     public sealed class SurfaceMaterialTests : SceneTest
     {
-        [UnityTest]
-        public IEnumerator ChangingASurfacesMaterialChangesNeitherTheAssetNorItsOtherUsers()
+        [Test]
+        public void ChangingASurfacesMaterialChangesNeitherTheAssetNorItsOtherUsers()
         {
             FinishLoading();
             HapticMaterial shared = Shared();
@@ -26,75 +26,62 @@ namespace HaptoFlow.Tests
             Assert.That(second.LookUp(HapticSession.Current).Labels, Is.EqualTo(glass));
             Assert.That(first.LookUp(HapticSession.Current).Labels, Is.Not.EqualTo(glass));
             Assert.That(first.SharedMaterial, Is.Null);
-            yield return null;
         }
 
-        [UnityTest]
-        public IEnumerator TheOwnCopyStartsEqualToTheSharedMaterial()
+        [Test]
+        public void TheOwnCopyStartsEqualToTheSharedMaterial()
         {
             HapticMaterial shared = Shared();
             HapticSurface board = Board("fur");
             board.SharedMaterial = shared;
             MaterialDescription own = board.Material;
             Assert.That(own, Is.Not.SameAs(shared.Description));
-            Assert.That(own.Label, Is.EqualTo("glass"));
-            Assert.That(own.SecondLabel, Is.EqualTo("stone"));
-            Assert.That(own.Blend, Is.EqualTo(0.25f));
-            Assert.That(own.StiffnessNewtonsPerMetre, Is.EqualTo(321f));
-            Assert.That(own.Strength, Is.EqualTo(0.5f));
-            Assert.That(own.FeatureScale, Is.EqualTo(2f));
-            Assert.That(own.ToneDbPerOctave, Is.EqualTo(-3f));
+            Assert.That((own.Label, own.SecondLabel, own.Blend, own.StiffnessNewtonsPerMetre),
+                Is.EqualTo(("glass", "stone", 0.25f, 321f)));
+            Assert.That((own.Strength, own.FeatureScale, own.ToneDbPerOctave), Is.EqualTo((0.5f, 2f, -3f)));
             Assert.That(board.Material, Is.SameAs(own), "a second read returns the same copy");
-            yield return null;
         }
 
-        [UnityTest]
-        public IEnumerator FeatureScaleAndToneAreLimitedToTheirRanges()
+        [Test]
+        public void FeatureScaleAndToneAreLimitedToTheirRanges()
         {
             var material = new MaterialDescription();
-            Assert.That(material.FeatureScale, Is.EqualTo(1f), "the default leaves features unchanged");
-            Assert.That(material.ToneDbPerOctave, Is.Zero, "no tilt");
-            material.FeatureScale = 9f;
-            material.ToneDbPerOctave = 40f;
-            Assert.That(material.FeatureScale, Is.EqualTo(4f));
-            Assert.That(material.ToneDbPerOctave, Is.EqualTo(12f));
-            material.FeatureScale = 0f;
-            material.ToneDbPerOctave = -40f;
-            Assert.That(material.FeatureScale, Is.EqualTo(0.25f));
-            Assert.That(material.ToneDbPerOctave, Is.EqualTo(-12f));
-            yield return null;
+            Assert.That((material.FeatureScale, material.ToneDbPerOctave), Is.EqualTo((1f, 0f)), "the default");
+            (material.FeatureScale, material.ToneDbPerOctave) = (9f, 40f);
+            Assert.That((material.FeatureScale, material.ToneDbPerOctave), Is.EqualTo((4f, 12f)));
+            (material.FeatureScale, material.ToneDbPerOctave) = (0f, -40f);
+            Assert.That((material.FeatureScale, material.ToneDbPerOctave), Is.EqualTo((0.25f, -12f)));
         }
 
-        private static HapticMaterial Shared()
+        private HapticMaterial Shared() => Feeling("glass", material =>
         {
-            var shared = ScriptableObject.CreateInstance<HapticMaterial>();
-            shared.Description.Label = "glass";
-            shared.Description.SecondLabel = "stone";
-            shared.Description.Blend = 0.25f;
-            shared.Description.StiffnessNewtonsPerMetre = 321f;
-            shared.Description.Strength = 0.5f;
-            shared.Description.FeatureScale = 2f;
-            shared.Description.ToneDbPerOctave = -3f;
-            return shared;
-        }
+            (material.SecondLabel, material.Blend, material.StiffnessNewtonsPerMetre) = ("stone", 0.25f, 321f);
+            (material.Strength, material.FeatureScale, material.ToneDbPerOctave) = (0.5f, 2f, -3f);
+        });
     }
 
     /// <summary>The effects of a surface reach the voice, and no other effect runs.</summary>
     public sealed class SurfaceEffectsTests : SceneTest
     {
+        private HapticSurface board = null!;
+
+        [SetUp]
+        public void MakeABoard()
+        {
+            FinishLoading();
+            board = Board();
+        }
+
         [UnityTest]
         public IEnumerator ASurfaceWithoutImpactsPlaysNone()
         {
-            FinishLoading();
-            HapticSurface board = Board();
             board.Material.Effects = HapticEffects.Texture;
             HapticStylus stylus = StylusAlong(
                 seconds => new Vector3(0f, Mathf.Max(0.001f, 0.02f - 0.3f * (float)seconds), 0f));
             yield return Frames(12);
             Assert.That(stylus.IsTouching, Is.True);
-            Assert.That(stylus.TryGetEffectStatistics(HapticEffect.Impact, out EffectStatistics impact), Is.True);
-            Assert.That(impact.IsAskedFor, Is.False);
-            Assert.That(stylus.TryGetEffectStatistics(HapticEffect.Edge, out EffectStatistics edge), Is.True);
+            Assert.That(StatisticsOf(stylus, HapticEffect.Impact).IsAskedFor, Is.False);
+            EffectStatistics edge = StatisticsOf(stylus, HapticEffect.Edge);
             Assert.That(edge.IsAskedFor, Is.False);
             Assert.That(edge.Runs + edge.Prepared + edge.Events, Is.Zero);
         }
@@ -102,13 +89,11 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator SlidingOffTheRimOfABoardPlaysOneEdge()
         {
-            FinishLoading();
-            Board();
             AudioTap tap = Output(out _);
             HapticStylus stylus = StylusAlong(seconds => new Vector3(0.15f + 0.2f * (float)seconds, 0.001f, 0f));
             yield return Frames(40);
             Assert.That(stylus.IsTouching, Is.False);
-            Assert.That(stylus.TryGetEffectStatistics(HapticEffect.Edge, out EffectStatistics edge), Is.True);
+            EffectStatistics edge = StatisticsOf(stylus, HapticEffect.Edge);
             Assert.That(edge.Events, Is.EqualTo(1UL));
             Assert.That(edge.Runs, Is.GreaterThan(0UL));
             Assert.That(tap.BrokenSamples, Is.Zero);
@@ -117,22 +102,17 @@ namespace HaptoFlow.Tests
         [UnityTest]
         public IEnumerator LiftingPlaysNoEdge()
         {
-            FinishLoading();
-            Board();
             Output(out _);
             HapticStylus stylus = StylusAlong(seconds =>
                 new Vector3(0.1f * (float)seconds, seconds < 0.3 ? 0.001f : 0.001f + 0.5f * (float)(seconds - 0.3), 0f));
             yield return Frames(40);
             Assert.That(stylus.IsTouching, Is.False);
-            Assert.That(stylus.TryGetEffectStatistics(HapticEffect.Edge, out EffectStatistics edge), Is.True);
-            Assert.That(edge.Events, Is.Zero);
+            Assert.That(StatisticsOf(stylus, HapticEffect.Edge).Events, Is.Zero);
         }
 
         [UnityTest]
         public IEnumerator SlidingAgainstAWallPlaysALandingWithinTheTouch()
         {
-            FinishLoading();
-            Board();
             HapticSurface wall = Tagged<BoxCollider>("stone", box =>
             {
                 box.size = new Vector3(0.1f, 0.2f, 0.4f);
@@ -145,8 +125,8 @@ namespace HaptoFlow.Tests
             Assert.That(stylus.Contact.Surface, Is.SameAs(wall));
             Assert.That(stylus.Contact.TouchCounter, Is.EqualTo(1u));
             Assert.That(stylus.Contact.ApproachSpeedMps, Is.EqualTo(0.2f).Within(0.02f));
-            Assert.That(stylus.TryGetEffectStatistics(HapticEffect.Impact, out EffectStatistics impact), Is.True);
-            Assert.That(impact.Events, Is.EqualTo(1UL), "the tip entered the board without speed");
+            Assert.That(StatisticsOf(stylus, HapticEffect.Impact).Events, Is.EqualTo(1UL),
+                "the tip entered the board without speed");
         }
 
         [Test]
@@ -223,13 +203,12 @@ namespace HaptoFlow.Tests
             ContactReading after = Touch(contacts, board, 2.0);
             foreach (ContactReading reading in new[] { before, after })
             {
-                Assert.That(reading.State.HasPlace, Is.True);
-                Assert.That(reading.State.SurfaceSeed, Is.EqualTo(7u));
-                Assert.That(reading.State.PlaceMetres.X, Is.EqualTo(0.03f).Within(1e-5f));
-                Assert.That(reading.State.PlaceMetres.Y, Is.EqualTo(0f).Within(1e-5f));
-                Assert.That(reading.State.PlaceMetres.Z, Is.EqualTo(0.04f).Within(1e-5f));
-                Assert.That(reading.State.FirstAxis.X, Is.EqualTo(1f).Within(1e-5f));
-                Assert.That(reading.State.SecondAxis.Z, Is.EqualTo(-1f).Within(1e-5f));
+                ContactState state = reading.State;
+                Assert.That((state.HasPlace, state.SurfaceSeed), Is.EqualTo((true, 7u)));
+                var place = new Vector3(state.PlaceMetres.X, state.PlaceMetres.Y, state.PlaceMetres.Z);
+                Assert.That(Vector3.Distance(place, new Vector3(0.03f, 0f, 0.04f)), Is.LessThan(1e-5f));
+                Assert.That(state.FirstAxis.X, Is.EqualTo(1f).Within(1e-5f));
+                Assert.That(state.SecondAxis.Z, Is.EqualTo(-1f).Within(1e-5f));
             }
             var lost = new TipSample(3.0, new Double3(double.NaN, 0.0, 0.0), null);
             ContactReading none = contacts.Update(lost, 3.0, -1, HapticSession.Current, board);
@@ -269,24 +248,18 @@ namespace HaptoFlow.Tests
         public IEnumerator AChildAddedLaterIsFeltAndListed()
         {
             yield return null;
-            Cube().transform.SetParent(parent.transform, false);
+            Cube(parent.transform);
             Assert.That(parent.Colliders.Count, Is.EqualTo(2));
-            yield return null;
-            Assert.That(Touched(), Is.SameAs(parent));
+            yield return Touches(parent);
         }
 
         [UnityTest]
         public IEnumerator AColliderAddedToAGrandchildIsFelt()
         {
-            GameObject child = Make("child");
-            child.transform.SetParent(parent.transform, false);
-            GameObject grandchild = Make("grandchild");
-            grandchild.transform.SetParent(child.transform, false);
-            yield return Frames(2);
-            Assert.That(stylus.IsTouching, Is.False);
+            GameObject grandchild = Below(Below(parent.gameObject));
+            yield return Touches(null, 2);
             grandchild.AddComponent<BoxCollider>().size = new Vector3(0.1f, 0.1f, 0.1f);
-            yield return null;
-            Assert.That(Touched(), Is.SameAs(parent));
+            yield return Touches(parent);
             Assert.That(parent.Colliders.Count, Is.EqualTo(2));
         }
 
@@ -294,93 +267,88 @@ namespace HaptoFlow.Tests
         public IEnumerator ANearColliderThatGetsASurfaceIsFeltInTheNextFrame()
         {
             GameObject cube = Cube();
-            yield return Frames(2);
-            Assert.That(stylus.IsTouching, Is.False);
+            yield return Touches(null, 2);
             var surface = cube.AddComponent<HapticSurface>();
-            yield return null;
-            Assert.That(Touched(), Is.SameAs(surface));
+            yield return Touches(surface);
         }
 
         // Unity reports a move of direct children only.
         [UnityTest]
         public IEnumerator ANearColliderMovedDeepBelowASurfaceIsFeltWithinThirtyFrames()
         {
-            GameObject child = Make("child");
-            child.transform.SetParent(parent.transform, false);
+            GameObject child = Below(parent.gameObject);
             GameObject cube = Cube();
-            yield return Frames(2);
-            Assert.That(stylus.IsTouching, Is.False);
+            yield return Touches(null, 2);
             cube.transform.SetParent(child.transform, true);
-            for (int frame = 0; frame <= UntaggedColliders.Lookups; ++frame)
-            {
-                yield return null;
-            }
-            Assert.That(Touched(), Is.SameAs(parent));
+            yield return Touches(parent, UntaggedColliders.Lookups + 1);
         }
 
         [UnityTest]
         public IEnumerator ARemovedNestedSurfaceLeavesItsCollidersToTheSurfaceAbove()
         {
-            GameObject cube = Cube();
-            cube.transform.SetParent(parent.transform, false);
+            GameObject cube = Cube(parent.transform);
             var nested = cube.AddComponent<HapticSurface>();
-            yield return Frames(2);
-            Assert.That(Touched(), Is.SameAs(nested));
+            yield return Touches(nested, 2);
             Assert.That(parent.Colliders.Count, Is.EqualTo(1));
             Object.DestroyImmediate(nested);
-            yield return null;
-            Assert.That(Touched(), Is.SameAs(parent));
+            yield return Touches(parent);
             Assert.That(parent.Colliders.Count, Is.EqualTo(2));
         }
 
         [UnityTest]
         public IEnumerator ANestedSurfaceThatIsSwitchedOffKeepsItsCollidersFromBeingFelt()
         {
-            GameObject cube = Cube();
-            cube.transform.SetParent(parent.transform, false);
+            GameObject cube = Cube(parent.transform);
             var nested = cube.AddComponent<HapticSurface>();
             yield return null;
             nested.enabled = false;
-            yield return null;
-            Assert.That(stylus.IsTouching, Is.False);
+            yield return Touches(null);
             nested.enabled = true;
-            yield return null;
-            Assert.That(Touched(), Is.SameAs(nested));
+            yield return Touches(nested);
         }
 
         [UnityTest]
         public IEnumerator AColliderMovedBelowAnotherSurfaceBelongsToIt()
         {
             HapticSurface other = Tagged<SphereCollider>("fur", sphere => sphere.center = new Vector3(0f, 9f, 0f));
-            GameObject cube = Cube();
-            cube.transform.SetParent(parent.transform, false);
-            yield return Frames(2);
-            Assert.That(Touched(), Is.SameAs(parent));
+            GameObject cube = Cube(parent.transform);
+            yield return Touches(parent, 2);
             cube.transform.SetParent(other.transform, true);
-            yield return null;
-            Assert.That(Touched(), Is.SameAs(other));
+            yield return Touches(other);
         }
 
         [UnityTest]
         public IEnumerator IncludeChildrenAppliesAtOnce()
         {
-            Cube().transform.SetParent(parent.transform, false);
+            Cube(parent.transform);
             yield return null;
             parent.IncludeChildren = false;
-            yield return null;
-            Assert.That(stylus.IsTouching, Is.False);
+            yield return Touches(null);
             Assert.That(parent.Colliders.Count, Is.EqualTo(1));
             parent.IncludeChildren = true;
-            yield return null;
-            Assert.That(Touched(), Is.SameAs(parent));
+            yield return Touches(parent);
         }
 
-        private HapticSurface? Touched() => stylus.IsTouching ? stylus.Contact.Surface : null;
+        /// <summary>After some frames the tip touches a surface; null for none.</summary>
+        private IEnumerator Touches(HapticSurface? surface, int afterFrames = 1)
+        {
+            yield return Frames(afterFrames);
+            Assert.That(stylus.IsTouching, Is.EqualTo(surface != null));
+            Assert.That(surface == null || stylus.Contact.Surface == surface, Is.True);
+        }
 
-        private GameObject Cube()
+        private GameObject Below(GameObject above)
+        {
+            GameObject child = Make("child");
+            child.transform.SetParent(above.transform, false);
+            return child;
+        }
+
+        private GameObject Cube(Transform? below = null)
         {
             GameObject cube = Make("cube");
             cube.AddComponent<BoxCollider>().size = new Vector3(0.1f, 0.1f, 0.1f);
+            cube.transform.SetParent(below, false);
             return cube;
         }
     }

@@ -137,13 +137,8 @@ namespace HaptoFlow.Tests
         {
             Terrain();
             Map.Add(HapticMaterialRule.ForName("Ground", Feeling("stone")));
-            HapticStylus stylus = Resting();
-            yield return Frames(2);
-            Assert.That(FeltAlone(stylus), Is.EqualTo("stone"));
+            return Feels((0f, "stone"));
         }
-
-        private static float WeightOf(HapticStylus stylus, string label) =>
-            Felt(stylus).Where(each => each.Label == label).Sum(each => each.Weight);
 
         private TouchedPlace PlaceOf(HapticStylus stylus) => new TouchedPlace(
             terrain, (stylus.Contact.Point - terrain.transform.position).ToDouble(), null);

@@ -188,7 +188,6 @@ namespace HaptoFlow
             new SurfacePoint(
                 point.PointMetres + by, point.Normal, point.SignedDistanceMetres, point.BeyondMetres);
 
-        /// <summary>A sphere or a capsule.</summary>
         private readonly struct RoundShape
         {
             private readonly Double3 centre;

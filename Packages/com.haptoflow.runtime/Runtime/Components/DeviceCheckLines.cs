@@ -376,7 +376,6 @@ namespace HaptoFlow.DeviceCheck
         }
     }
 
-    /// <summary>The five questions about what is felt.</summary>
     internal static class FeltQuestions
     {
         private const string Group = "Felt";

@@ -23,7 +23,6 @@ namespace HaptoFlow.DeviceCheck
 
         public List<CheckLine> Lines { get; } = new List<CheckLine>();
 
-        /// <summary>Where to send the files, as a sentence.</summary>
         public static string WhereToSend => WhereToSendTo(HelpPages.Issues);
 
         internal static string WhereToSendTo(string address) => address.Length > 0
@@ -62,7 +61,6 @@ namespace HaptoFlow.DeviceCheck
             }).ToArray(),
         });
 
-        /// <summary>One HTML file that needs no other.</summary>
         public string Page()
         {
             var page = new StringBuilder();
@@ -99,7 +97,6 @@ namespace HaptoFlow.DeviceCheck
         private static string Escaped(string text) => WebUtility.HtmlEncode(text);
     }
 
-    /// <summary>What became of a line of the device check.</summary>
     internal enum CheckState
     {
         /// <summary>Measured, and as it should be.</summary>

@@ -145,7 +145,6 @@ namespace HaptoFlow.DeviceCheck
 
         public bool HasDevice => sink.TryGetCapabilities(out _);
 
-        /// <summary>Plays on; call it once a frame.</summary>
         public void Update(double nowSeconds)
         {
             queue ??= HapticQueue.For(form, sink, new TestWave());
@@ -171,7 +170,6 @@ namespace HaptoFlow.DeviceCheck
             sink.Dispose();
         }
 
-        /// <summary>A sine of 160 Hz at half of the full amplitude.</summary>
         private sealed class TestWave : IWaveSource
         {
             private const double FrequencyHz = 160.0;

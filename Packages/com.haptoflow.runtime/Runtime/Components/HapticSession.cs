@@ -74,7 +74,6 @@ namespace HaptoFlow
 
         public HaptoFlowSettings Settings { get; }
 
-        /// <summary>Rate of contact states that the engine was configured for, in Hz.</summary>
         public double UpdateRateHz { get; }
 
         public bool HasWorker { get; }
@@ -88,12 +87,10 @@ namespace HaptoFlow
         /// <summary>Null while loading, and where loading failed.</summary>
         public HapticEngine? Engine { get; private set; }
 
-        /// <summary>Empty while loading, and where loading failed.</summary>
         public ModelLabels Labels { get; private set; } = new ModelLabels(Array.Empty<HapticLabel>());
 
         public string? Problem { get; private set; }
 
-        /// <summary>Null while loading, and where loading failed.</summary>
         public LearntMaterials? Learnt => Labels.Learnt;
 
         /// <summary>Takes over the result of loading once it is complete. Call once a frame; no garbage when nothing
@@ -190,7 +187,6 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>Waits until all requested materials are registered or refused.</summary>
         public void FinishRegistrations()
         {
             Learnt?.Finish();

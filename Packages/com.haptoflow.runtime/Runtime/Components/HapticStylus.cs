@@ -232,7 +232,6 @@ namespace HaptoFlow
             return touching && relief is object && relief != null;
         }
 
-        /// <summary>The enabled styluses of all scenes.</summary>
         internal static IReadOnlyList<HapticStylus> Enabled => EnabledStyluses;
 
         /// <summary>Ends the clip if it is the newest.</summary>
@@ -244,7 +243,6 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>The nearest gain that the library takes.</summary>
         internal static float ClipGain(float gain) => gain > 0f ? Mathf.Min(gain, HapticClipFile.MaximumGain) : 0f;
 
         internal Vector3 TipPosition => tip != null ? tip.position : transform.position;

@@ -172,7 +172,6 @@ namespace HaptoFlow
         /// <summary>True where a registered collider still belongs to this surface.</summary>
         internal bool Keeps(Collider collider) => !isStale && Reaches(collider);
 
-        /// <summary>Registers a collider that was found below this surface.</summary>
         internal void Adopt(Collider collider)
         {
             if (isStale)
@@ -192,7 +191,6 @@ namespace HaptoFlow
             SurfaceRegistry.Add(collider, this);
         }
 
-        /// <summary>Forgets a collider that belongs elsewhere now.</summary>
         internal void Disown(Collider collider) => registered.Remove(collider);
 
         /// <summary>The material at a place on one of the colliders; without labels where the place has none.</summary>

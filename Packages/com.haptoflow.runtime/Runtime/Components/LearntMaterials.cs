@@ -29,7 +29,6 @@ namespace HaptoFlow
 
         public int Felt { get; private set; }
 
-        /// <summary>Number of refused materials: their labels are used instead.</summary>
         public int Refused { get; private set; }
 
         /// <summary>Finds a material's index in the engine; requests its registration where there is none.</summary>
@@ -52,7 +51,6 @@ namespace HaptoFlow
         public string? WhyRefused(HapticMaterial material) =>
             known.TryGetValue(material, out Known found) && found.IsRefused ? found.Refusal : null;
 
-        /// <summary>Stiffness in N/m of a registered material.</summary>
         public double StiffnessNewtonsPerMetre(int index) => stiffness[index - labelCount];
 
         /// <summary>Registers the new text of a material. A material that was never requested is left alone.</summary>
@@ -102,7 +100,6 @@ namespace HaptoFlow
             return true;
         }
 
-        /// <summary>Waits until every requested material is registered or refused.</summary>
         public void Finish()
         {
             while (running != null)
@@ -212,7 +209,6 @@ namespace HaptoFlow
             material.IsRefused = isRefused;
         }
 
-        /// <summary>State of one material.</summary>
         private sealed class Known
         {
             public readonly HapticMaterial Material;
@@ -241,12 +237,10 @@ namespace HaptoFlow
         /// <summary>The engine assigns the index.</summary>
         public const int NewPlace = -1;
 
-        /// <summary>Says why a material of another space cannot be used with a model, and what to do.</summary>
         public static string ForeignSpace(string own, string models) =>
             $"it was learnt for another model (its space is {own}, the model's {models}). Learn it again from its " +
             "recording with this model, or choose the model that it was learnt for in Project Settings > HaptoFlow.";
 
-        /// <summary>Registers the material; returns the result.</summary>
         public MaterialRegistration Do(HapticEngine engine, string space)
         {
             try

@@ -3,7 +3,6 @@ using System;
 using System.Collections.Generic;
 using HaptoFlow.Numerics;
 using UnityEngine;
-using UnityEngine.SceneManagement;
 using Object = UnityEngine.Object;
 #if UNITY_6000_0_OR_NEWER
 using SurfacePhysics = UnityEngine.PhysicsMaterial;
@@ -61,7 +60,6 @@ namespace HaptoFlow
             return OfPart(part, place, session);
         }
 
-        /// <summary>Names the rule that assigns a part's material. Makes garbage.</summary>
         public string Explain(int part) => parts[part < parts.Length ? part : 0].Explain();
 
         private void Match(IReadOnlyList<HapticMaterialMap> maps)
@@ -180,7 +178,6 @@ namespace HaptoFlow
 
         public bool IsSameAs(in MappedPart other) => ReferenceEquals(Map, other.Map) && Rule == other.Rule;
 
-        /// <summary>Names the rule, for people. Makes garbage.</summary>
         public string Explain() =>
             Map is null ? "no rule matches" : Map != null ? Map.Explain(Rule) : "a deleted map";
     }
@@ -262,14 +259,7 @@ namespace HaptoFlow
         }
 
         [RuntimeInitializeOnLoadMethod(RuntimeInitializeLoadType.SubsystemRegistration)]
-        private static void Forget()
-        {
-            Known.Clear();
-            SceneManager.sceneUnloaded -= OnSceneUnloaded;
-            SceneManager.sceneUnloaded += OnSceneUnloaded;
-        }
-
-        private static void OnSceneUnloaded(Scene scene) => Known.Sweep();
+        private static void Forget() => Known.Begin();
     }
 
     /// <summary>The properties of a collider that rules can match, read once. Main thread. Reading makes garbage;

@@ -23,7 +23,6 @@ namespace HaptoFlow
 
         public static void Change() => ++Version;
 
-        /// <summary>Sets a field of a map, a rule or a scope.</summary>
         public static void Set<T>(ref T field, T value)
         {
             field = value;
@@ -67,7 +66,6 @@ namespace HaptoFlow
             Change();
         }
 
-        /// <summary>Lists the maps of a scene in the order in which they are tried.</summary>
         public static void CollectFor(Scene scene, List<HapticMaterialMap> maps)
         {
             maps.Clear();

@@ -20,7 +20,6 @@ namespace HaptoFlow
         /// <summary>The point closest to the tip in the last update in which the collider was within reach.</summary>
         public TouchedPlace Place { get; set; }
 
-        /// <summary>The material at <see cref="Place"/>, as of the last <see cref="Resolve"/>.</summary>
         public ResolvedMaterial Felt { get; private set; }
 
         public ContactBody Tracked { get; } = new ContactBody(Double3.Right, 0.0);
@@ -78,7 +77,6 @@ namespace HaptoFlow
             (Place, Felt) = (default, default);
         }
 
-        /// <summary>Finds the material at <see cref="Place"/>. No garbage while nothing changes.</summary>
         public void Resolve(HapticSession session) => Felt = Surface is object
             ? Surface.At(Place, session)
             : ByRules is object ? ByRules.At(Place, session) : default;
@@ -133,7 +131,6 @@ namespace HaptoFlow
 
         public int Count { get; private set; }
 
-        /// <summary>True where the last search found more than it can hold.</summary>
         public bool IsFull => Count == MaximumColliders;
 
         public Collider this[int index] => colliders[index];

@@ -3,7 +3,6 @@ using System;
 using HaptoFlow.Contact;
 using HaptoFlow.Numerics;
 using UnityEngine;
-using UnityEngine.SceneManagement;
 
 namespace HaptoFlow
 {
@@ -86,11 +85,9 @@ namespace HaptoFlow
         private readonly Vector3[] vertices;
         private readonly Vector2[] coordinates;
 
-        /// <summary>Reads a readable mesh.</summary>
         public MeshCoordinates(Mesh mesh) =>
             (triangles, vertices, coordinates) = (mesh.triangles, mesh.vertices, mesh.uv);
 
-        /// <param name="mesh">A readable mesh.</param>
         public static MeshCoordinates Of(Mesh mesh)
         {
             if (!Known.TryGetValue(mesh, out MeshCoordinates known))
@@ -154,13 +151,6 @@ namespace HaptoFlow
             Double3.Scale(vertices[triangles[index]].ToDouble(), scale);
 
         [RuntimeInitializeOnLoadMethod(RuntimeInitializeLoadType.SubsystemRegistration)]
-        private static void Forget()
-        {
-            Known.Clear();
-            SceneManager.sceneUnloaded -= OnSceneUnloaded;
-            SceneManager.sceneUnloaded += OnSceneUnloaded;
-        }
-
-        private static void OnSceneUnloaded(Scene scene) => Known.Sweep();
+        private static void Forget() => Known.Begin();
     }
 }

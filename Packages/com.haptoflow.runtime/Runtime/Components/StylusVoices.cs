@@ -167,7 +167,6 @@ namespace HaptoFlow
 
         public void Panic() => OpenVoice?.Panic();
 
-        /// <summary>Plays a clip; null ends it. False without a voice.</summary>
         public bool PlayClip(HapticClipFile? clip, float gain, bool loop)
         {
             HapticVoice? open = OpenVoice;

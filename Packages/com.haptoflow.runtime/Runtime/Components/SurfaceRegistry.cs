@@ -2,6 +2,7 @@
 using System;
 using System.Collections.Generic;
 using UnityEngine;
+using UnityEngine.SceneManagement;
 using Object = UnityEngine.Object;
 
 namespace HaptoFlow
@@ -228,6 +229,14 @@ namespace HaptoFlow
             sweepAt = MinimumBeforeSweep;
         }
 
+        /// <summary>Forgets everything when play mode begins; from then on, whatever a scene unloads.</summary>
+        public void Begin()
+        {
+            Clear();
+            SceneManager.sceneUnloaded -= OnSceneUnloaded;
+            SceneManager.sceneUnloaded += OnSceneUnloaded;
+        }
+
         /// <summary>Removes destroyed objects now. What values reference, such as meshes, Unity cannot unload
         /// before.</summary>
         public void Sweep()
@@ -246,5 +255,7 @@ namespace HaptoFlow
             gone.Clear();
             sweepAt = Math.Max(MinimumBeforeSweep, 2 * entries.Count);
         }
+
+        private void OnSceneUnloaded(Scene scene) => Sweep();
     }
 }

@@ -71,7 +71,6 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>Discards all weights, which are then read again.</summary>
         public static void Forget()
         {
             Known.Clear();

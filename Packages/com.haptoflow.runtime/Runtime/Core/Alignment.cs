@@ -237,8 +237,6 @@ namespace HaptoFlow.Alignment
         // Rounding to six decimals changes the length of a quaternion by less than this.
         private const double LengthTolerance = 1e-3;
 
-        /// <exception cref="IOException">The file cannot be written.</exception>
-        /// <exception cref="UnauthorizedAccessException">The file cannot be written.</exception>
         public static void Write(string path, in RigidPose pose)
         {
             Double3 place = pose.PositionMetres;

@@ -182,7 +182,6 @@ namespace HaptoFlow.Outputs
             }
         }
 
-        /// <summary>Full scale of the source: the acceleration that a sample of 1 represents, in m/s^2.</summary>
         public float FullScaleMps2 { get; set; } = (float)HapticEngineOptions.DefaultFullScaleMps2;
 
         public bool IsStopped => source.IsStopped;

@@ -55,7 +55,6 @@ namespace HaptoFlow.Outputs
 
         protected HapticQueue(IHapticSink sink, IWaveSource source) => (this.sink, Source) = (sink, source);
 
-        /// <summary>The queue for a device of a form.</summary>
         public static HapticQueue For(HapticForm form, IHapticSink sink, IWaveSource source, bool mayReplace = true) =>
             form switch
             {
@@ -73,10 +72,8 @@ namespace HaptoFlow.Outputs
         /// kind. Changes take effect with the next submissions.</summary>
         public virtual bool TrueLevel { get; set; } = true;
 
-        /// <summary>Limit of the magnitude sent, 0 to 1.</summary>
         public float Ceiling { get => ceiling; set => ceiling = Math.Max(0f, Math.Min(1f, value)); }
 
-        /// <summary>Full scale: the acceleration that a sample of 1 represents, in m/s^2.</summary>
         public virtual float FullScaleMps2 { get; set; } = (float)HapticEngineOptions.DefaultFullScaleMps2;
 
         /// <summary>Time of the clock of <see cref="Update"/> until which the device belongs to another vibration: nothing
@@ -146,7 +143,6 @@ namespace HaptoFlow.Outputs
             return was;
         }
 
-        /// <summary>Advances wave and device by a frame.</summary>
         protected abstract void Advance(double nowSeconds, double elapsedSeconds);
 
         /// <summary>Called after each frame of the wave while the device belongs to another vibration.</summary>
@@ -283,10 +279,8 @@ namespace HaptoFlow.Outputs
         /// <summary>Time that must be queued on the device after a submission, in s.</summary>
         public double DepthSeconds => MaximumSeconds + MarginSeconds;
 
-        /// <summary>Upper limit of <see cref="DepthSeconds"/>, in s.</summary>
         public static double MaximumDepthSeconds => HitchSeconds + MarginSeconds;
 
-        /// <summary>The longest of the recent frames, in s.</summary>
         public double MaximumSeconds { get; private set; } = 1.0 / HapticEngineOptions.DefaultUpdateRateHz;
 
         public void Note(double frameSeconds)

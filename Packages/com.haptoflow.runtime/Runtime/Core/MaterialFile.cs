@@ -80,7 +80,7 @@ namespace HaptoFlow.Model
         /// <param name="text">The whole .haptomaterial file.</param>
         /// <exception cref="HaptoFlowException">The library is missing, or the text is not a material file; the message
         /// names the key.</exception>
-        public static MaterialFile Read(string text) => NativeCall.OrMissing(() =>
+        public static MaterialFile Read(string text)
         {
             LibraryAgreement.Require();
             byte[] json = NativeCall.Utf8(text);
@@ -98,7 +98,7 @@ namespace HaptoFlow.Model
                 NativeCall.Check(NativeMethods.MaterialEmbedding(material.Value, numbers));
             }
             return new MaterialFile(text, info, Array.ConvertAll(embedding, number => (double)number));
-        });
+        }
     }
 
     /// <summary>Writes material files: from a label of a model, and copies of materials with changes.</summary>
@@ -111,8 +111,6 @@ namespace HaptoFlow.Model
             "stick_slip", "rib_wander", "impulse_gain",
         };
 
-        /// <summary>The material file of a label. It has no seeds: if the model needs seeds, its own apply.</summary>
-        /// <exception cref="HaptoFlowException">The bytes are not a model, or it has no such label.</exception>
         public static string OfLabel(byte[] file, string label)
         {
             using HapticModel model = HapticModel.Open(file);

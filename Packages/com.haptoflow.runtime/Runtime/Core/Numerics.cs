@@ -66,7 +66,6 @@ namespace HaptoFlow.Numerics
         /// <summary>Finite and not beyond <see cref="MaximumCoordinate"/>.</summary>
         public static bool IsUsable(double value) => Math.Abs(value) <= MaximumCoordinate;
 
-        /// <summary>Finite and not beyond <see cref="MaximumCoordinate"/>.</summary>
         public static bool IsUsable(Double3 vector) => IsUsable(vector.X) && IsUsable(vector.Y) && IsUsable(vector.Z);
 
         /// <summary>The vector at length 1; the fallback where it is zero or not finite. Exact for lengths from 1e-300

@@ -73,7 +73,6 @@ namespace HaptoFlow.Outputs
         /// it.</summary>
         public float FullScaleMps2 { get; set; } = (float)HapticEngineOptions.DefaultFullScaleMps2;
 
-        /// <summary>Discards the state before a new wave.</summary>
         public void Reset() => handle.Check(NativeMethods.WaveFeaturesReset(handle.Value));
 
         /// <summary>Sets the frequencies that the device can play, from the next frame on: above 0, at most 1000 Hz. Equal
@@ -180,7 +179,6 @@ namespace HaptoFlow.Outputs
         private readonly float[] kernel;
         private readonly int halfWidth;
 
-        /// <param name="rateHz">Rate of the device, above 0.</param>
         public WaveDecimator(double rateHz)
         {
             Step = WaveHistory.RateHz / rateHz;

@@ -151,7 +151,6 @@ namespace HaptoFlow
     /// <summary>The OpenXR features that bring an interaction profile of MX Ink, from whichever package.</summary>
     internal static class MxInkFeatures
     {
-        /// <summary>The extension of OpenXR that defines the profile.</summary>
         public const string Extension = "XR_LOGITECH_mx_ink_stylus_interaction";
 
         /// <summary>Those that are switched on for a build target.</summary>

@@ -21,7 +21,6 @@ namespace HaptoFlow
         private bool hadDevice;
         private HapticOutput? left;
 
-        /// <inheritdoc/>
         internal override bool IsMade => isMade;
 
         /// <summary>Creates an output for the device in the stylus's hand at the first call; true where it plays the

@@ -194,7 +194,6 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>Records every block; null for none.</summary>
         internal DeviceCheck.BlockRecorder? Recorder
         {
             set => meter.Recorder = value;

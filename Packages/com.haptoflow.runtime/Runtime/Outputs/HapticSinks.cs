@@ -67,7 +67,6 @@ namespace HaptoFlow
         Left = 2,
     }
 
-    /// <summary>Words for hands.</summary>
     internal static class HapticHands
     {
         /// <summary>"left" or "right", for sentences; the hand is not None.</summary>

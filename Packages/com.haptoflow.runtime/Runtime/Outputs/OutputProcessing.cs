@@ -70,7 +70,6 @@ namespace HaptoFlow
         internal bool ListensInVain(HapticOutput owner) =>
             listen && (actuator != OutputActuator.Uncompensated || owner.HasOwnChannel);
 
-        /// <summary>True where the actuator needs a profile and has none.</summary>
         internal bool LacksProfile => actuator == OutputActuator.Profile && profile == null;
 
         /// <summary>Applies the settings to a voice. A profile that cannot be used is skipped with an error.</summary>

@@ -172,7 +172,6 @@ namespace HaptoFlow
             }
         }
 
-        /// <summary>Lets what sounds fade, and then closes.</summary>
         public void CloseAfterTheFade()
         {
             fading = filter;
@@ -204,7 +203,6 @@ namespace HaptoFlow
             source = null;
         }
 
-        /// <summary>Whether AudioListener.volume applies to the source.</summary>
         public void ObeyVolume(bool obeys)
         {
             if (source != null)

@@ -51,7 +51,6 @@ namespace HaptoFlow
         /// while paused.</summary>
         private protected bool IsPaused => isPaused;
 
-        /// <summary>Calls an action with every voice of this output.</summary>
         internal abstract void ForEachVoice<T>(Action<HapticVoice, T> act, T argument);
 
         /// <summary>Called after the voices fell silent, or sound again.</summary>

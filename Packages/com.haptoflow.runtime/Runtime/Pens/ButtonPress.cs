@@ -19,14 +19,7 @@ namespace HaptoFlow
 
         /// <summary>Enables the buttons.</summary>
         /// <param name="bindings">Control paths of the Input System, for example "&lt;Keyboard&gt;/y".</param>
-        public ButtonPress(params string[] bindings)
-        {
-            actions = Array.ConvertAll(bindings, path => new InputAction(binding: path));
-            foreach (InputAction action in actions)
-            {
-                action.Enable();
-            }
-        }
+        public ButtonPress(params string[] bindings) => actions = Array.ConvertAll(bindings, PenInput.Enabled);
 
         /// <summary>True in the frame in which a button goes down while none was held. Call it once a frame.</summary>
         public bool IsNew()
@@ -90,6 +83,16 @@ namespace HaptoFlow
     /// thread.</summary>
     internal static class PenInput
     {
+#if HAPTOFLOW_INPUT_SYSTEM && ENABLE_INPUT_SYSTEM
+        /// <summary>An enabled action of one control, which the caller disposes.</summary>
+        public static InputAction Enabled(string binding)
+        {
+            var action = new InputAction(binding: binding);
+            action.Enable();
+            return action;
+        }
+#endif
+
         /// <param name="pixels">Position relative to the lower left corner of the game view.</param>
         /// <param name="pressure">Pressure, 0 in the air to 1.</param>
         /// <returns>False where there is neither mouse nor pen.</returns>

@@ -95,7 +95,6 @@ namespace HaptoFlow
             Draw(PrimitiveType.Cube, centre, Quaternion.identity, size, colour);
     }
 
-    /// <summary>The visible body of a pen.</summary>
     internal static class PenBody
     {
         public const string Name = "Body";

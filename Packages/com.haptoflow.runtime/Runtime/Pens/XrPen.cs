@@ -238,8 +238,7 @@ namespace HaptoFlow
 
         private InputAction Enabled(string control)
         {
-            var action = new InputAction(binding: "<XRController>{" + hand + "Hand}/" + control);
-            action.Enable();
+            InputAction action = PenInput.Enabled("<XRController>{" + hand + "Hand}/" + control);
             opened.Add(action);
             return action;
         }

@@ -98,9 +98,9 @@ namespace HaptoFlow
 
         private void Awake()
         {
-            isTracked = Enabled("<XRHMD>/isTracked");
-            position = Enabled("<XRHMD>/centerEyePosition");
-            rotation = Enabled("<XRHMD>/centerEyeRotation");
+            isTracked = PenInput.Enabled("<XRHMD>/isTracked");
+            position = PenInput.Enabled("<XRHMD>/centerEyePosition");
+            rotation = PenInput.Enabled("<XRHMD>/centerEyeRotation");
         }
 
         private void OnDestroy()
@@ -136,13 +136,6 @@ namespace HaptoFlow
             driver.positionAction = position;
             driver.rotationAction = rotation;
 #endif
-        }
-
-        private static InputAction Enabled(string binding)
-        {
-            var action = new InputAction(binding: binding);
-            action.Enable();
-            return action;
         }
 
         private static float YawDegrees(Quaternion rotation)

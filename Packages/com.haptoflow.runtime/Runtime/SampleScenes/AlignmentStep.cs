@@ -73,7 +73,6 @@ namespace HaptoFlow.SampleScenes
             }
         }
 
-        /// <summary>The active pen that measures its tip force; null where there is none.</summary>
         private static HapticStylus? ActivePenWithForce()
         {
             foreach (HapticStylus pen in Pens())

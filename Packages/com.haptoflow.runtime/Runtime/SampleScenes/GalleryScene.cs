@@ -20,7 +20,6 @@ namespace HaptoFlow.SampleScenes
 
         private readonly List<HapticSurface> tiles = new List<HapticSurface>();
 
-        /// <summary>The surfaces of the tiles, one for each label of the model, in the model's order.</summary>
         public IReadOnlyList<HapticSurface> Tiles => tiles;
 
         public HapticSurface Board { get; private set; } = null!;

@@ -65,7 +65,6 @@ namespace HaptoFlow.SampleScenes
             return mesh;
         }
 
-        /// <summary>Creates a texture from pixels, row by row from the bottom.</summary>
         public static Texture2D Picture(int width, int height, Color32[] pixels)
         {
             var picture = new Texture2D(width, height, TextureFormat.RGBA32, false)

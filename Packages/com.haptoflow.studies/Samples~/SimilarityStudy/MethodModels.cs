@@ -169,7 +169,6 @@ namespace HaptoFlow.Samples.SimilarityStudy
         private static string FileOf(StudyMethod method) => method.model!.name + ".haptoflow";
     }
 
-    /// <summary>Hashes that identify in a log which bytes a study used.</summary>
     internal static class Hash
     {
         /// <summary>The SHA-256 of the bytes as 64 hex digits. Unity 2022.3 has no Convert.ToHexString.</summary>

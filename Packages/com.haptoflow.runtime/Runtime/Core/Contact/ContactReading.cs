@@ -15,7 +15,6 @@ namespace HaptoFlow.Contact
 
         public double TimeSeconds;
 
-        /// <summary>The touched surface; null without touch.</summary>
         public ContactBody? Surface;
 
         /// <summary>Contact point on the surface; the tip's centre without touch.</summary>
@@ -53,7 +52,6 @@ namespace HaptoFlow.Contact
         public ulong TouchDowns;
     }
 
-    /// <summary>A sample of the stylus tip.</summary>
     internal readonly struct TipSample
     {
         public readonly double TimeSeconds;
@@ -194,7 +192,6 @@ namespace HaptoFlow.Contact
         /// m/s at 72 Hz at most, 100 m/s^2.</summary>
         public const double JumpGainMps = 2.5;
 
-        /// <summary>See <see cref="JumpGainMps"/>.</summary>
         public const double JumpAccelerationMps2 = 150.0;
 
         /// <summary>Shortest time for the speed of a jump, so that jittering time stamps do not count as

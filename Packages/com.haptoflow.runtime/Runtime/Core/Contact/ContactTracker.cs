@@ -76,14 +76,12 @@ namespace HaptoFlow.Contact
         private ForceVerdict verdict;
         private ContactStatistics statistics;
 
-        /// <exception cref="ArgumentOutOfRangeException">The tip radius is out of range.</exception>
         public ContactTracker(double tipRadiusMetres)
         {
             path = new TouchedPath(history);
             TipRadiusMetres = tipRadiusMetres;
         }
 
-        /// <summary>Radius of the tip in metres, 0 or more.</summary>
         public double TipRadiusMetres
         {
             get => tipRadiusMetres;
@@ -121,7 +119,6 @@ namespace HaptoFlow.Contact
             ? 0.0
             : HandSpeedMps * Vectors.Clamp(nowSeconds - pathSeconds, 0.0, MaximumPathSeconds);
 
-        /// <summary>Time of this frame on the samples' clock.</summary>
         public double NowSeconds => nowSeconds;
 
         /// <summary>The surface touched in the last frame; null for none.</summary>
@@ -255,7 +252,6 @@ namespace HaptoFlow.Contact
             }
         }
 
-        /// <summary>Completes the frame and returns its result.</summary>
         public ContactReading EndFrame()
         {
             bool wasTouching = touched != null;

@@ -59,7 +59,6 @@ namespace HaptoFlow.Contact
         /// <summary>Discards the reference: the next point is not compared.</summary>
         public void Forget() => referenceSurface = null;
 
-        /// <summary>Discards the reference on a surface that is gone.</summary>
         public void Release(ContactBody surface)
         {
             if (ReferenceEquals(referenceSurface, surface))
@@ -68,7 +67,6 @@ namespace HaptoFlow.Contact
             }
         }
 
-        /// <summary>True where the reference is on this surface.</summary>
         public bool IsOn(ContactBody surface) => ReferenceEquals(referenceSurface, surface);
 
         /// <summary>True for a point on another surface than the reference, or with a normal that differs from the

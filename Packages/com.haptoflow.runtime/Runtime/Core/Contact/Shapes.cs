@@ -68,7 +68,6 @@ namespace HaptoFlow.Contact
 
         public readonly double MarginMetres;
 
-        /// <summary>True for the surface that is touched.</summary>
         public readonly bool IsTouched;
 
         public HeldFace(Double3? normal, bool cameFromOutside, double marginMetres, bool isTouched) =>

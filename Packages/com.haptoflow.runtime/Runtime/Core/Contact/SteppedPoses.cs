@@ -46,7 +46,6 @@ namespace HaptoFlow.Contact
 
         public double FirstSeconds => chosen.Seconds(0);
 
-        /// <summary>True where the times of steps are estimates.</summary>
         public bool IsEstimated => ReferenceEquals(chosen, regular);
 
         /// <summary>Judges a surface's motion. False where its poses are best taken as drawn in their frames.</summary>
@@ -245,7 +244,6 @@ namespace HaptoFlow.Contact
 
         private bool HasChanged(int index) => !track.PoseAt(index).Equals(track.PoseAt(index - 1));
 
-        /// <summary>The mean square of the changes of velocity from step to step.</summary>
         private double MeanRoughness(Timeline timeline)
         {
             var motion = new Roughness();

@@ -39,7 +39,6 @@ namespace HaptoFlow.Contact
 
         public Double3 Second { get; private set; }
 
-        /// <summary>Resets the frame for another grain.</summary>
         public void Restart(Double3 newGrain)
         {
             grain = Vectors.UnitOr(newGrain, Double3.Right);

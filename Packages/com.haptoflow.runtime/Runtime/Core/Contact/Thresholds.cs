@@ -4,16 +4,13 @@ using HaptoFlow.Numerics;
 
 namespace HaptoFlow.Contact
 {
-    /// <summary>State of a tip according to its force.</summary>
     internal enum ForceVerdict
     {
         /// <summary>No recent measurement: geometry decides.</summary>
         Unknown,
 
-        /// <summary>The tip is in the air.</summary>
         Lifted,
 
-        /// <summary>The tip presses on a real object.</summary>
         Pressed,
     }
 
@@ -34,7 +31,6 @@ namespace HaptoFlow.Contact
         private const double HoldSeconds = 0.050;
         private double measuredSeconds;
 
-        /// <summary>A touch begins at this force.</summary>
         public double PressNewtons { get; set; } = DefaultPressNewtons;
 
         /// <summary>A touch ends at this force or below it. The gap up to <see cref="PressNewtons"/> must exceed the
@@ -83,7 +79,6 @@ namespace HaptoFlow.Contact
         public bool IsNear(double signedDistanceMetres, bool isTouched) =>
             Math.Abs(signedDistanceMetres) <= (isTouched ? ReachMetres : NearMetres);
 
-        /// <summary>Discards the state: the pen was put away or handed over.</summary>
         public void Reset()
         {
             Verdict = ForceVerdict.Unknown;
@@ -114,7 +109,6 @@ namespace HaptoFlow.Contact
         private double measuredSeconds;
         private Double3 measuredMetres;
 
-        /// <summary>True while the tip moves.</summary>
         public bool Moves { get; private set; }
 
         /// <summary>Speed between the last two measurements.</summary>

@@ -123,8 +123,6 @@ namespace HaptoFlow.Contact
             repeatsInRow = 0;
         }
 
-        /// <summary>Advances the clock without a measurement, so that the time until the next one is no
-        /// pause.</summary>
         public void Pass(double nowSeconds) => latestSeconds = Math.Max(latestSeconds, nowSeconds);
 
         /// <summary>Adds a frame; time and positions must be usable. Every result except Continued means that the path

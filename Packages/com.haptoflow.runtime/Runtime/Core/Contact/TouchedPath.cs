@@ -58,8 +58,6 @@ namespace HaptoFlow.Contact
 
         public void Drop() => Surface = null;
 
-        /// <summary>Advances the clock without a measurement, so that the time until the next one is no
-        /// pause.</summary>
         public void Pass(double nowSeconds) => drawn.Pass(nowSeconds);
 
         /// <summary>Adds a frame of a surface whose path goes on. Jumped where no hand makes the way.</summary>
@@ -341,8 +339,6 @@ namespace HaptoFlow.Contact
             oldest = 0;
         }
 
-        /// <summary>Advances the clock without a measurement, so that the time until the next one is no
-        /// pause.</summary>
         public void Pass(double nowSeconds) => latestSeconds = Math.Max(latestSeconds, nowSeconds);
 
         /// <summary>Adds a frame; time and position must be usable. Every result except Continued means that the history

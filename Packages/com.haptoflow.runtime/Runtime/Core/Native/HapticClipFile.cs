@@ -99,7 +99,7 @@ namespace HaptoFlow
         /// key.</exception>
         public static HapticClipFile Read(ReadOnlySpan<byte> text)
         {
-            RequireLibrary();
+            LibraryAgreement.Require();
             IntPtr opened;
             // The library refuses a null pointer, which an empty span has, with words about pointers.
             byte nothing = 0;
@@ -120,7 +120,7 @@ namespace HaptoFlow
         public static HapticClipFile FromWave(ReadOnlySpan<float> waveMps2, int sampleRateHz, string title = "",
             string description = "", string source = "", bool isLoop = false)
         {
-            RequireLibrary();
+            LibraryAgreement.Require();
             IntPtr opened;
             fixed (float* wave = waveMps2)
             fixed (byte* titleText = NativeCall.Utf8(title), descriptionText = NativeCall.Utf8(description))
@@ -197,11 +197,5 @@ namespace HaptoFlow
 
         /// <summary>Frees the clip. A voice that plays it plays on.</summary>
         public void Dispose() => Handle.Dispose();
-
-        private static void RequireLibrary() => NativeCall.OrMissing(() =>
-        {
-            LibraryAgreement.Require();
-            return true;
-        });
     }
 }

@@ -253,13 +253,13 @@ namespace HaptoFlow
     public sealed unsafe class HapticCancellation : IDisposable
     {
         /// <exception cref="HaptoFlowException">The library is missing, or memory is exhausted.</exception>
-        public HapticCancellation() => Handle = NativeCall.OrMissing(() =>
+        public HapticCancellation()
         {
             LibraryAgreement.Require();
             IntPtr opened;
             NativeCall.Check(NativeMethods.CancellationCreate(&opened));
-            return new NativeHandle(opened, NativeMethods.CancellationClose);
-        });
+            Handle = new NativeHandle(opened, NativeMethods.CancellationClose);
+        }
 
         internal NativeHandle Handle { get; }
 

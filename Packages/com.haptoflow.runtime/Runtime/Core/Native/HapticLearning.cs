@@ -150,10 +150,6 @@ namespace HaptoFlow
             {
                 return Learn(runtime, model, recording, options, GCHandle.ToIntPtr(context));
             }
-            catch (Exception error) when (NativeCall.IsMissing(error))
-            {
-                throw NativeCall.Missing(error);
-            }
             finally
             {
                 context.Free();

@@ -129,7 +129,7 @@ namespace HaptoFlow
         /// <param name="file">The whole .haptoflow file; the array is not kept.</param>
         /// <exception cref="HaptoFlowException">The library is missing, or the bytes are not a usable
         /// model.</exception>
-        public static HapticModel Open(byte[] file) => NativeCall.OrMissing(() =>
+        public static HapticModel Open(byte[] file)
         {
             // An empty array has no address, and the library says of an empty file what is wrong with it.
             fixed (byte* bytes = file.Length > 0 ? file : new byte[1])
@@ -142,18 +142,18 @@ namespace HaptoFlow
                 };
                 return Open(&options);
             }
-        });
+        }
 
         /// <param name="path">Path of a .haptoflow file.</param>
         /// <exception cref="HaptoFlowException">The library is missing, or the file is not a usable model.</exception>
-        public static HapticModel Open(string path) => NativeCall.OrMissing(() =>
+        public static HapticModel Open(string path)
         {
             fixed (byte* text = NativeCall.Utf8(path))
             {
                 var options = new ModelOptions { StructSize = (uint)sizeof(ModelOptions), Path = (IntPtr)text };
                 return Open(&options);
             }
-        });
+        }
 
         /// <summary>Identifies the space of the model's embeddings, as 8 hexadecimal digits: a material file can be
         /// used with every model of the same space.</summary>

@@ -1,5 +1,4 @@
 #nullable enable
-using System;
 using System.Collections.Generic;
 
 namespace HaptoFlow.Native
@@ -47,15 +46,15 @@ namespace HaptoFlow.Native
 
         /// <summary>Returns where the library has the version and the struct sizes of this assembly. Any thread; a
         /// library that agreed is not asked again.</summary>
-        /// <exception cref="HaptoFlowException">It has not: <see cref="HaptoFlowStatus.LibraryMismatch"/>.</exception>
-        /// <exception cref="DllNotFoundException">There is no library.</exception>
+        /// <exception cref="HaptoFlowException">It has not: <see cref="HaptoFlowStatus.LibraryMismatch"/>; or there is
+        /// no library.</exception>
         public static void Require()
         {
             if (isProven)
             {
                 return;
             }
-            string version = NativeCall.Text(NativeMethods.Version());
+            string version = OnnxRuntime.LibraryVersion();
             if (version != Version)
             {
                 throw Disagreement($"is of version {version}, and the package's C# scripts are of version {Version}");

@@ -36,15 +36,14 @@ namespace HaptoFlow.Native
             }
             catch (Exception error) when (IsMissing(error))
             {
-                throw Missing(error);
+                throw new HaptoFlowException(
+                    HaptoFlowStatus.LibraryUnavailable,
+                    "HaptoFlow's native library audioplugin_haptoflow, or ONNX Runtime (onnxruntime) that it runs " +
+                    "on, cannot be loaded on this platform: install the packages com.haptoflow.runtime and " +
+                    "com.github.asus4.onnxruntime in versions that carry binaries for it (" + error.Message + ")",
+                    error);
             }
         }
-
-        public static HaptoFlowException Missing(Exception cause) => new HaptoFlowException(
-            HaptoFlowStatus.LibraryUnavailable,
-            "HaptoFlow's native library audioplugin_haptoflow, or ONNX Runtime (onnxruntime) that it runs on, cannot " +
-            "be loaded on this platform: install the packages com.haptoflow.runtime and " +
-            "com.github.asus4.onnxruntime in versions that carry binaries for it (" + cause.Message + ")", cause);
 
         /// <summary>True where the loader did not find the library, its architecture or one of its functions.</summary>
         public static bool IsMissing(Exception error) =>
@@ -64,7 +63,6 @@ namespace HaptoFlow.Native
     {
         private readonly Closing close;
 
-        /// <param name="close">The library's function that closes handles of this kind.</param>
         public NativeHandle(IntPtr opened, Closing close)
             : base(IntPtr.Zero, true)
         {

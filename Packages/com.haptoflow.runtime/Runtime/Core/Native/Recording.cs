@@ -176,9 +176,9 @@ namespace HaptoFlow.Recordings
                 return pins[pins.Count - 1].AddrOfPinnedObject();
             }
 
+            LibraryAgreement.Require();
             try
             {
-                LibraryAgreement.Require();
                 NativeRecordingFile[] given = Array.ConvertAll(files, file => new NativeRecordingFile
                 {
                     Name = Pinned(NativeCall.Utf8(file.Key)),
@@ -200,10 +200,6 @@ namespace HaptoFlow.Recordings
                 }
                 return new Recording(
                     Path.GetFileNameWithoutExtension(path), new NativeHandle(opened, NativeMethods.RecordingClose));
-            }
-            catch (Exception error) when (NativeCall.IsMissing(error))
-            {
-                throw NativeCall.Missing(error);
             }
             finally
             {
