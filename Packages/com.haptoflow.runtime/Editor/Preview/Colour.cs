@@ -4,7 +4,7 @@ using System;
 namespace HaptoFlow.Preview
 {
     /// <summary>An sRGB colour with opacity, each channel from 0 to 255.</summary>
-    internal readonly struct Colour : IEquatable<Colour>
+    internal readonly struct Colour
     {
         public Colour(byte red, byte green, byte blue, byte opacity = 255) =>
             (Red, Green, Blue, Opacity) = (red, green, blue, opacity);
@@ -26,68 +26,40 @@ namespace HaptoFlow.Preview
             Mix(first.Red, second.Red, share), Mix(first.Green, second.Green, share),
             Mix(first.Blue, second.Blue, share), Mix(first.Opacity, second.Opacity, share));
 
-        public bool Equals(Colour other) =>
-            Red == other.Red && Green == other.Green && Blue == other.Blue && Opacity == other.Opacity;
-
-        public override bool Equals(object? other) => other is Colour colour && Equals(colour);
-
-        public override int GetHashCode() => HashCode.Combine(Red, Green, Blue, Opacity);
-
         private static byte Mix(byte first, byte second, double share) =>
             (byte)Math.Round(first + share * (second - first));
     }
 
     /// <summary>The colours of the charts, one palette for each skin of the editor.</summary>
-    internal sealed class Palette
+    /// <param name="Soft">Secondary text: axis numbers and remarks.</param>
+    internal sealed record Palette(Colour Window, Colour Card, Colour Plot, Colour Grid, Colour Ink, Colour Soft,
+        Colour First, Colour Second, Colour Speed, Colour Force, Colour Patch)
     {
-        public static readonly Palette Dark = new Palette
-        {
-            Window = Colour.Of(0x383838),
-            Card = Colour.Of(0x26282c),
-            Plot = Colour.Of(0x1b1d20),
-            Grid = Colour.Of(0x383c43),
-            Ink = Colour.Of(0xeceae6),
-            Soft = Colour.Of(0xa6acb6),
-            First = Colour.Of(0x5fb4f5),
-            Second = Colour.Of(0xffa34d),
-            Speed = Colour.Of(0x63d0b2),
-            Force = Colour.Of(0xee8fc7),
-            Patch = Colour.Of(0x33373d),
-        };
+        public static readonly Palette Dark = new Palette(
+            Window: Colour.Of(0x383838),
+            Card: Colour.Of(0x26282c),
+            Plot: Colour.Of(0x1b1d20),
+            Grid: Colour.Of(0x383c43),
+            Ink: Colour.Of(0xeceae6),
+            Soft: Colour.Of(0xa6acb6),
+            First: Colour.Of(0x5fb4f5),
+            Second: Colour.Of(0xffa34d),
+            Speed: Colour.Of(0x63d0b2),
+            Force: Colour.Of(0xee8fc7),
+            Patch: Colour.Of(0x33373d));
 
-        public static readonly Palette Light = new Palette
-        {
-            Window = Colour.Of(0xc8c8c8),
-            Card = Colour.Of(0xf5f4f1),
-            Plot = Colour.Of(0xffffff),
-            Grid = Colour.Of(0xdedbd4),
-            Ink = Colour.Of(0x1f2227),
-            Soft = Colour.Of(0x565c66),
-            First = Colour.Of(0x1a6bb0),
-            Second = Colour.Of(0xb24b06),
-            Speed = Colour.Of(0x0c7a66),
-            Force = Colour.Of(0xa8357f),
-            Patch = Colour.Of(0xe6e0d4),
-        };
-
-        private Palette()
-        {
-        }
-
-        public Colour Window { get; private set; }
-        public Colour Card { get; private set; }
-        public Colour Plot { get; private set; }
-        public Colour Grid { get; private set; }
-        public Colour Ink { get; private set; }
-
-        /// <summary>Secondary text: axis numbers and remarks.</summary>
-        public Colour Soft { get; private set; }
-
-        public Colour First { get; private set; }
-        public Colour Second { get; private set; }
-        public Colour Speed { get; private set; }
-        public Colour Force { get; private set; }
-        public Colour Patch { get; private set; }
+        public static readonly Palette Light = new Palette(
+            Window: Colour.Of(0xc8c8c8),
+            Card: Colour.Of(0xf5f4f1),
+            Plot: Colour.Of(0xffffff),
+            Grid: Colour.Of(0xdedbd4),
+            Ink: Colour.Of(0x1f2227),
+            Soft: Colour.Of(0x565c66),
+            First: Colour.Of(0x1a6bb0),
+            Second: Colour.Of(0xb24b06),
+            Speed: Colour.Of(0x0c7a66),
+            Force: Colour.Of(0xa8357f),
+            Patch: Colour.Of(0xe6e0d4));
     }
 
     /// <summary>Matplotlib's colour map "inferno" (CC0), interpolated between 17 evenly spaced colours. Its lightness

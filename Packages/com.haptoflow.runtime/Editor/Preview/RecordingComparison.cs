@@ -89,7 +89,7 @@ namespace HaptoFlow.Preview
                 HapticEngine engine = engines.Engine(request.ModelFile, HapticQuality.Standard, Seed, true);
                 var surface = new ContactState
                 {
-                    Material = LabelBlend.Of(engines.MaterialIndex(request.Material)),
+                    Material = LabelBlend.Of(engines.Register(request.Material)),
                     Effects = HapticEffects.Texture,
                 };
                 Stroke stroke = RecordingSound.StrokeOf(request.Recording, request.TurnDegrees);
