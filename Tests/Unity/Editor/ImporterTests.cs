@@ -204,7 +204,7 @@ namespace HaptoFlow.EditorTests
             ModelSummary assumed = ModelSummary.Of(HapticModelAsset.Create(file));
             Assert.That(Value(assumed, "Level"), Is.EqualTo("level assumed"));
             Assert.That(Value(assumed, "Provenance"), Is.EqualTo("imported; level assumed: a median"));
-            Assert.That(ModelSummary.Of(Model()).Origin.Select(row => row.Name), Has.No.Member("Level"));
+            Assert.That(ModelSummary.Of(Model()).Rows.Select(row => row.Name), Has.No.Member("Level"));
         }
 
         [Test]
@@ -259,6 +259,6 @@ namespace HaptoFlow.EditorTests
             ModelSummary.Of(HapticModelAsset.Create(ModelBytes.WithFigures(Model().File, accuracyJson, costJson)));
 
         private static string Value(ModelSummary summary, string name) =>
-            summary.Origin.Single(row => row.Name == name).Value;
+            summary.Rows.Single(row => row.Name == name).Value;
     }
 }

@@ -6,16 +6,23 @@ using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>The Inspector of a .haptomaterial file. It shows what the file says; there is nothing to set.</summary>
-    [CustomEditor(typeof(HapticMaterialImporter))]
-    internal sealed class HapticMaterialImporterEditor : ScriptedImporterEditor
+    /// <summary>The Inspector of a file with nothing to set.</summary>
+    internal abstract class FileInspector : ScriptedImporterEditor
     {
-        private readonly MaterialSummaryView view = new MaterialSummaryView();
-        private string text = "";
-
         public override bool showImportedObject => false;
 
         protected override bool needsApplyRevert => false;
+
+        protected static void DrawNotImported() =>
+            EditorGUILayout.HelpBox("This file was not imported; the console says why.", MessageType.Error);
+    }
+
+    /// <summary>The Inspector of a .haptomaterial file.</summary>
+    [CustomEditor(typeof(HapticMaterialImporter))]
+    internal sealed class HapticMaterialImporterEditor : FileInspector
+    {
+        private readonly MaterialSummaryView view = new MaterialSummaryView();
+        private string text = "";
 
         public override void OnEnable()
         {
@@ -38,27 +45,23 @@ namespace HaptoFlow.Editor
         }
     }
 
-    /// <summary>The Inspector of a .haptoflow file. It shows what the file says; there is nothing to set.</summary>
+    /// <summary>The Inspector of a .haptoflow file.</summary>
     [CustomEditor(typeof(HapticModelImporter))]
-    internal sealed class HapticModelImporterEditor : ScriptedImporterEditor
+    internal sealed class HapticModelImporterEditor : FileInspector
     {
-        private ModelSummaryView? view;
-
-        public override bool showImportedObject => false;
-
-        protected override bool needsApplyRevert => false;
+        private ModelSummary? view;
 
         public override void OnEnable()
         {
             base.OnEnable();
-            view = assetTarget is HapticModelAsset asset ? new ModelSummaryView(ModelSummary.Of(asset)) : null;
+            view = assetTarget is HapticModelAsset asset ? ModelSummary.Of(asset) : null;
         }
 
         public override void OnInspectorGUI()
         {
             if (view == null)
             {
-                EditorGUILayout.HelpBox("This file was not imported; the console says why.", MessageType.Error);
+                DrawNotImported();
                 return;
             }
             view.Draw();
@@ -69,11 +72,11 @@ namespace HaptoFlow.Editor
     [CustomEditor(typeof(HapticModelAsset))]
     internal sealed class HapticModelAssetEditor : UnityEditor.Editor
     {
-        private ModelSummaryView? view;
+        private ModelSummary? view;
 
         public override void OnInspectorGUI()
         {
-            view ??= new ModelSummaryView(ModelSummary.Of((HapticModelAsset)target));
+            view ??= ModelSummary.Of((HapticModelAsset)target);
             view.Draw();
         }
     }

@@ -11,9 +11,53 @@ using UnityEditor;
 
 namespace HaptoFlow.Editor
 {
+    /// <summary>What the Inspector of a file says: a title and rows, or why the file cannot be used.</summary>
+    internal abstract class FileSummary
+    {
+        /// <summary>The problem of a file that cannot be used, with all other properties empty; else null.</summary>
+        public string? Problem { get; protected set; }
+
+        public string Title { get; protected set; } = "";
+        public string Description { get; protected set; } = "";
+
+        /// <summary>Only those with a value.</summary>
+        public IReadOnlyList<SummaryRow> Rows { get; private set; } = new SummaryRow[0];
+
+        /// <summary>Draws the problem, or title and description.</summary>
+        /// <param name="kind">Of the file: "model".</param>
+        /// <returns>False if the file cannot be used.</returns>
+        public bool DrawHeading(string kind)
+        {
+            if (Problem != null)
+            {
+                EditorGUILayout.HelpBox($"This {kind} cannot be used: {Problem}", MessageType.Error);
+                return false;
+            }
+            if (Title.Length > 0)
+            {
+                EditorGUILayout.LabelField(Title, EditorStyles.boldLabel);
+            }
+            if (Description.Length > 0)
+            {
+                EditorGUILayout.LabelField(Description, EditorStyles.wordWrappedLabel);
+            }
+            return true;
+        }
+
+        public void DrawRows()
+        {
+            foreach (SummaryRow row in Rows)
+            {
+                EditorGUILayout.LabelField(row.Name, row.Value, EditorStyles.wordWrappedLabel);
+            }
+        }
+
+        protected void SetRows(IEnumerable<SummaryRow> rows) => Rows = rows.Where(row => row.Value.Length > 0).ToArray();
+    }
+
     /// <summary>The text of a learnt material's Inspector: its nearest label, its recording, and whether it can be used
     /// with the project's model.</summary>
-    internal sealed class MaterialSummary
+    internal sealed class MaterialSummary : FileSummary
     {
         private MaterialSummary(string problem) => Problem = problem;
 
@@ -22,7 +66,7 @@ namespace HaptoFlow.Editor
             Title = material.Name;
             Description = material.Description;
             bool isOfModel = model != null && model.Space == material.Space;
-            Rows = RowsOf(material, isOfModel ? model : null).Where(row => row.Value.Length > 0).ToArray();
+            SetRows(RowsOf(material, isOfModel ? model : null));
             Mismatch = isOfModel
                 ? null
                 : model == null
@@ -30,15 +74,8 @@ namespace HaptoFlow.Editor
                     : "Its label is used instead: " + MaterialRegistration.ForeignSpace(material.Space, model.Space);
         }
 
-        /// <summary>The problem of a file that cannot be used, with all other properties empty; else null.</summary>
-        public string? Problem { get; }
-
         /// <summary>Why it cannot be used with the project's model; null when it can.</summary>
         public string? Mismatch { get; }
-
-        public string Title { get; } = "";
-        public string Description { get; } = "";
-        public IReadOnlyList<SummaryRow> Rows { get; } = new SummaryRow[0];
 
         /// <param name="text">The text of a material file.</param>
         /// <param name="model">The model in use; null for none.</param>
@@ -105,28 +142,13 @@ namespace HaptoFlow.Editor
                 model = current;
                 summary = MaterialSummary.Of(material, current);
             }
-            Draw(summary);
-        }
-
-        public static void Draw(MaterialSummary summary)
-        {
-            if (summary.Problem != null)
+            if (summary.DrawHeading("material"))
             {
-                EditorGUILayout.HelpBox("This material cannot be used: " + summary.Problem, MessageType.Error);
-                return;
-            }
-            EditorGUILayout.LabelField(summary.Title, EditorStyles.boldLabel);
-            if (summary.Description.Length > 0)
-            {
-                EditorGUILayout.LabelField(summary.Description, EditorStyles.wordWrappedLabel);
-            }
-            if (summary.Mismatch != null)
-            {
-                EditorGUILayout.HelpBox(summary.Mismatch, MessageType.Warning);
-            }
-            foreach (SummaryRow row in summary.Rows)
-            {
-                EditorGUILayout.LabelField(row.Name, row.Value, EditorStyles.wordWrappedLabel);
+                if (summary.Mismatch != null)
+                {
+                    EditorGUILayout.HelpBox(summary.Mismatch, MessageType.Warning);
+                }
+                summary.DrawRows();
             }
         }
     }
