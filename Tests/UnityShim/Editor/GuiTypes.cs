@@ -169,11 +169,8 @@ namespace UnityEngine
     {
         MouseDown = 0,
         MouseUp = 1,
-        MouseMove = 2,
         MouseDrag = 3,
         KeyDown = 4,
-        KeyUp = 5,
-        ScrollWheel = 6,
         Repaint = 7,
         Layout = 8,
         Ignore = 11,
@@ -207,9 +204,6 @@ namespace UnityEngine
         Control = 2,
         Alt = 4,
         Command = 8,
-        Numeric = 16,
-        CapsLock = 32,
-        FunctionKey = 64,
     }
 
     public enum PointerType

@@ -10,7 +10,6 @@ namespace UnityEngine
         Surround = 4,
         Mode5point1 = 5,
         Mode7point1 = 6,
-        Prologic = 7,
     }
 
     public struct AudioConfiguration

@@ -6,15 +6,9 @@ namespace UnityEngine.XR
 {
     public enum XRNode
     {
-        LeftEye = 0,
-        RightEye = 1,
-        CenterEye = 2,
-        Head = 3,
         LeftHand = 4,
         RightHand = 5,
         GameController = 6,
-        TrackingReference = 7,
-        HardwareTracker = 8,
     }
 
     [Flags]
@@ -35,7 +29,6 @@ namespace UnityEngine.XR
         Position = 1 << 0,
         Rotation = 1 << 1,
         Velocity = 1 << 2,
-        AngularVelocity = 1 << 3,
     }
 
     public struct HapticCapabilities : IEquatable<HapticCapabilities>
