@@ -17,8 +17,6 @@ namespace UnityEngine
         public AudioSpeakerMode speakerMode;
         public int dspBufferSize;
         public int sampleRate;
-        public int numRealVoices;
-        public int numVirtualVoices;
     }
 
     public sealed class AudioSettings
