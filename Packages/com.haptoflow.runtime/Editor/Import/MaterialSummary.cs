@@ -8,6 +8,8 @@ using System.Text;
 using HaptoFlow.Files;
 using HaptoFlow.Model;
 using UnityEditor;
+using UnityEditor.AssetImporters;
+using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
@@ -214,6 +216,45 @@ namespace HaptoFlow.Editor
             catch (Exception error) when (error is IOException || error is UnauthorizedAccessException)
             {
                 return error.Message;
+            }
+        }
+    }
+
+    /// <summary>The Inspector of a file with nothing to set.</summary>
+    internal abstract class FileInspector : ScriptedImporterEditor
+    {
+        public override bool showImportedObject => false;
+
+        protected override bool needsApplyRevert => false;
+
+        protected static void DrawNotImported() =>
+            EditorGUILayout.HelpBox("This file was not imported; the console says why.", MessageType.Error);
+    }
+
+    /// <summary>The Inspector of a .haptomaterial file.</summary>
+    [CustomEditor(typeof(HapticMaterialImporter))]
+    internal sealed class HapticMaterialImporterEditor : FileInspector
+    {
+        private readonly MaterialSummaryView view = new MaterialSummaryView();
+        private string text = "";
+
+        public override void OnEnable()
+        {
+            base.OnEnable();
+            // From the file, because a damaged one has no text in its asset.
+            string path = ((AssetImporter)target).assetPath;
+            text = HapticMaterialImporter.TextOf(File.ReadAllBytes(FileUtil.GetPhysicalPath(path)));
+        }
+
+        public override void OnInspectorGUI()
+        {
+            view.Draw(text);
+            using (new EditorGUI.DisabledScope(!(assetTarget is HapticMaterial { IsLearnt: true })))
+            {
+                if (GUILayout.Button(HapticMaterialEditor.Preview))
+                {
+                    TexturePreviewWindow.Open(assetTarget!);
+                }
             }
         }
     }

@@ -235,4 +235,40 @@ namespace HaptoFlow.Editor
                 file.Length, sum);
         }
     }
+
+    /// <summary>The Inspector of a .haptoflow file.</summary>
+    [CustomEditor(typeof(HapticModelImporter))]
+    internal sealed class HapticModelImporterEditor : FileInspector
+    {
+        private ModelSummary? view;
+
+        public override void OnEnable()
+        {
+            base.OnEnable();
+            view = assetTarget is HapticModelAsset asset ? ModelSummary.Of(asset) : null;
+        }
+
+        public override void OnInspectorGUI()
+        {
+            if (view == null)
+            {
+                DrawNotImported();
+                return;
+            }
+            view.Draw();
+        }
+    }
+
+    /// <summary>The Inspector of a model asset that has no .haptoflow file.</summary>
+    [CustomEditor(typeof(HapticModelAsset))]
+    internal sealed class HapticModelAssetEditor : UnityEditor.Editor
+    {
+        private ModelSummary? view;
+
+        public override void OnInspectorGUI()
+        {
+            view ??= ModelSummary.Of((HapticModelAsset)target);
+            view.Draw();
+        }
+    }
 }

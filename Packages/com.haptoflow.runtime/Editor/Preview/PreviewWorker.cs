@@ -21,7 +21,6 @@ namespace HaptoFlow.Preview
 
         /// <summary>Makes the result of a request. A missing library, a damaged model or an unknown label is reported
         /// as the result's problem.</summary>
-        /// <exception cref="OperationCanceledException">The token was cancelled.</exception>
         public PreviewResult Do(PreviewRequest request, CancellationToken token)
         {
             IReadOnlyList<AnalysedSound> sounds = Array.Empty<AnalysedSound>();

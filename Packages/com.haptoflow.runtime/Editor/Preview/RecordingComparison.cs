@@ -51,7 +51,6 @@ namespace HaptoFlow.Preview
         private (byte[] Model, Recording Recording, string Material, double TurnDegrees) rendered;
         private PreviewSound? result;
 
-        /// <exception cref="OperationCanceledException">The token was cancelled.</exception>
         public ComparisonResult Do(ComparisonRequest request, CancellationToken token)
         {
             if (recording == null || !ReferenceEquals(analysed, request.Recording))
