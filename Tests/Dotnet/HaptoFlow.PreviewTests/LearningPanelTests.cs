@@ -1,7 +1,6 @@
 using System;
 using System.Linq;
 using HaptoFlow.Preview;
-using HaptoFlow.Tests.Support;
 using Newtonsoft.Json;
 using NUnit.Framework;
 
@@ -15,12 +14,6 @@ namespace HaptoFlow.PreviewTests
             var canvas = new SkiaCanvas(box.Width, box.Height, pixelsPerPoint, palette.Window);
             LearningPanel.Draw(canvas, palette, canvas.Whole, LearningReport.Read(report)!);
             return canvas;
-        }
-
-        private static void Save(string name, SkiaCanvas canvas)
-        {
-            canvas.Save(RepositoryFiles.In("out", "test", "preview", name + ".png"));
-            LegibleTexts.Check(canvas);
         }
 
         /// <summary>Share of a plot's columns of pixels that have a colour, between two speeds.</summary>
@@ -42,7 +35,7 @@ namespace HaptoFlow.PreviewTests
             Palette palette = dark ? Palette.Dark : Palette.Light;
             using SkiaCanvas canvas =
                 Panel(palette, new PreviewLayout(1200.0, 700.0, PreviewRoom.WithoutStroke).Charts, MadeReports.Of(6, 2, 1));
-            Save(dark ? "curves-dark" : "curves-light", canvas);
+            LegibleTexts.Save(dark ? "curves-dark" : "curves-light", canvas);
             for (int force = 0; force < 2; ++force)
             {
                 Box plot = LearningPanel.LevelPlot(canvas.Whole, force, 2);
@@ -58,7 +51,7 @@ namespace HaptoFlow.PreviewTests
         {
             using SkiaCanvas canvas = Panel(Palette.Light,
                 new PreviewLayout(0.0, 0.0, PreviewRoom.WithoutStroke).Charts, MadeReports.Of(speeds, forces, ribs));
-            Save($"curves-smallest-{speeds}-{forces}-{ribs}", canvas);
+            LegibleTexts.Save($"curves-smallest-{speeds}-{forces}-{ribs}", canvas);
         }
 
         [TestCase("record slower strokes, down to 20 mm/s", "To gain most, record slower strokes, down to 20 mm/s.")]
