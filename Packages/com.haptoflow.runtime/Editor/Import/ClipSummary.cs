@@ -24,7 +24,6 @@ namespace HaptoFlow.Editor
         }
 
         /// <summary>The vibration at <see cref="PreviewSound.RateHz"/>, in m/s^2.</summary>
-        /// <param name="file">The bytes of a clip file.</param>
         /// <exception cref="HaptoFlowException">The library is missing, or the file is damaged.</exception>
         public static float[] Wave(byte[] file)
         {
@@ -38,7 +37,6 @@ namespace HaptoFlow.Editor
         /// <summary>Null where there is a problem.</summary>
         public ClipCurves? Curves { get; }
 
-        /// <param name="file">The bytes of a clip file.</param>
         public static ClipSummary Of(byte[] file)
         {
             try
@@ -79,7 +77,6 @@ namespace HaptoFlow.Editor
         private PreviewView? view;
         private Box box;
 
-        /// <param name="file">The bytes of a clip file.</param>
         public ClipSummaryView(byte[] file)
         {
             this.file = file;
@@ -144,7 +141,6 @@ namespace HaptoFlow.Editor
         }
     }
 
-    /// <summary>The Inspector of a clip file.</summary>
     [CustomEditor(typeof(HapticClipImporter))]
     internal sealed class HapticClipImporterEditor : FileInspector
     {

@@ -231,7 +231,6 @@ namespace HaptoFlow.Editor
             EditorGUILayout.HelpBox("This file was not imported; the console says why.", MessageType.Error);
     }
 
-    /// <summary>The Inspector of a .haptomaterial file.</summary>
     [CustomEditor(typeof(HapticMaterialImporter))]
     internal sealed class HapticMaterialImporterEditor : FileInspector
     {

@@ -236,7 +236,6 @@ namespace HaptoFlow.Editor
         }
     }
 
-    /// <summary>The Inspector of a .haptoflow file.</summary>
     [CustomEditor(typeof(HapticModelImporter))]
     internal sealed class HapticModelImporterEditor : FileInspector
     {

@@ -153,7 +153,6 @@ namespace HaptoFlow.Editor
         }
     }
 
-    /// <summary>The Inspector of a material that surfaces share.</summary>
     [CustomEditor(typeof(HapticMaterial))]
     [CanEditMultipleObjects]
     internal sealed class HapticMaterialEditor : UnityEditor.Editor

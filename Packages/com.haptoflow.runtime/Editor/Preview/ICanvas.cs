@@ -46,7 +46,6 @@ namespace HaptoFlow.Preview
         void EndClip();
     }
 
-    /// <summary>Shapes made of the calls of <see cref="ICanvas"/>.</summary>
     internal static class CanvasShapes
     {
         public static void DrawLine(
@@ -110,11 +109,9 @@ namespace HaptoFlow.Preview
 
         public double MiddleY => Top + 0.5 * Height;
 
-        /// <summary>This box without a margin on each side.</summary>
         public Box Inside(double left, double top, double right, double bottom) =>
             new Box(Left + left, Top + top, Width - left - right, Height - top - bottom);
 
-        /// <summary>This box without the same margin on every side.</summary>
         public Box Inside(double margin) => Inside(margin, margin, margin, margin);
 
         /// <summary>This box with its edges rounded to the edges of pixels, so that they are sharp.</summary>
@@ -138,7 +135,6 @@ namespace HaptoFlow.Preview
         public Box Rows(double from, double height) => new Box(Left, Top + from, Width, height);
     }
 
-    /// <summary>Dashed lines.</summary>
     internal static class Dashes
     {
         private const double DashPoints = 5.0;

@@ -37,20 +37,16 @@ namespace HaptoFlow.Preview
                 footer.MiddleY + 3.0, Card.TitleSize, palette.Ink);
         }
 
-        /// <summary>Where the panel shows the spectra: a card with a title and its charts.</summary>
         public static Box Spectra(Box box) => box.Rows(0.0, Math.Round(0.54 * (box.Height - FooterHeight)));
 
-        /// <summary>Where the panel shows the levels.</summary>
         public static Box Levels(Box box)
         {
             Box lower = Lower(box);
             return lower.Columns(0.0, lower.Width - FiguresWidth - Card.Gap);
         }
 
-        /// <summary>Where the panel shows the kurtosis.</summary>
         public static Box Kurtosis(Box box) => Figures(box).Rows(0.0, 0.5 * (Figures(box).Height - Card.Gap));
 
-        /// <summary>Where the panel shows the ribs.</summary>
         public static Box Ribs(Box box)
         {
             Box upper = Kurtosis(box);

@@ -26,10 +26,8 @@ namespace HaptoFlow.Preview
         public double? SpectralDistanceDb { get; set; }
         public double? LevelErrorDb { get; set; }
 
-        /// <summary>Duration of the sliding that was recorded.</summary>
         public double? SlidingSeconds { get; set; }
 
-        /// <summary>Duration of the learning.</summary>
         public double? Seconds { get; set; }
 
         public Noise SensorNoise { get; set; } = new Noise();
@@ -117,7 +115,6 @@ namespace HaptoFlow.Preview
             public double XCyclesPerMm { get; set; }
             public double YCyclesPerMm { get; set; }
 
-            /// <summary>Distance of the ribs.</summary>
             public double Millimetres => 1.0 / Math.Sqrt(XCyclesPerMm * XCyclesPerMm + YCyclesPerMm * YCyclesPerMm);
         }
 
@@ -139,7 +136,6 @@ namespace HaptoFlow.Preview
             public double[] Decibels { get; set; } = Array.Empty<double>();
         }
 
-        /// <summary>One range of speed.</summary>
         internal sealed class AtSpeed
         {
             public double SpeedMps { get; set; }
@@ -155,7 +151,6 @@ namespace HaptoFlow.Preview
             public Figures[] Sides => new[] { NearestLabel, Recorded, Learnt };
         }
 
-        /// <summary>One range of force.</summary>
         internal sealed class AtForce
         {
             public double ForceNewtons { get; set; }

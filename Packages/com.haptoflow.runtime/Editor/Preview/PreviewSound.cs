@@ -14,7 +14,6 @@ namespace HaptoFlow.Preview
         public const float FullScaleMps2 = (float)HapticEngineOptions.DefaultFullScaleMps2;
 
         /// <param name="samples">In units of <see cref="FullScaleMps2"/>, -1 to 1.</param>
-        /// <param name="device">The device that plays them.</param>
         public PreviewSound(
             LabelMix material, Stroke stroke, float[] samples, PreviewDevice device = PreviewDevice.Actuator)
         {

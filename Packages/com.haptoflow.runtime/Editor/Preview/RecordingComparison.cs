@@ -32,10 +32,8 @@ namespace HaptoFlow.Preview
     internal sealed record ComparisonResult(
         ComparisonRequest Request, IReadOnlyList<AnalysedSound> Sounds, string? Problem)
     {
-        /// <summary>Draws the sounds.</summary>
         public SoundPanel Panel { get; } = new SoundPanel(Sounds);
 
-        /// <summary>Index of the sound that is played.</summary>
         public int Active => Math.Min(Request.Active, Sounds.Count - 1);
     }
 

@@ -190,7 +190,6 @@ namespace HaptoFlow.Preview
         }
     }
 
-    /// <summary>Conversions to decibels.</summary>
     internal static class Levels
     {
         /// <summary>10 log10 of a power; minus infinity for zero.</summary>

@@ -47,7 +47,6 @@ namespace HaptoFlow.Editor
 
         protected float Peak => Sounds.Select(each => each.Sound.Peak).DefaultIfEmpty().Max();
 
-        /// <summary>Plays from the beginning, or stops.</summary>
         public void Toggle()
         {
             if (IsPlaying)
@@ -149,7 +148,6 @@ namespace HaptoFlow.Editor
             play!.Invoke(null, new object[] { clip, startSample < samples.Length ? startSample : 0, loops });
         }
 
-        /// <summary>Stops playback and destroys the clip.</summary>
         public void Stop()
         {
             if (clip == null)
@@ -244,14 +242,12 @@ namespace HaptoFlow.Editor
             felt.Stop();
         }
 
-        /// <summary>Stops, and forgets the device.</summary>
         public void Close()
         {
             Stop();
             felt.Close();
         }
 
-        /// <inheritdoc/>
         public override bool Step()
         {
             felt.Device = state.FeltOn;

@@ -53,7 +53,6 @@ namespace HaptoFlow.Editor
     {
         private readonly Action changed;
 
-        /// <summary>Subscribes. Dispose the object to unsubscribe.</summary>
         public SceneChanges(Action changed)
         {
             this.changed = changed;
