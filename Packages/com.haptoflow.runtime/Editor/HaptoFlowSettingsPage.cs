@@ -130,7 +130,6 @@ namespace HaptoFlow.Editor
         }
     }
 
-    /// <summary>The Inspector of a settings asset.</summary>
     [CustomEditor(typeof(HaptoFlowSettings))]
     [CanEditMultipleObjects]
     internal sealed class HaptoFlowSettingsEditor : UnityEditor.Editor

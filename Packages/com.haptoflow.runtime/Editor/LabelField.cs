@@ -101,7 +101,6 @@ namespace HaptoFlow.Editor
     /// <param name="Label">The label that the entry chooses; empty for none.</param>
     internal sealed record LabelOption(string Text, string Label);
 
-    /// <summary>The entries in the dropdown list of a label.</summary>
     internal static class LabelOptions
     {
         /// <summary>The entries in this order: the current name if the model does not have it, labels with similar

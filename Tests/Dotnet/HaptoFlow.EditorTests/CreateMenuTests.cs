@@ -1,6 +1,5 @@
 using System;
 using System.Collections.Generic;
-using System.Globalization;
 using System.IO;
 using System.Linq;
 using System.Text.RegularExpressions;
@@ -201,11 +200,12 @@ namespace HaptoFlow.EditorTests
         public void TheMenuMakesTheObjectsOfTheSamplesSceneFile(string sample)
         {
             Menus[sample]();
-            var file = new PrefabFile(SampleFiles.Scene(sample));
-            IEnumerable<string> written = file.Objects.Where(each => each.Type == "Transform")
-                .Select(place => Describe(file, place));
-            IEnumerable<string> made = default(UnityEngine.SceneManagement.Scene).GetRootGameObjects().Select(Describe);
-            Assert.That(made, Is.EqualTo(written));
+            GameObject[] made = default(UnityEngine.SceneManagement.Scene).GetRootGameObjects();
+            string path = SampleFiles.Scene(sample);
+            Assert.That(Regex.Matches(File.ReadAllText(path), @"  model: {fileID: \d+, guid: (\w+)")
+                .Select(match => match.Groups[1].Value), Is.EqualTo(All<BuiltScene>().Select(each => GuidOf(each.Model!))));
+            Assert.That(ProjectScene.Load(path).Roots.Select(SceneText.Of), Is.EqualTo(made.Select(SceneText.Of)));
+            var file = new PrefabFile(path);
             PrefabObject render = file.Objects.Single(each => each.Type == "RenderSettings");
             Assert.That(((int)RenderSettings.ambientMode).ToString(), Is.EqualTo(render["m_AmbientMode"]));
             Assert.That(Numbers(RenderSettings.ambientLight), Is.EqualTo(Numbers(render["m_AmbientSkyColor"])));
@@ -259,79 +259,7 @@ namespace HaptoFlow.EditorTests
             Assert.That(made, Has.Length.EqualTo(3));
         }
 
-        private static string Describe(PrefabFile file, PrefabObject place)
-        {
-            PrefabObject owner = file[PrefabObject.Reference(place["m_GameObject"])];
-            IEnumerable<string> components = file.ComponentsOf(place).Select(each => Describe(file, each, each.Type));
-            return Lines(owner["m_Name"], owner["m_TagString"], components);
-        }
-
-        private static string Describe(PrefabFile file, PrefabObject written, string type) => type switch
-        {
-            "Transform" => Line(type, Numbers(written["m_LocalPosition"]), Numbers(written["m_LocalRotation"]),
-                Numbers(written["m_LocalScale"])),
-            "Camera" => Line(type, Number(written["m_ClearFlags"]), Numbers(written["m_BackGroundColor"]),
-                Number(written["near clip plane"]), Number(written["far clip plane"]), Number(written["field of view"]),
-                Number(written["m_Depth"])),
-            "Light" => Line(type, Number(written["m_Type"]), Numbers(written["m_Color"]),
-                Number(written["m_Intensity"]), Number(written["m_Shadows.m_Type"])),
-            "MonoBehaviour" => Script(file, written),
-            _ => type,
-        };
-
-        private static string Script(PrefabFile file, PrefabObject written)
-        {
-            string name = Path.GetFileNameWithoutExtension(FileOf(GuidIn(written["m_Script"])));
-            return written.ScriptFields.Contains("view")
-                ? $"{name} {Path.GetFileName(FileOf(GuidIn(written["model"])))} " +
-                    file[PrefabObject.Reference(written["view"])].Type
-                : name;
-        }
-
-        private static string Describe(GameObject owner)
-        {
-            var components = new List<Component>();
-            owner.transform.GetComponents(components);
-            return Lines(owner.name, owner.tag, components.Select(Describe));
-        }
-
-        private static string Describe(Component made)
-        {
-            string type = made.GetType().Name;
-            switch (made)
-            {
-                case Transform place:
-                    Quaternion turn = place.localRotation;
-                    return Line(type, Numbers(place.localPosition), new[] { turn.x, turn.y, turn.z, turn.w },
-                        Numbers(place.localScale));
-                case Camera camera:
-                    return Line(type, new[] { (float)camera.clearFlags }, Numbers(camera.backgroundColor),
-                        new[] { camera.nearClipPlane }, new[] { camera.farClipPlane }, new[] { camera.fieldOfView },
-                        new[] { camera.depth });
-                case Light light:
-                    return Line(type, new[] { (float)light.type }, Numbers(light.color), new[] { light.intensity },
-                        new[] { (float)light.shadows });
-                case BuiltScene scene:
-                    return $"{type} {Path.GetFileName(AssetDatabase.GetAssetPath(scene.Model!))} " +
-                        scene.View!.GetType().Name;
-                default:
-                    return type;
-            }
-        }
-
-        // Unity adds a component that another one requires before that one; a scene file may have any order.
-        private static string Lines(string name, string tag, IEnumerable<string> components) =>
-            $"{name} [{tag}]\n{string.Join("\n", components.OrderBy(each => each, StringComparer.Ordinal))}";
-
-        private static string Line(string type, params float[][] values) => type + " " + string.Join(" ",
-            values.Select(each => string.Join(",", each.Select(
-                value => (Math.Round(value, 4) + 0.0).ToString(CultureInfo.InvariantCulture)))));
-
-        private static float[] Number(string text) => new[] { float.Parse(text, CultureInfo.InvariantCulture) };
-
         private static float[] Numbers(string text) => PrefabObject.Numbers(text);
-
-        private static float[] Numbers(Vector3 vector) => new[] { vector.x, vector.y, vector.z };
 
         private static float[] Numbers(Color colour) => new[] { colour.r, colour.g, colour.b, colour.a };
 
@@ -339,10 +267,6 @@ namespace HaptoFlow.EditorTests
 
         private static string GuidOf(Object asset) => GuidIn(File.ReadAllText(
             RepositoryFiles.In(AssetDatabase.GetAssetPath(asset).Split('/')) + ".meta"));
-
-        private static string FileOf(string guid) => Directory
-            .EnumerateFiles(RepositoryFiles.In("Packages", "com.haptoflow.runtime"), "*.meta", SearchOption.AllDirectories)
-            .Single(meta => File.ReadAllText(meta).Contains("guid: " + guid)).Replace(".meta", "");
 
         private static object? PrivateField(object owner, string name) => owner.GetType().GetField(
             name, System.Reflection.BindingFlags.Instance | System.Reflection.BindingFlags.NonPublic)!.GetValue(owner);

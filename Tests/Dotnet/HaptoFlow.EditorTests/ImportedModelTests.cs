@@ -24,7 +24,7 @@ namespace HaptoFlow.EditorTests
             Assert.That(model.Header.Tiers.Select(tier => tier.Name),
                 Is.EqualTo(new[] { "published-1-unguided", "published-1", "published" }));
             Assert.That(model.Header.Labels.Select(label => label.Name), Is.SupersetOf(new[] { "wool felt", "wood" }));
-            Assert.That(ModelSummary.Of(model).Origin.Single(row => row.Name == "Level").Value,
+            Assert.That(ModelSummary.Of(model).Rows.Single(row => row.Name == "Level").Value,
                 Is.EqualTo("level assumed"));
         }
 

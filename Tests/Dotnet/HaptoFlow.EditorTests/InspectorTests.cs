@@ -240,6 +240,21 @@ namespace HaptoFlow.EditorTests
                 }));
         }
 
+        [Test]
+        public void ForceThresholdsAreShownOnlyForMeasuredForce()
+        {
+            HapticStylus stylus = Stylus();
+            Assert.That(Fields(stylus), Has.No.Member("Press Force (N)"));
+            EditorScreen.Enter("Touch By", TouchDecision.MeasuredForce);
+            Draw(stylus);
+            Assert.That(stylus.TouchBy, Is.EqualTo(TouchDecision.MeasuredForce));
+            Assert.That(Fields(stylus), Has.Member("Press Force (N)"));
+            EditorScreen.Enter("Press Force (N)", 0.25f);
+            Draw(stylus);
+            Assert.That(stylus.ForceDecision.PressNewtons, Is.EqualTo(0.25f));
+            Assert.That(Draw(stylus).Select(item => item.Label), Has.Some.Contains("geometry decides"));
+        }
+
         internal static IReadOnlyList<Drawn> Draw(params Object[] targets)
         {
             UnityEditor.Editor editor = UnityEditor.Editor.CreateEditor(targets);
@@ -258,29 +273,6 @@ namespace HaptoFlow.EditorTests
             Draw(surface);
             AdvancedDropdown.Shown!.Pick(chosen);
         }
-    }
-
-    public sealed class StylusInspectorTests : EditorTest
-    {
-        [Test]
-        public void ForceThresholdsAreShownOnlyForMeasuredForce()
-        {
-            HapticStylus stylus = Stylus();
-            Assert.That(Fields(stylus), Has.No.Member("Press Force (N)"));
-            EditorScreen.Enter("Touch By", TouchDecision.MeasuredForce);
-            Fields(stylus);
-            Assert.That(stylus.TouchBy, Is.EqualTo(TouchDecision.MeasuredForce));
-            Assert.That(Fields(stylus), Has.Member("Press Force (N)"));
-            EditorScreen.Enter("Press Force (N)", 0.25f);
-            Fields(stylus);
-            Assert.That(stylus.ForceDecision.PressNewtons, Is.EqualTo(0.25f));
-            Assert.That(EditorScreen.Draw(UnityEditor.Editor.CreateEditor(new UnityEngine.Object[] { stylus }).OnInspectorGUI)
-                .Select(item => item.Label), Has.Some.Contains("geometry decides"));
-        }
-
-        private static string[] Fields(HapticStylus stylus) => EditorScreen
-            .Draw(UnityEditor.Editor.CreateEditor(new UnityEngine.Object[] { stylus }).OnInspectorGUI)
-            .Where(item => item.Kind == DrawnKind.Field).Select(item => item.Label).ToArray();
     }
 
     public sealed class FieldTooltipTests : EditorTest

@@ -50,7 +50,7 @@ namespace HaptoFlow.PreviewTests
                 Active = 1,
             }, CancellationToken.None);
             Assert.That(result.Problem, Is.Null);
-            LearningCurves curves = LearningReport.Read(learning.Report!)!.Curves!;
+            LearningReport curves = LearningReport.Read(learning.Report!)!;
             Box charts = new PreviewLayout(1200.0, 700.0, PreviewRoom.WithoutStroke).Charts;
             Draw("new-material.png", charts, (canvas, box) => result.Panel.Draw(canvas, Palette.Dark, box, result.Active));
             Draw("new-material-curves.png", charts, (canvas, box) => LearningPanel.Draw(canvas, Palette.Dark, box, curves));

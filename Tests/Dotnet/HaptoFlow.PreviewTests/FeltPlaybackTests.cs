@@ -20,6 +20,9 @@ namespace HaptoFlow.PreviewTests
         [TearDown]
         public void ForgetDevices() => HeldDevices.Reset();
 
+        [SetUp]
+        public void ChooseALongStroke() => State.ContactSeconds = 4f;
+
         [Test]
         public void AGamepadGetsTheEnvelopeWhileTheSoundPlaysAndStopsWithIt()
         {
@@ -27,7 +30,7 @@ namespace HaptoFlow.PreviewTests
             Play(0.2);
             Assert.That(pad.Speeds, Is.Empty, "no device was chosen");
             Press("Stop");
-            Feel(pad);
+            State.Change("Device", state => state.FeltOn = FeltDevice.Gamepad);
             Updates(0.2);
             Assert.That(pad.Speeds, Is.Empty, "nothing plays yet");
             Play(0.25);
@@ -43,8 +46,7 @@ namespace HaptoFlow.PreviewTests
         [Test]
         public void ARealDeviceNeverPlaysTheSoundOfASimulatedOne()
         {
-            State.ContactSeconds = 4f;
-            HeldGamepad pad = Feel(HeldGamepad.Take("A pad"));
+            HeldGamepad pad = FeelPad();
             Play(1.0);
             (float, float)[] direct = pad.Speeds.Select(each => (each.Low, each.High)).ToArray();
             Press("Stop");
@@ -64,8 +66,7 @@ namespace HaptoFlow.PreviewTests
         [Test]
         public void APadThatIsPulledOutAndReturnsIsFeltAgain()
         {
-            State.ContactSeconds = 4f;
-            HeldGamepad pad = Feel(HeldGamepad.Take("A pad"));
+            HeldGamepad pad = FeelPad();
             Play(0.5);
             pad.IsCurrent = false;
             Updates(0.5);
@@ -80,8 +81,7 @@ namespace HaptoFlow.PreviewTests
         [Test]
         public void AnotherPadTakesOverAndTheFirstOneStops()
         {
-            State.ContactSeconds = 4f;
-            HeldGamepad first = Feel(HeldGamepad.Take("A pad"));
+            HeldGamepad first = FeelPad();
             Play(0.5);
             HeldGamepad second = HeldGamepad.Take("Another pad");
             Updates(0.5);
@@ -93,8 +93,7 @@ namespace HaptoFlow.PreviewTests
         [TestCase(true)]
         public void ClosingTheWindowOrReloadingScriptsStopsTheMotors(bool reloads)
         {
-            State.ContactSeconds = 4f;
-            HeldGamepad pad = Feel(HeldGamepad.Take("A pad"));
+            HeldGamepad pad = FeelPad();
             Play(0.5);
             Assert.That(Strengths(pad).Last(), Is.GreaterThan(0f));
             if (reloads)
@@ -111,8 +110,7 @@ namespace HaptoFlow.PreviewTests
         [Test]
         public void ChoosingNoneStopsTheMotorsAndTheSpeakersPlayOn()
         {
-            State.ContactSeconds = 4f;
-            HeldGamepad pad = Feel(HeldGamepad.Take("A pad"));
+            HeldGamepad pad = FeelPad();
             Play(0.5);
             Undo.IncrementCurrentGroup();
             EditorScreen.Enter("Feel on", (int)FeltDevice.None);
@@ -128,7 +126,6 @@ namespace HaptoFlow.PreviewTests
         [Test]
         public void AControllerOfAHeadsetIsFoundInPlayModeOnly()
         {
-            State.ContactSeconds = 4f;
             XrHand.Right.Take("Some controller", true);
             State.Change("Device", state => state.FeltOn = FeltDevice.LeftHand);
             Play(0.5);
@@ -145,7 +142,6 @@ namespace HaptoFlow.PreviewTests
         [Test]
         public void AControllerThatTakesWaveformsGetsTheWaveform()
         {
-            State.ContactSeconds = 4f;
             XrHand.Left.Take("A controller with buffers", true, 500u);
             EditorSession.Play();
             State.Change("Device", state => state.FeltOn = FeltDevice.LeftHand);
@@ -158,7 +154,6 @@ namespace HaptoFlow.PreviewTests
         [Test]
         public void OutputsOfASceneThatPlaysLeaveTheHandToThePreview()
         {
-            State.ContactSeconds = 4f;
             XrHand.Right.Take("Some controller", true);
             EditorSession.Play();
             State.Change("Device", state => state.FeltOn = FeltDevice.RightHand);
@@ -173,10 +168,9 @@ namespace HaptoFlow.PreviewTests
         [Test]
         public void TheProjectsCeilingLimitsThePreviewOnADevice()
         {
-            State.ContactSeconds = 4f;
             State.First.Label = "sandpaper";
             ProjectSettingsAsset.FindOrCreate().Ceiling = 0.1f;
-            HeldGamepad pad = Feel(HeldGamepad.Take("A pad"));
+            HeldGamepad pad = FeelPad();
             Play(1.0);
             Assert.That(Strengths(pad).Max(), Is.InRange(0.05f, 0.1001f));
         }
@@ -241,10 +235,10 @@ namespace HaptoFlow.PreviewTests
 
         private static IEnumerable<float> Strengths(HeldGamepad pad) => pad.Speeds.Select(each => each.Low + each.High);
 
-        private HeldGamepad Feel(HeldGamepad pad)
+        private HeldGamepad FeelPad()
         {
             State.Change("Device", state => state.FeltOn = FeltDevice.Gamepad);
-            return pad;
+            return HeldGamepad.Take("A pad");
         }
 
         private void Play(double seconds)

@@ -1,9 +1,7 @@
 using System;
-using System.Collections.Generic;
-using System.Globalization;
 using System.Linq;
 using HaptoFlow.Preview;
-using HaptoFlow.Tests.Support;
+using Newtonsoft.Json;
 using NUnit.Framework;
 
 namespace HaptoFlow.PreviewTests
@@ -14,28 +12,22 @@ namespace HaptoFlow.PreviewTests
         private static SkiaCanvas Panel(Palette palette, Box box, string report, double pixelsPerPoint = 1.0)
         {
             var canvas = new SkiaCanvas(box.Width, box.Height, pixelsPerPoint, palette.Window);
-            LearningPanel.Draw(canvas, palette, canvas.Whole, LearningReport.Read(report)!.Curves!);
+            LearningPanel.Draw(canvas, palette, canvas.Whole, LearningReport.Read(report)!);
             return canvas;
-        }
-
-        private static void Save(string name, SkiaCanvas canvas)
-        {
-            canvas.Save(RepositoryFiles.In("out", "test", "preview", name + ".png"));
-            LegibleTexts.Check(canvas);
         }
 
         /// <summary>Share of a plot's columns of pixels that have a colour, between two speeds.</summary>
         private static double Drawn(SkiaCanvas canvas, Box plot, Colour colour, double lowMps, double highMps)
         {
             double Place(double mps) =>
-                plot.Left + plot.Width * System.Math.Log10(mps / 0.005) / System.Math.Log10(1.0 / 0.005);
+                plot.Left + plot.Width * Math.Log10(mps / 0.005) / Math.Log10(1.0 / 0.005);
             int[] columns = Enumerable.Range((int)Place(lowMps), (int)(Place(highMps) - Place(lowMps))).ToArray();
             return columns.Count(x => Enumerable.Range((int)plot.Top, (int)plot.Height)
                 .Any(y => Near(canvas[x, y], colour))) / (double)columns.Length;
         }
 
-        private static bool Near(Colour one, Colour other) => System.Math.Abs(one.Red - other.Red) < 40 &&
-            System.Math.Abs(one.Green - other.Green) < 40 && System.Math.Abs(one.Blue - other.Blue) < 40;
+        private static bool Near(Colour one, Colour other) => Math.Abs(one.Red - other.Red) < 40 &&
+            Math.Abs(one.Green - other.Green) < 40 && Math.Abs(one.Blue - other.Blue) < 40;
 
         [Test]
         public void TheLearntLevelIsSolidWhereItWasRecordedAndDashedWhereNot([Values] bool dark)
@@ -43,7 +35,7 @@ namespace HaptoFlow.PreviewTests
             Palette palette = dark ? Palette.Dark : Palette.Light;
             using SkiaCanvas canvas =
                 Panel(palette, new PreviewLayout(1200.0, 700.0, PreviewRoom.WithoutStroke).Charts, MadeReports.Of(6, 2, 1));
-            Save(dark ? "curves-dark" : "curves-light", canvas);
+            LegibleTexts.Save(dark ? "curves-dark" : "curves-light", canvas);
             for (int force = 0; force < 2; ++force)
             {
                 Box plot = LearningPanel.LevelPlot(canvas.Whole, force, 2);
@@ -59,7 +51,7 @@ namespace HaptoFlow.PreviewTests
         {
             using SkiaCanvas canvas = Panel(Palette.Light,
                 new PreviewLayout(0.0, 0.0, PreviewRoom.WithoutStroke).Charts, MadeReports.Of(speeds, forces, ribs));
-            Save($"curves-smallest-{speeds}-{forces}-{ribs}", canvas);
+            LegibleTexts.Save($"curves-smallest-{speeds}-{forces}-{ribs}", canvas);
         }
 
         [TestCase("record slower strokes, down to 20 mm/s", "To gain most, record slower strokes, down to 20 mm/s.")]
@@ -75,12 +67,12 @@ namespace HaptoFlow.PreviewTests
         [TestCase("{\"nearest_label\": \"wood\", \"turn_degrees\": 0}")]
         [TestCase("not JSON")]
         public void AReportWithoutCurvesIsNotDrawn(string report) =>
-            Assert.That(LearningReport.Read(report)?.Curves, Is.Null);
+            Assert.That(LearningReport.Read(report)?.HasCurves, Is.Not.True);
 
         [Test]
         public void UnknownFiguresOfAReportAreRead()
         {
-            LearningCurves curves = LearningReport.Read(MadeReports.Of(2, 1, 1))!.Curves!;
+            LearningReport curves = LearningReport.Read(MadeReports.Of(2, 1, 1))!;
             Assert.That(curves.Spectra.Speeds[1].Learnt.RibsDb, Is.EqualTo(new double?[] { -6.1, null }));
             Assert.That(curves.Spectra.Speeds[1].Recorded.Kurtosis, Is.EqualTo(3.4));
             Assert.That(curves.Levels.Forces.Single().RecordedSpeedMps, Is.EqualTo(new[] { 0.02, 0.034 }));
@@ -98,42 +90,50 @@ namespace HaptoFlow.PreviewTests
         public static string Of(int speeds, int forces, int ribs,
             string recordNext = "record faster strokes, up to 300 mm/s: above 250 mm/s the material is a guess")
         {
-            IReadOnlyList<double> frequencies = Enumerable.Range(0, 35).Select(step => 15.625 * Math.Pow(2.0, step / 6.0))
-                .ToArray();
-            IReadOnlyList<double> law = Enumerable.Range(0, 25).Select(step => 0.005 * Math.Pow(200.0, step / 24.0))
-                .ToArray();
-            return "{\"nearest_label\": \"metal mesh\", \"record_next\": \"" + recordNext + "\", \"wave_vectors\": [" +
-                string.Join(", ", Enumerable.Repeat("{\"x_cycles_per_mm\": 0.9, \"y_cycles_per_mm\": 0.0}", ribs)) +
-                "], \"spectra\": {\"frequencies_hz\": " + Array(frequencies) + ", \"speeds\": [" +
-                string.Join(", ", Speeds.Take(speeds).Select(speed => AtSpeed(speed, ribs, frequencies))) +
-                "]}, \"levels\": {\"speeds_mps\": " + Array(law) + ", \"forces\": [" +
-                string.Join(", ", Enumerable.Range(1, forces).Select(force => AtForce(0.5 * force, speeds, ribs, law))) +
-                "]}}";
+            double[] frequencies = Enumerable.Range(0, 35).Select(step => 15.625 * Math.Pow(2.0, step / 6.0)).ToArray();
+            double[] law = Enumerable.Range(0, 25).Select(step => 0.005 * Math.Pow(200.0, step / 24.0)).ToArray();
+            return JsonConvert.SerializeObject(new
+            {
+                nearest_label = "metal mesh",
+                record_next = recordNext,
+                wave_vectors = Enumerable.Repeat(new { x_cycles_per_mm = 0.9, y_cycles_per_mm = 0.0 }, ribs),
+                spectra = new
+                {
+                    frequencies_hz = frequencies,
+                    speeds = Speeds.Take(speeds).Select(speed => AtSpeed(speed, ribs, frequencies)),
+                },
+                levels = new
+                {
+                    speeds_mps = law,
+                    forces = Enumerable.Range(1, forces).Select(force => 0.5 * force).Select(newtons => new
+                    {
+                        force_newtons = newtons,
+                        recorded_speed_mps = new[] { Speeds[0], Speeds[speeds - 1] },
+                        learnt_mps2 = law.Select(speed => 15.0 * newtons * speed),
+                        nearest_label_mps2 = law.Select(speed => 8.0 * newtons * Math.Sqrt(speed)),
+                        speeds = Speeds.Take(speeds).Select(speed => AtSpeed(speed, ribs, null, newtons)),
+                    }),
+                },
+            });
         }
 
-        private static string AtForce(double newtons, int speeds, int ribs, IReadOnlyList<double> law) =>
-            "{\"force_newtons\": " + Text(newtons) + ", \"recorded_speed_mps\": " +
-            Array(new[] { Speeds[0], Speeds[speeds - 1] }) + ", \"learnt_mps2\": " +
-            Array(law.Select(speed => 15.0 * newtons * speed)) + ", \"nearest_label_mps2\": " +
-            Array(law.Select(speed => 8.0 * newtons * Math.Sqrt(speed))) + ", \"speeds\": [" +
-            string.Join(", ", Speeds.Take(speeds).Select(speed => AtSpeed(speed, ribs, null, newtons))) + "]}";
-
-        private static string AtSpeed(
-            double speed, int ribs, IReadOnlyList<double>? frequencies, double gain = 1.0) =>
-            "{\"speed_mps\": " + Text(speed) + ", \"seconds\": 1.7, \"recorded\": " + Figures(gain * speed, 3.4, ribs, frequencies) +
-            ", \"learnt\": " + Figures(1.1 * gain * speed, 3.1, ribs, frequencies) + ", \"nearest_label\": " +
-            Figures(2.0 * gain * speed, 5.0, ribs, frequencies) + "}";
-
-        private static string Figures(double speed, double kurtosis, int ribs, IReadOnlyList<double>? frequencies)
+        private static object AtSpeed(double speed, int ribs, double[]? frequencies, double gain = 1.0) => new
         {
-            string curve = frequencies == null ? "" : ", \"decibels\": " + Array(frequencies.Select(hertz =>
-                20.0 * Math.Log10(speed) - 3.0 * Math.Abs(Math.Log(hertz / 180.0, 2.0))));
-            return "{\"frames\": 27, \"rms_mps2\": " + Text(15.0 * speed) + ", \"kurtosis\": " + Text(kurtosis) +
-                ", \"ribs_db\": [" + (ribs > 0 ? "-6.1" : "null") + ", " + (ribs > 1 ? "-14.0" : "null") + "]" + curve + "}";
-        }
+            speed_mps = speed,
+            seconds = 1.7,
+            recorded = Figures(gain * speed, 3.4, ribs, frequencies),
+            learnt = Figures(1.1 * gain * speed, 3.1, ribs, frequencies),
+            nearest_label = Figures(2.0 * gain * speed, 5.0, ribs, frequencies),
+        };
 
-        private static string Array(IEnumerable<double> values) => "[" + string.Join(", ", values.Select(Text)) + "]";
-
-        private static string Text(double value) => value.ToString("R", CultureInfo.InvariantCulture);
+        private static object Figures(double speed, double kurtosis, int ribs, double[]? frequencies) => new
+        {
+            frames = 27,
+            rms_mps2 = 15.0 * speed,
+            kurtosis,
+            ribs_db = new[] { ribs > 0 ? -6.1 : (double?)null, ribs > 1 ? -14.0 : (double?)null },
+            decibels = frequencies?.Select(hertz =>
+                20.0 * Math.Log10(speed) - 3.0 * Math.Abs(Math.Log(hertz / 180.0, 2.0))),
+        };
     }
 }

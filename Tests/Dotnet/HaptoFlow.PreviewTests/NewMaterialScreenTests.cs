@@ -3,7 +3,6 @@ using System.Collections.Generic;
 using System.IO;
 using System.Linq;
 using HaptoFlow.Editor;
-using HaptoFlow.Model;
 using HaptoFlow.Preview;
 using HaptoFlow.Tests.Support;
 using NUnit.Framework;
@@ -14,36 +13,18 @@ using UnityShim;
 namespace HaptoFlow.PreviewTests
 {
     /// <summary>Tests of the New Material window that need the shim: controls, dialogs, playback, clean-up.</summary>
-    public sealed class NewMaterialScreenTests
+    public sealed class NewMaterialScreenTests : NewMaterialTest
     {
-        private NewMaterialWindow window = null!;
-
-        private NewMaterialState State => window.State;
-
         [SetUp]
-        public void OpenWindow()
+        [TearDown]
+        public void Reset()
         {
-            EditorSession.Begin(RepositoryFiles.In("Packages", "com.haptoflow.runtime"));
             Event.current = new Event { type = EventType.Repaint };
             WindowHost.AnswerToSave = null;
             WindowHost.AnswerToOpen = null;
-            NewMaterialWindow.Open();
-            window = EditorWindow.GetWindow<NewMaterialWindow>();
         }
 
-        [TearDown]
-        public void CloseWindow()
-        {
-            if (window != null)
-            {
-                WindowHost.Close(window);
-            }
-            EditorSession.End();
-            WindowHost.AnswerToSave = null;
-            WindowHost.AnswerToOpen = null;
-        }
-
-        private IReadOnlyList<Drawn> Screen() => WindowHost.Draw(window);
+        private IReadOnlyList<Drawn> Screen() => WindowHost.Draw(Window);
 
         private Drawn Button(string caption) => Screen().Single(item => item.Kind == DrawnKind.Button && item.Label == caption);
 
@@ -60,22 +41,17 @@ namespace HaptoFlow.PreviewTests
             Screen();
         }
 
-        private static string Doormat() => Path.Combine(MadeRecordings.DoormatFolder, "doormat.wav.bytes");
-
         /// <summary>The recording of the Workshop sample as a .wav file with its sidecar files.</summary>
-        private static string Wave(bool withSidecar = true)
+        private string Wave(bool withSidecar = true)
         {
-            string folder = Path.Combine(Environment.CurrentDirectory, "Recordings");
-            Directory.CreateDirectory(folder);
-            File.Copy(Doormat(), Path.Combine(folder, "doormat.wav"), true);
-            foreach (string name in new[] { "doormat.json", "doormat.motion.csv" }.Where(_ => withSidecar))
+            foreach (string name in withSidecar
+                ? new[] { "doormat.wav", "doormat.json", "doormat.motion.csv" } : new[] { "doormat.wav" })
             {
-                File.Copy(Path.Combine(Path.GetDirectoryName(Doormat())!, name), Path.Combine(folder, name), true);
+                string stored = name == "doormat.wav" ? name + ".bytes" : name;
+                File.Copy(Path.Combine(MadeRecordings.DoormatFolder, stored), Path.Combine(Folder, name));
             }
-            return Path.Combine(folder, "doormat.wav");
+            return Path.Combine(Folder, "doormat.wav");
         }
-
-        private static string Text() => MaterialText.OfLabel(ProjectSettingsAsset.DefaultModel()!.File, "jute");
 
         [Test]
         public void ButtonsAreDisabledUntilARecordingIsChosen()
@@ -91,9 +67,9 @@ namespace HaptoFlow.PreviewTests
         [Test]
         public void EveryFieldChangesItsSettingWithUndo()
         {
-            window.Take(Wave(false));
-            window.Finish();
-            var cases = new (string Label, object Value, Func<object> Kept)[]
+            Window.Take(Wave(false));
+            Window.Finish();
+            ScreenFields.AssertChangedAndUndone(Window, new (string, object, Func<object>)[]
             {
                 ("Speed [m/s]", 0.5f, () => State.SpeedMps),
                 ("Force [N]", 2.5f, () => State.ForceNewtons),
@@ -104,16 +80,7 @@ namespace HaptoFlow.PreviewTests
                 ("Description", "A mat.", () => State.Description),
                 ("Loop", true, () => State.Loops),
                 ("Match Levels", true, () => State.MatchesLevels),
-            };
-            foreach ((string label, object value, Func<object> kept) in cases)
-            {
-                object before = kept();
-                Undo.IncrementCurrentGroup();
-                Enter(label, value);
-                Assert.That(kept(), Is.EqualTo(value), label);
-                Undo.PerformUndo();
-                Assert.That(kept(), Is.EqualTo(before), label);
-            }
+            });
         }
 
         [Test]
@@ -121,25 +88,25 @@ namespace HaptoFlow.PreviewTests
         {
             WindowHost.AnswerToOpen = () => Wave(false);
             Press("Choose Recording\u2026");
-            window.Finish();
+            Window.Finish();
             Assert.That(Screen().Single(item => item.Value == "Error").Label, Does.Contain("no key 'full_scale_mps2'"));
             Enter("Full Scale [m/s\u00b2]", 13f);
-            window.Finish();
+            Window.Finish();
             Assert.That(Screen().Where(item => item.Value == "Error"), Is.Empty);
             Assert.That(Screen().Select(item => item.Label), Has.Some.StartsWith("Enter the speed and the force"));
             Enter("Speed [m/s]", 0.1f);
             Enter("Force [N]", 1f);
-            window.Finish();
+            Window.Finish();
             Assert.That(Button("Learn").Enabled, Is.True);
-            Assert.That(window.Session!.Recording!.VelocityAt(100).X, Is.EqualTo(0.1).Within(1e-7));
-            Assert.That(window.Session.Recording.ForceAt(100), Is.EqualTo(1.0));
+            Assert.That(Window.Session!.Recording!.VelocityAt(100).X, Is.EqualTo(0.1).Within(1e-7));
+            Assert.That(Window.Session.Recording.ForceAt(100), Is.EqualTo(1.0));
         }
 
         [Test]
         public void AProgressBarReplacesTheLearnButtonDuringLearning()
         {
-            window.Take(Wave());
-            window.Finish();
+            Window.Take(Wave());
+            Window.Finish();
             Assert.That(Screen().Where(item => item.Label == "Speed [m/s]" || item.Label == "Force [N]")
                 .Select(item => item.Enabled), Is.EqualTo(new[] { false, false }), "the file's own values stay");
             Press("Learn");
@@ -147,7 +114,7 @@ namespace HaptoFlow.PreviewTests
             Assert.That(drawn.Count(item => item.Kind == DrawnKind.Bar), Is.EqualTo(1));
             Assert.That(drawn.Select(item => item.Label), Does.Not.Contain("Learn"));
             Press("Cancel");
-            window.Finish();
+            Window.Finish();
             Assert.That(Button("Learn").Enabled, Is.True);
             Assert.That(Screen().Where(item => item.Value == "Error"), Is.Empty, "cancelling is not an error");
         }
@@ -155,32 +122,31 @@ namespace HaptoFlow.PreviewTests
         [Test]
         public void ADomainReloadEndsLearningAndKeepsTheSettings()
         {
-            window.Take(Wave());
-            window.Finish();
-            State.Change("Material", changed => changed.Material = Text());
+            Window.Take(Wave());
+            Window.Finish();
+            State.Change("Material", changed => changed.Material = Jute());
             Press("Learn");
-            HapticLearning learning = window.Session!.Learning!;
-            WindowHost.Reload(window);
+            HapticLearning learning = Window.Session!.Learning!;
+            WindowHost.Reload(Window);
             Assert.That(learning.IsCompleted, Is.True, "native code must not outlive a domain reload");
-            Assert.That(window.Session!.Learning, Is.Null);
-            Assert.That((State.Name, State.Material), Is.EqualTo(("doormat", Text())));
-            window.Finish();
-            Assert.That(window.Session.Shown!.Sounds, Has.Count.EqualTo(2));
+            Assert.That(Window.Session!.Learning, Is.Null);
+            Assert.That((State.Name, State.Material), Is.EqualTo(("doormat", Jute())));
+            Window.Finish();
+            Assert.That(Window.Session.Shown!.Sounds, Has.Count.EqualTo(2));
         }
 
         [Test]
         public void AClosedWindowFreesTexturesAndClips()
         {
             int before = MediaCount.Alive;
-            window.Take(Wave());
-            window.Finish();
+            Window.Take(Wave());
+            Window.Finish();
             Press("Play");
-            window.Step();
+            Window.Step();
             Assert.That(ClipPreview.Playing, Is.Not.Null);
             Press("Learn");
-            HapticLearning learning = window.Session!.Learning!;
-            WindowHost.Close(window);
-            window = null!;
+            HapticLearning learning = Window.Session!.Learning!;
+            WindowHost.Close(Window);
             Assert.That((learning.IsCompleted, MediaCount.Alive), Is.EqualTo((true, before)));
             Assert.That(ClipPreview.Playing, Is.Null);
             WindowHost.Update();
@@ -189,15 +155,15 @@ namespace HaptoFlow.PreviewTests
         [Test]
         public void SwitchingBetweenRecordingAndResultKeepsThePosition()
         {
-            window.Take(Wave());
-            State.Change("Material", changed => changed.Material = Text());
-            window.Finish();
+            Window.Take(Wave());
+            State.Change("Material", changed => changed.Material = Jute());
+            Window.Finish();
             Press("Play");
-            window.Step();
+            Window.Step();
             AudioClip result = ClipPreview.Playing!;
             ClipPreview.Advance(9600);
             Press("Recording");
-            window.Finish();
+            Window.Finish();
             Assert.That(ClipPreview.Playing, Is.Not.Null.And.Not.SameAs(result));
             Assert.That(ClipPreview.Position, Is.EqualTo(9600));
             Press("Stop");
@@ -207,9 +173,9 @@ namespace HaptoFlow.PreviewTests
         [Test]
         public void CurvesReplaceTheSoundsWithUndoOnceAReportHasThem()
         {
-            window.Take(Wave());
-            State.Change("Material", changed => changed.Material = Text());
-            window.Finish();
+            Window.Take(Wave());
+            State.Change("Material", changed => changed.Material = Jute());
+            Window.Finish();
             Assert.That(Button("Curves").Enabled, Is.False, "the material was not learnt here");
             State.Change("Report", changed => changed.Report = MadeReports.Of(6, 2, 1));
             Undo.IncrementCurrentGroup();
@@ -224,25 +190,25 @@ namespace HaptoFlow.PreviewTests
         [Test]
         public void TheAssetAndTheExportedFileContainTheLearntMaterial()
         {
-            window.Take(Wave());
+            Window.Take(Wave());
             State.Change("Material", changed =>
             {
-                changed.Material = Text();
+                changed.Material = Jute();
                 changed.Report = "{\"nearest_label\": \"jute\"}";
             });
-            window.Finish();
+            Window.Finish();
             WindowHost.AnswerToSave = name => "Assets/" + name;
             Press("Save as Haptic Material\u2026");
             WindowHost.Update();
             var saved = AssetDatabase.LoadAssetAtPath<HapticMaterial>("Assets/jute.asset");
-            Assert.That((saved.Learnt, saved.Description.Label), Is.EqualTo((Text(), "jute")));
+            Assert.That((saved.Learnt, saved.Description.Label), Is.EqualTo((Jute(), "jute")));
             Assert.That(Selection.activeObject, Is.SameAs(saved));
             Press("Export File\u2026");
             WindowHost.Update();
-            Assert.That(File.ReadAllText("Assets/jute.haptomaterial"), Is.EqualTo(Text()));
+            Assert.That(File.ReadAllText("Assets/jute.haptomaterial"), Is.EqualTo(Jute()));
             WindowHost.AnswerToSave = null;
             Press("Save as Haptic Material\u2026");
-            Assert.That(State.Material, Is.EqualTo(Text()), "a cancelled dialog changes nothing");
+            Assert.That(State.Material, Is.EqualTo(Jute()), "a cancelled dialog changes nothing");
         }
     }
 }

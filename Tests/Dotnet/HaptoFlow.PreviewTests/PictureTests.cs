@@ -56,31 +56,11 @@ namespace HaptoFlow.PreviewTests
             return canvas;
         }
 
-        /// <summary>Saves the picture and checks its texts.</summary>
-        private static void Save(string name, SkiaCanvas canvas)
-        {
-            canvas.Save(RepositoryFiles.In("out", "test", "preview", name + ".png"));
-            LegibleTexts.Check(canvas);
-        }
-
         private static SkiaCanvas Stroke(Palette palette, Stroke stroke, double pixelsPerPoint = 1.0)
         {
             var canvas = new SkiaCanvas(312.0, 340.0, pixelsPerPoint, palette.Window);
             StrokePanel.Draw(canvas, palette, canvas.Whole, stroke);
             return canvas;
-        }
-
-        private static int Count(SkiaCanvas canvas, Box box, Predicate<Colour> matches)
-        {
-            int count = 0;
-            for (var y = (int)(box.Top * canvas.PixelsPerPoint); y < (int)(box.Bottom * canvas.PixelsPerPoint); ++y)
-            {
-                for (var x = (int)(box.Left * canvas.PixelsPerPoint); x < (int)(box.Right * canvas.PixelsPerPoint); ++x)
-                {
-                    count += matches(canvas[x, y]) ? 1 : 0;
-                }
-            }
-            return count;
         }
 
         [Test]
@@ -90,13 +70,13 @@ namespace HaptoFlow.PreviewTests
             Palette palette = dark ? Palette.Dark : Palette.Light;
             using SkiaCanvas canvas = Charts(palette, new PreviewLayout(1200.0, 800.0).Charts, pixelsPerPoint, Sounds(
                 StrokePreset.BackAndForth, new LabelMix("corduroy"), new LabelMix("wood", "sandpaper", 0.3f)));
-            Save($"charts-two-{(dark ? "dark" : "light")}-{100 * pixelsPerPoint:0}", canvas);
+            LegibleTexts.Save($"charts-two-{(dark ? "dark" : "light")}-{100 * pixelsPerPoint:0}", canvas);
             Box first = SoundPanel.Waveform(canvas.Whole, 0, 2);
             Box second = SoundPanel.Waveform(canvas.Whole, 1, 2);
-            Assert.That(Count(canvas, first, colour => colour.Equals(palette.First)), Is.GreaterThan(1000));
-            Assert.That(Count(canvas, second, colour => colour.Equals(palette.Second)), Is.GreaterThan(1000));
-            Assert.That(Count(canvas, first, colour => colour.Equals(palette.Second)), Is.Zero);
-            Assert.That(Count(canvas, second, colour => colour.Equals(palette.First)), Is.Zero);
+            Assert.That(canvas.Count(first, palette.First), Is.GreaterThan(1000));
+            Assert.That(canvas.Count(second, palette.Second), Is.GreaterThan(1000));
+            Assert.That(canvas.Count(first, palette.Second), Is.Zero);
+            Assert.That(canvas.Count(second, palette.First), Is.Zero);
         }
 
         [Test]
@@ -105,7 +85,7 @@ namespace HaptoFlow.PreviewTests
             using SkiaCanvas canvas = Charts(dark ? Palette.Dark : Palette.Light, new PreviewLayout(0.0, 0.0).Charts,
                 1.0, Sounds(StrokePreset.Taps, new LabelMix("metal mesh", "cardboard", 0.25f),
                     new LabelMix("sandpaper", "metal mesh", 0.5f)));
-            Save(dark ? "charts-smallest-dark" : "charts-smallest-light", canvas);
+            LegibleTexts.Save(dark ? "charts-smallest-dark" : "charts-smallest-light", canvas);
         }
 
         [Test]
@@ -123,7 +103,7 @@ namespace HaptoFlow.PreviewTests
             using var canvas = new SkiaCanvas(charts.Width, charts.Height, 1.0, palette.Window);
             result.Panel.Draw(canvas, palette, canvas.Whole, 0,
                 QualityRow.Of(MeasuredModel.Header(), MeasuredModel.Timings()), "standard");
-            Save($"charts-relief-{count}-{(dark ? "dark" : "light")}", canvas);
+            LegibleTexts.Save($"charts-relief-{count}-{(dark ? "dark" : "light")}", canvas);
             for (int index = 0; index < count; ++index)
             {
                 IReadOnlyList<Box> plots = result.Panel.Plots(canvas.Whole, index);
@@ -131,9 +111,9 @@ namespace HaptoFlow.PreviewTests
                     "one axis of time");
                 Assert.That(plots[0].Bottom, Is.LessThan(plots[1].Top));
                 Assert.That(plots[1].Bottom, Is.LessThan(plots[2].Top));
-                Assert.That(Count(canvas, plots[1], colour => colour.Equals(palette.Speed)), Is.GreaterThan(100));
+                Assert.That(canvas.Count(plots[1], palette.Speed), Is.GreaterThan(100));
                 Box air = plots[1].Columns(0.0, 0.03 * plots[1].Width);
-                Assert.That(Count(canvas, air, colour => colour.Equals(palette.Speed)), Is.Zero, "before the touch");
+                Assert.That(canvas.Count(air, palette.Speed), Is.Zero, "before the touch");
             }
             Assert.That(canvas.Texts.Select(each => each.Text), Has.Member("mm").And.Member("1.5"));
         }
@@ -144,7 +124,7 @@ namespace HaptoFlow.PreviewTests
             using var canvas = new SkiaCanvas(700.0, 500.0, 1.0, Palette.Dark.Window);
             new SoundPanel(Array.Empty<AnalysedSound>()).Draw(
                 canvas, Palette.Dark, canvas.Whole, 0, Array.Empty<QualityRow>(), "");
-            Save("charts-nothing", canvas);
+            LegibleTexts.Save("charts-nothing", canvas);
             Assert.That(canvas.Texts.Select(each => each.Text), Does.Contain("Spectrum"));
         }
 
@@ -157,8 +137,8 @@ namespace HaptoFlow.PreviewTests
             Box box = SoundPanel.SpectrogramBox(canvas.Whole, 0, 2).Inside(2.0);
             Box air = box.Columns(0.0, 8.0);
             Box touch = box.Columns(0.1 * box.Width, 0.8 * box.Width);
-            Assert.That(Count(canvas, air, colour => colour.Red > 60), Is.Zero, "it is dark before the touch");
-            Assert.That(Count(canvas, touch, colour => colour.Red > 60), Is.GreaterThan(2000));
+            Assert.That(canvas.Count(air, colour => colour.Red > 60), Is.Zero, "it is dark before the touch");
+            Assert.That(canvas.Count(touch, colour => colour.Red > 60), Is.GreaterThan(2000));
         }
 
         [Test]
@@ -167,19 +147,19 @@ namespace HaptoFlow.PreviewTests
         {
             Palette palette = dark ? Palette.Dark : Palette.Light;
             using SkiaCanvas canvas = Stroke(palette, PresetStrokes.Make((StrokePreset)preset, Usual));
-            Save($"stroke-{((StrokePreset)preset).ToString().ToLowerInvariant()}-{(dark ? "dark" : "light")}", canvas);
+            LegibleTexts.Save($"stroke-{((StrokePreset)preset).ToString().ToLowerInvariant()}-{(dark ? "dark" : "light")}", canvas);
             Box motion = PreviewLayout.Motion(canvas.Whole);
-            Assert.That(Count(canvas, motion, colour => colour.Equals(palette.Speed)), Is.GreaterThan(60));
-            Assert.That(Count(canvas, motion, colour => colour.Equals(palette.Force)), Is.GreaterThan(60));
+            Assert.That(canvas.Count(motion, palette.Speed), Is.GreaterThan(60));
+            Assert.That(canvas.Count(motion, palette.Force), Is.GreaterThan(60));
             Box patch = PreviewLayout.Patch(canvas.Whole).Inside(0.0, 0.0, 0.0, 30.0);
-            Assert.That(Count(canvas, patch, colour => colour.Equals(palette.Ink)), Is.GreaterThan(100));
+            Assert.That(canvas.Count(patch, palette.Ink), Is.GreaterThan(100));
         }
 
         [Test]
         public void AnEmptyPatchShowsAHint()
         {
             using SkiaCanvas canvas = Stroke(Palette.Light, DrawnStroke.Of(Array.Empty<DrawnPoint>()), 2.0);
-            Save("stroke-empty", canvas);
+            LegibleTexts.Save("stroke-empty", canvas);
             Assert.That(canvas.Texts.Select(each => each.Text), Does.Contain("Draw a stroke"));
         }
 
@@ -283,12 +263,12 @@ namespace HaptoFlow.PreviewTests
                 $"clip-{(dark ? "dark" : "light")}-{width:0}-{100 * pixelsPerPoint:0}");
             Box amplitude = ClipChart.Frame(canvas.Whole, 0);
             Box frequency = ClipChart.Frame(canvas.Whole, 1);
-            Assert.That(Count(canvas, amplitude, palette.First), Is.GreaterThan(100));
-            Assert.That(Count(canvas, frequency, palette.Speed), Is.GreaterThan(60));
+            Assert.That(canvas.Count(amplitude, palette.First), Is.GreaterThan(100));
+            Assert.That(canvas.Count(frequency, palette.Speed), Is.GreaterThan(60));
             Box pause = frequency.Columns(0.66 * frequency.Width, 0.1 * frequency.Width);
-            Assert.That(Count(canvas, pause, palette.Speed), Is.Zero, "no frequency where there is no vibration");
+            Assert.That(canvas.Count(pause, palette.Speed), Is.Zero, "no frequency where there is no vibration");
             Box tap = ClipChart.Frame(canvas.Whole, 2).Columns(0.87 * frequency.Width, 0.05 * frequency.Width);
-            Assert.That(Count(canvas, tap, palette.First), Is.GreaterThan(10), "a transient is in the vibration");
+            Assert.That(canvas.Count(tap, palette.First), Is.GreaterThan(10), "a transient is in the vibration");
             Assert.That(canvas.Texts.Select(each => each.Text), Has.Member("Amplitude").And.Member("Frequency, Hz"));
         }
 
@@ -306,8 +286,7 @@ namespace HaptoFlow.PreviewTests
         {
             var canvas = new SkiaCanvas(width, ClipChart.Height, pixelsPerPoint, palette.Window);
             ClipChart.Draw(canvas, palette, canvas.Whole, new ClipCurves(clip));
-            canvas.Save(RepositoryFiles.In("out", "test", "preview", name + ".png"));
-            LegibleTexts.Check(canvas);
+            LegibleTexts.Save(name, canvas);
             return canvas;
         }
 
@@ -326,20 +305,6 @@ namespace HaptoFlow.PreviewTests
                 wave[2850 + index] = (float)(30.0 * Math.Exp(-0.2 * index) * Math.Sin(2.0 * Math.PI * 0.1 * index));
             }
             return HapticClipFile.FromWave(wave, 2000, "swell");
-        }
-
-        private static int Count(SkiaCanvas canvas, Box box, Colour colour)
-        {
-            int count = 0;
-            double density = canvas.PixelsPerPoint;
-            for (var y = (int)(box.Top * density); y < (int)(box.Bottom * density); ++y)
-            {
-                for (var x = (int)(box.Left * density); x < (int)(box.Right * density); ++x)
-                {
-                    count += canvas[x, y].Equals(colour) ? 1 : 0;
-                }
-            }
-            return count;
         }
     }
 }

@@ -135,58 +135,31 @@ namespace HaptoFlow.PreviewTests
         public void FeatureScaleTwoHalvesTheFrequencyOfRibsAndKeepsTheLevel()
         {
             const double ribHz = 0.15 / 0.0025;
-            PreviewSound[] sounds = Pair("corduroy", 2f, 0f);
-            double[] plain = { PowerAt(sounds[0], ribHz), PowerAt(sounds[0], 0.5 * ribHz) };
-            double[] large = { PowerAt(sounds[1], ribHz), PowerAt(sounds[1], 0.5 * ribHz) };
-            Assert.That(plain[0], Is.GreaterThan(4.0 * plain[1]));
-            Assert.That(large[1], Is.GreaterThan(4.0 * plain[1]));
-            Assert.That(20.0 * Math.Log10(sounds[1].RmsMps2 / sounds[0].RmsMps2), Is.EqualTo(0.0).Within(2.0));
+            AnalysedSound[] sounds = Pair("corduroy", 2f, 0f);
+            double quiet = sounds[0].Spectrum.Decibels(0.5 * ribHz);
+            Assert.That(sounds[0].Spectrum.Decibels(ribHz), Is.GreaterThan(quiet + 6.0));
+            Assert.That(sounds[1].Spectrum.Decibels(0.5 * ribHz), Is.GreaterThan(quiet + 6.0));
+            Assert.That(20.0 * Math.Log10(sounds[1].Sound.RmsMps2 / sounds[0].Sound.RmsMps2), Is.EqualTo(0.0).Within(2.0));
         }
 
         [Test]
         public void ToneTiltsTheSpectrumByItsDecibelsPerOctave()
         {
             const float tone = 6f;
-            PreviewSound[] sounds = Pair("sandpaper", 1f, tone);
-            double Raised(double hertz) =>
-                10.0 * Math.Log10(BandPower(sounds[1], hertz) / BandPower(sounds[0], hertz));
+            AnalysedSound[] sounds = Pair("sandpaper", 1f, tone);
+            double Raised(double hertz) => ThirdOctaveDb(sounds[1], hertz) - ThirdOctaveDb(sounds[0], hertz);
             Assert.That(Raised(300.0) - Raised(75.0), Is.EqualTo(2.0 * tone).Within(1.5));
         }
 
         /// <summary>A label as it is, and with another feature scale and tone, at 0.15 m/s.</summary>
-        private PreviewSound[] Pair(string label, float featureScale, float toneDbPerOctave) =>
+        private AnalysedSound[] Pair(string label, float featureScale, float toneDbPerOctave) =>
             Do(Request(new LabelMix(label), new LabelMix(label, "", 0f, "", null, featureScale, toneDbPerOctave)) with
             {
                 Stroke = PresetStrokes.Make(StrokePreset.Slide, new StrokeSettings(0.15, 1.0, 0.0, 1.5)),
-            }).Sounds.Select(each => each.Sound).ToArray();
+            }).Sounds.ToArray();
 
-        /// <summary>Mean power in a third of an octave.</summary>
-        private static double BandPower(PreviewSound sound, double hertz)
-        {
-            double sum = 0.0;
-            for (int step = -20; step <= 20; ++step)
-            {
-                sum += PowerAt(sound, hertz * Math.Pow(2.0, step / 120.0));
-            }
-            return sum;
-        }
-
-        /// <summary>Spectrum of one second in the middle of the stroke.</summary>
-        private static double PowerAt(PreviewSound sound, double hertz)
-        {
-            const int count = PreviewSound.RateHz;
-            int begin = (sound.Samples.Length - count) / 2;
-            double real = 0.0;
-            double imaginary = 0.0;
-            for (int index = 0; index < count; ++index)
-            {
-                double window = 0.5 - 0.5 * Math.Cos(2.0 * Math.PI * index / count);
-                double phase = 2.0 * Math.PI * hertz * index / PreviewSound.RateHz;
-                real += window * sound.Samples[begin + index] * Math.Cos(phase);
-                imaginary += window * sound.Samples[begin + index] * Math.Sin(phase);
-            }
-            return real * real + imaginary * imaginary;
-        }
+        private static double ThirdOctaveDb(AnalysedSound sound, double hertz) => 10.0 * Math.Log10(Enumerable
+            .Range(-20, 41).Average(step => Math.Pow(10.0, 0.1 * sound.Spectrum.Decibels(hertz * Math.Pow(2.0, step / 120.0)))));
 
         [Test]
         public void EveryTierIsTimedOncePerMeasurement()

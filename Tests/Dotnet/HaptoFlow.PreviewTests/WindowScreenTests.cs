@@ -45,7 +45,8 @@ namespace HaptoFlow.PreviewTests
         public void EveryControlChangesItsSettingWithUndo()
         {
             State.Compares = true;
-            var cases = new (string Label, object Value, Func<object> Kept)[]
+            Window.Finish();
+            ScreenFields.AssertChangedAndUndone(Window, new (string, object, Func<object>)[]
             {
                 ("Stroke", (int)StrokePreset.Taps, () => (int)State.Preset),
                 ("Speed [m/s]", 0.5f, () => State.SpeedMps),
@@ -61,17 +62,7 @@ namespace HaptoFlow.PreviewTests
                 ("Seed", 7, () => State.Seed),
                 ("Loop", true, () => State.Loops),
                 ("Normalise", false, () => State.Raises),
-            };
-            Window.Finish();
-            foreach ((string label, object value, Func<object> kept) in cases)
-            {
-                object before = kept();
-                Undo.IncrementCurrentGroup();
-                Enter(label, value);
-                Assert.That(kept(), Is.EqualTo(value), label);
-                Undo.PerformUndo();
-                Assert.That(kept(), Is.EqualTo(before), label);
-            }
+            });
         }
 
         [Test]
@@ -456,6 +447,26 @@ namespace HaptoFlow.PreviewTests
         }
     }
 
+    internal static class ScreenFields
+    {
+        /// <summary>Asserts that a value entered in a field of a window is kept, and that undo restores the one before.
+        /// </summary>
+        public static void AssertChangedAndUndone(
+            EditorWindow window, IEnumerable<(string Label, object Value, Func<object> Kept)> fields)
+        {
+            foreach ((string label, object value, Func<object> kept) in fields)
+            {
+                object before = kept();
+                Undo.IncrementCurrentGroup();
+                EditorScreen.Enter(label, value);
+                WindowHost.Draw(window);
+                Assert.That(kept(), Is.EqualTo(value), label);
+                Undo.PerformUndo();
+                Assert.That(kept(), Is.EqualTo(before), label);
+            }
+        }
+    }
+
     /// <summary>Tests of the Texture Preview window that need the shim: playback and export.</summary>
     public sealed class WindowSoundTests : PreviewWindowTest
     {
@@ -546,7 +557,7 @@ namespace HaptoFlow.PreviewTests
             Assert.That(proposed, Is.Empty, "the dialog opens after the event");
             WindowHost.Update();
             Assert.That(proposed, Is.EqualTo("wood 0.12 mps 1.5 N.wav"));
-            Assert.That(new WaveReader(File.ReadAllBytes(path)).Samples(), Is.EqualTo(Samples));
+            Assert.That(File.ReadAllBytes(path), Is.EqualTo(WaveFile.Bytes(Samples, 48000)));
             Assert.That(WindowHost.Notification, Is.EqualTo("Exported"));
         }
 

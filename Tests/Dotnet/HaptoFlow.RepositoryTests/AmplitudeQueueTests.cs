@@ -71,19 +71,6 @@ namespace HaptoFlow.RepositoryTests
         }
 
         [Test]
-        public void AnImpactIsPlayedAtItsOwnFrequency()
-        {
-            // A tone of 100 Hz, and an impact of 320 Hz at 0.5 s.
-            var motor = new SimulatedMotor { MinFrequencyHz = 60.0, MaxFrequencyHz = 400.0 };
-            Play(motor, new AmplitudeQueue(motor, new SimulatedWave(seconds =>
-                0.02 * Math.Sin(2.0 * Math.PI * 100.0 * seconds) + (seconds < 0.5 ? 0.0 : 0.6 *
-                    Math.Exp(-80.0 * (seconds - 0.5)) * Math.Sin(2.0 * Math.PI * 320.0 * (seconds - 0.5))))), 0.0, 1.0);
-            (double _, float amplitude, float hertz, float _) = motor.Commands.OrderBy(each => each.Amplitude).Last();
-            Assert.That(hertz, Is.EqualTo(320f).Within(40f));
-            Assert.That(amplitude, Is.EqualTo(0.5f).Within(0.15f));
-        }
-
-        [Test]
         public void AHitchCausesAGapAndNoStuckVibration()
         {
             var motor = new SimulatedMotor();

@@ -38,38 +38,11 @@ namespace HaptoFlow.RepositoryTests
             }
         }
 
-        [Test]
-        public void TheWaveComesBackInMetresPerSecondSquared([Values(2000.0, 48000.0)] double rateHz)
-        {
-            using HapticClipFile clip = Hum(0.5);
-            float[] wave = clip.Wave(rateHz);
-            Assert.That(wave.Length, Is.EqualTo(0.5 * rateHz).Within(1.0));
-            Assert.That(wave.Skip(wave.Length / 2).Max(), Is.EqualTo(20f).Within(2f));
-        }
-
-        [TestCase("", "JSON")]
-        [TestCase("{\"version\":{\"major\":3},\"signals\":{}}", "version.major")]
-        [TestCase("[1, 2]", "clip")]
-        public void WhatIsNoClipIsRefusedWithTheReason(string text, string reason)
-        {
-            var refusal = Assert.Throws<HaptoFlowException>(
-                () => HapticClipFile.Read(Encoding.UTF8.GetBytes(text)));
-            Assert.That(refusal!.Status, Is.EqualTo(HaptoFlowStatus.InvalidArgument));
-            Assert.That(refusal.Message, Does.Contain(reason));
-        }
-
-        [Test]
-        public void AWaveThatIsNoneIsRefusedWithTheReason()
-        {
-            var refusal = Assert.Throws<HaptoFlowException>(() => HapticClipFile.FromWave(default, 2000));
-            Assert.That(refusal!.Message, Does.Contain("no samples"));
-            refusal = Assert.Throws<HaptoFlowException>(() => HapticClipFile.FromWave(new float[8], 3000));
-            Assert.That(refusal!.Message, Does.Contain("3000"));
-            foreach (int rateHz in new[] { 0, -48000 })
-            {
-                Assert.Throws<HaptoFlowException>(() => HapticClipFile.FromWave(new float[8], rateHz));
-            }
-        }
+        [TestCase(0)]
+        [TestCase(-48000)]
+        [TestCase(3000)]
+        public void ARateThatNoWaveHasIsRefused(int rateHz) =>
+            Assert.Throws<HaptoFlowException>(() => HapticClipFile.FromWave(new float[8], rateHz));
 
         [Test]
         public void AVoicePlaysAClipWithoutContactAndPlaysOnAfterItWasDisposed()

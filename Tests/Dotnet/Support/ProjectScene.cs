@@ -10,12 +10,12 @@ using Object = UnityEngine.Object;
 
 namespace HaptoFlow.Tests.Support
 {
-    /// <summary>Makes the objects of a scene file of the repository's Unity project, with those of its prefabs. A field
-    /// of a script that the class does not have is an error. References to assets stay empty.</summary>
+    /// <summary>Makes the objects of a scene or prefab file, with those of its prefabs. A field of a script that the class
+    /// does not have is an error. References to assets stay empty.</summary>
     internal sealed class ProjectScene
     {
-        private static readonly string[] Unseen = { "Light", "OcclusionCullingSettings", "RenderSettings",
-            "LightmapSettings", "NavMeshSettings", "SceneRoots" };
+        private static readonly string[] Unseen = { "OcclusionCullingSettings", "RenderSettings", "LightmapSettings",
+            "NavMeshSettings", "SceneRoots" };
         private static readonly Lazy<Dictionary<string, string>> Paths = new Lazy<Dictionary<string, string>>(FindPaths);
 
         private static readonly MethodInfo AddAny =
@@ -31,11 +31,17 @@ namespace HaptoFlow.Tests.Support
         /// <summary>The objects, each of which has to be destroyed.</summary>
         public IReadOnlyList<GameObject> Owners => owners;
 
+        /// <summary>Those without a parent.</summary>
+        public IEnumerable<GameObject> Roots => owners.Where(owner => owner.transform.parent == null);
+
         /// <summary>Makes the objects of a scene in Assets and wakes them.</summary>
-        public static ProjectScene Open(string name)
+        public static ProjectScene Open(string name) => Load(RepositoryFiles.In("Assets", name));
+
+        /// <summary>Makes the objects of a file and wakes them.</summary>
+        public static ProjectScene Load(string path)
         {
             var scene = new ProjectScene();
-            scene.Add(new PrefabFile(RepositoryFiles.In("Assets", name)), "");
+            scene.Add(new PrefabFile(path), "");
             scene.owners.ForEach(owner => owner.SetActive(true));
             return scene;
         }
@@ -120,10 +126,27 @@ namespace HaptoFlow.Tests.Support
                     }
                     break;
                 case Camera camera:
+                    camera.clearFlags = (CameraClearFlags)int.Parse(written["m_ClearFlags"]);
+                    camera.backgroundColor = (Color)Parsed(written["m_BackGroundColor"], typeof(Color));
+                    camera.nearClipPlane = Number(written["near clip plane"]);
+                    camera.farClipPlane = Number(written["far clip plane"]);
                     camera.fieldOfView = Number(written["field of view"]);
+                    camera.depth = Number(written["m_Depth"]);
+                    break;
+                case Light light:
+                    light.type = (LightType)int.Parse(written["m_Type"]);
+                    light.color = (Color)Parsed(written["m_Color"], typeof(Color));
+                    light.intensity = Number(written["m_Intensity"]);
+                    light.shadows = (LightShadows)int.Parse(written["m_Shadows.m_Type"]);
                     break;
                 case BoxCollider box:
                     box.size = Vector(written["m_Size"]);
+                    break;
+                case CapsuleCollider capsule:
+                    capsule.enabled = written["m_Enabled"] == "1";
+                    capsule.radius = Number(written["m_Radius"]);
+                    capsule.height = Number(written["m_Height"]);
+                    capsule.direction = int.Parse(written["m_Direction"]);
                     break;
                 case Collider collider:
                     collider.enabled = written["m_Enabled"] == "1";
@@ -152,6 +175,10 @@ namespace HaptoFlow.Tests.Support
                 throw new InvalidDataException($"{target.GetType().Name} has no field {field}");
             }
             string value = written[key];
+            if (typeof(Object[]).IsAssignableFrom(declared.FieldType))
+            {
+                return;
+            }
             if (typeof(Object).IsAssignableFrom(declared.FieldType))
             {
                 string anchor = PrefabObject.Reference(value);

@@ -23,8 +23,8 @@ namespace HaptoFlow.EditorTests
             LogAssert.ignoreFailingMessages = true;
             string path = Import(damage + ".haptoflow", Damaged(Model().File, damage));
             Assert.That(AssetDatabase.LoadAssetAtPath<HapticModelAsset>(path), Is.Not.Null);
-            Assert.That(ImportErrors(path), Has.Length.EqualTo(1));
-            Assert.That(ImportErrors(path)[0], Does.Contain(path).And.Contain(message));
+            Assert.That(Errors(path), Has.Length.EqualTo(1));
+            Assert.That(Errors(path)[0], Does.Contain(path).And.Contain(message));
         }
 
         [Test]
@@ -35,21 +35,16 @@ namespace HaptoFlow.EditorTests
             Import("model.haptoflow", Damaged(sound, "truncated"));
             string path = Import("model.haptoflow", sound);
             Assert.That(AssetDatabase.LoadAssetAtPath<HapticModelAsset>(path).Header.Labels, Has.Count.EqualTo(20));
-            Assert.That(ImportErrors(path), Is.Empty);
+            Assert.That(Errors(path), Is.Empty);
         }
 
         private static byte[] Damaged(byte[] file, string damage) => damage == "truncated"
             ? ModelBytes.Truncated(file, file.Length - 1000)
             : System.Text.Encoding.ASCII.GetBytes("this is no model, but a text of more than 32 bytes");
 
-        private static string[] ImportErrors(string path)
-        {
-            ImportLog? log = AssetImporter.GetImportLog(path);
-            return log == null
-                ? Array.Empty<string>()
-                : log.logEntries.Where(entry => (entry.flags & ImportLogFlags.Error) != 0)
-                    .Select(entry => entry.message).ToArray();
-        }
+        internal static string[] Errors(string path) => AssetImporter.GetImportLog(path)?.logEntries
+            .Where(entry => (entry.flags & ImportLogFlags.Error) != 0).Select(entry => entry.message).ToArray() ??
+            new string[0];
     }
 
     public sealed class MaterialImporterTests : EditorTest
@@ -60,10 +55,6 @@ namespace HaptoFlow.EditorTests
 
         private static string ImportText(string text) => Import("glass.haptomaterial", Encoding.UTF8.GetBytes(text));
 
-        private static string[] Errors(string path) => AssetImporter.GetImportLog(path)?.logEntries
-            .Where(entry => (entry.flags & ImportLogFlags.Error) != 0).Select(entry => entry.message).ToArray() ??
-            new string[0];
-
         [Test]
         public void AMaterialFileIsImportedWithItsNearestLabel()
         {
@@ -73,7 +64,7 @@ namespace HaptoFlow.EditorTests
             Assert.That(material.Learnt, Is.EqualTo(text));
             Assert.That(material.Description.Label, Is.EqualTo("glass"));
             Assert.That(material.Description.Learnt, Is.SameAs(material));
-            Assert.That(Errors(path), Is.Empty);
+            Assert.That(ImporterTests.Errors(path), Is.Empty);
         }
 
         [TestCase("", "")]
@@ -83,7 +74,7 @@ namespace HaptoFlow.EditorTests
             LogAssert.ignoreFailingMessages = true;
             string path = ImportText(text);
             Assert.That(AssetDatabase.LoadAssetAtPath<HapticMaterial>(path).IsLearnt, Is.False);
-            Assert.That(Errors(path).Single(), Does.Contain(path).And.Contain(message));
+            Assert.That(ImporterTests.Errors(path).Single(), Does.Contain(path).And.Contain(message));
         }
 
         [Test]
@@ -118,10 +109,6 @@ namespace HaptoFlow.EditorTests
             "\"amplitude\":[{\"time\":0,\"amplitude\":0.5,\"emphasis\":{\"amplitude\":0.7,\"frequency\":0.5}}," +
             "{\"time\":0.25,\"amplitude\":0}]}}}}";
 
-        private static string[] Errors(string path) => AssetImporter.GetImportLog(path)?.logEntries
-            .Where(entry => (entry.flags & ImportLogFlags.Error) != 0).Select(entry => entry.message).ToArray() ??
-            new string[0];
-
         private static string AsHjif()
         {
             using HapticClipFile knock = HapticClipFile.Read(Encoding.UTF8.GetBytes(Knock));
@@ -137,7 +124,7 @@ namespace HaptoFlow.EditorTests
             Assert.That(clip.File, Is.EqualTo(file));
             Assert.That(clip.Problem, Is.Null);
             Assert.That(clip.Info.DurationSeconds, Is.EqualTo(0.25).Within(0.001));
-            Assert.That(Errors(path), Is.Empty);
+            Assert.That(ImporterTests.Errors(path), Is.Empty);
         }
 
         [Test]
@@ -164,7 +151,7 @@ namespace HaptoFlow.EditorTests
             LogAssert.ignoreFailingMessages = true;
             string path = Import("knock.hjif", Encoding.UTF8.GetBytes(text));
             Assert.That(AssetDatabase.LoadAssetAtPath<HapticClip>(path).Problem, Does.Contain(message));
-            Assert.That(Errors(path).Single(), Does.Contain(path).And.Contain(message));
+            Assert.That(ImporterTests.Errors(path).Single(), Does.Contain(path).And.Contain(message));
         }
 
         [Test]
@@ -204,7 +191,7 @@ namespace HaptoFlow.EditorTests
             ModelSummary assumed = ModelSummary.Of(HapticModelAsset.Create(file));
             Assert.That(Value(assumed, "Level"), Is.EqualTo("level assumed"));
             Assert.That(Value(assumed, "Provenance"), Is.EqualTo("imported; level assumed: a median"));
-            Assert.That(ModelSummary.Of(Model()).Origin.Select(row => row.Name), Has.No.Member("Level"));
+            Assert.That(ModelSummary.Of(Model()).Rows.Select(row => row.Name), Has.No.Member("Level"));
         }
 
         [Test]
@@ -259,6 +246,6 @@ namespace HaptoFlow.EditorTests
             ModelSummary.Of(HapticModelAsset.Create(ModelBytes.WithFigures(Model().File, accuracyJson, costJson)));
 
         private static string Value(ModelSummary summary, string name) =>
-            summary.Origin.Single(row => row.Name == name).Value;
+            summary.Rows.Single(row => row.Name == name).Value;
     }
 }

@@ -1,6 +1,5 @@
 #nullable enable
 using System;
-using System.Collections.Generic;
 using System.Globalization;
 using System.IO;
 using System.Text;
@@ -9,19 +8,18 @@ using HaptoFlow.Model;
 using HaptoFlow.Preview;
 using NUnit.Framework;
 using UnityEditor;
-using Object = UnityEngine.Object;
 
 namespace HaptoFlow.PreviewTests
 {
-    /// <summary>The New Material window, with the real native library.</summary>
-    public sealed class NewMaterialTests
+    /// <summary>Opens a New Material window and makes a folder for recordings, and removes both after each test.
+    /// </summary>
+    public abstract class NewMaterialTest
     {
-        private readonly List<Object> made = new List<Object>();
-        private string folder = "";
+        internal string Folder { get; private set; } = "";
 
         internal NewMaterialWindow Window { get; private set; } = null!;
 
-        private NewMaterialState State => Window.State;
+        internal NewMaterialState State => Window.State;
 
         [SetUp]
         public void OpenWindow()
@@ -30,8 +28,8 @@ namespace HaptoFlow.PreviewTests
             UnityShim.EditorSession.Begin(Tests.Support.RepositoryFiles.In("Packages", "com.haptoflow.runtime"));
 #endif
             ProjectSettingsAsset.Forget();
-            folder = Path.Combine(Path.GetTempPath(), "haptoflow-recordings-" + Guid.NewGuid().ToString("N"));
-            Directory.CreateDirectory(folder);
+            Folder = Path.Combine(Path.GetTempPath(), "haptoflow-recordings-" + Guid.NewGuid().ToString("N"));
+            Directory.CreateDirectory(Folder);
             NewMaterialWindow.Open();
             Window = EditorWindow.GetWindow<NewMaterialWindow>();
             Undo.IncrementCurrentGroup();
@@ -41,19 +39,27 @@ namespace HaptoFlow.PreviewTests
         public void CloseWindow()
         {
 #if HAPTOFLOW_OUTSIDE_UNITY
-            UnityShim.WindowHost.Close(Window);
+            if (Window != null)
+            {
+                UnityShim.WindowHost.Close(Window);
+            }
             UnityShim.EditorSession.End();
 #else
             Window.Close();
 #endif
-            made.ForEach(Object.DestroyImmediate);
-            made.Clear();
-            Directory.Delete(folder, true);
+            Directory.Delete(Folder, true);
             ProjectSettingsAsset.Forget();
         }
 
+        /// <summary>The text of a label's material file.</summary>
+        internal static string Jute() => MaterialText.OfLabel(ProjectSettingsAsset.DefaultModel()!.File, "jute");
+    }
+
+    /// <summary>The New Material window, with the real native library.</summary>
+    public sealed class NewMaterialTests : NewMaterialTest
+    {
         /// <summary>A recording of band-limited noise whose level follows the speed.</summary>
-        internal string Table(string name, string motion = ",speed_mps,force_newtons", double seconds = 4.0)
+        private string Table(string name, string motion = ",speed_mps,force_newtons", double seconds = 4.0)
         {
             var random = new System.Random(7);
             var text = new StringBuilder("time_s,acceleration_mps2" + motion + "\n");
@@ -76,7 +82,7 @@ namespace HaptoFlow.PreviewTests
 
         private string File(string name, string text)
         {
-            string path = Path.Combine(folder, name);
+            string path = Path.Combine(Folder, name);
             System.IO.File.WriteAllText(path, text);
             return path;
         }
@@ -108,7 +114,7 @@ namespace HaptoFlow.PreviewTests
             Assert.That(Window.Session!.Problem, Does.StartWith("bad.csv: columns time_s, acceleration; expected"));
             Assert.That(Obstacle(), Does.StartWith("Choose a recording"));
             Assert.That(State.Name, Is.EqualTo("my denim"));
-            State.Change("Recording", changed => changed.Path = Path.Combine(folder, "good.csv"));
+            State.Change("Recording", changed => changed.Path = Path.Combine(Folder, "good.csv"));
             Window.Finish();
             Assert.That((Window.Session.Problem, Obstacle()), Is.EqualTo(((string?)null, (string?)null)));
         }
@@ -119,8 +125,7 @@ namespace HaptoFlow.PreviewTests
             Window.Take(Table("a.csv"));
             Window.Finish();
             Undo.IncrementCurrentGroup();
-            State.Change("Material", changed => changed.Material =
-                MaterialText.OfLabel(ProjectSettingsAsset.DefaultModel()!.File, "jute"));
+            State.Change("Material", changed => changed.Material = Jute());
             Window.Finish();
             Assert.That(Window.Session!.Problem, Is.Null);
             Assert.That(Window.Session.Shown!.Sounds, Has.Count.EqualTo(2));

@@ -80,6 +80,18 @@ namespace HaptoFlow.PreviewTests
 
         internal GameObject Make(string name) => Keep(new GameObject(name));
 
+        /// <summary>Creates an object with a box collider.</summary>
+        internal GameObject Box(string name)
+        {
+            GameObject box = Make(name);
+            box.AddComponent<BoxCollider>();
+            return box;
+        }
+
+        internal HapticSurface Tagged(string name) => Box(name).AddComponent<HapticSurface>();
+
+        internal HapticMaterial Feeling(string label) => Keep(HaptoFlow.EditorTests.EditorTest.Feeling(label));
+
         /// <summary>Destroys an object after the test.</summary>
         internal T Keep<T>(T each)
             where T : Object

@@ -18,7 +18,7 @@ namespace HaptoFlow.PreviewTests
         [Test]
         public void ApplyingAMaterialKeepsStiffnessAndStrength()
         {
-            HapticSurface table = Surface("Table");
+            HapticSurface table = Tagged("Table");
             table.Material.StiffnessNewtonsPerMetre = 700f;
             table.Material.Strength = 0.5f;
             SceneMaterial.Apply(Mix, null, new Object[] { table.gameObject });
@@ -30,8 +30,7 @@ namespace HaptoFlow.PreviewTests
         [Test]
         public void AnObjectWithAColliderBecomesASurfaceAndOneWithoutIsReported()
         {
-            GameObject box = Make("Box");
-            box.AddComponent<BoxCollider>();
+            GameObject box = Box("Box");
             GameObject light = Make("Light");
             string message = SceneMaterial.Apply(Mix, null, new Object[] { box, light });
             Assert.That(Read(box.GetComponent<HapticSurface>()), Is.EqualTo(Mix));
@@ -43,11 +42,10 @@ namespace HaptoFlow.PreviewTests
         [Test]
         public void ApplyingToASelectionIsUndoneInOneStep()
         {
-            HapticSurface table = Surface("Table");
+            HapticSurface table = Tagged("Table");
             table.Material.Label = "wood";
-            GameObject box = Make("Box");
-            box.AddComponent<BoxCollider>();
-            HapticMaterial asset = Asset("leather");
+            GameObject box = Box("Box");
+            HapticMaterial asset = Feeling("leather");
             Undo.IncrementCurrentGroup();
             SceneMaterial.Apply(Mix, null, new Object[] { table.gameObject, box, asset });
             Assert.That(asset.Description.Label, Is.EqualTo("rubber"));
@@ -60,13 +58,10 @@ namespace HaptoFlow.PreviewTests
         [Test]
         public void ApplyingToASurfaceDoesNotChangeItsSharedAsset()
         {
-            HapticMaterial asset = Asset("leather");
-            HapticSurface first = Surface("First");
-            HapticSurface second = Surface("Second");
-            foreach (HapticSurface each in new[] { first, second })
-            {
-                Share(each, asset);
-            }
+            HapticMaterial asset = Feeling("leather");
+            HapticSurface first = Tagged("First");
+            HapticSurface second = Tagged("Second");
+            (first.SharedMaterial, second.SharedMaterial) = (asset, asset);
             SceneMaterial.Apply(Mix, null, new Object[] { first.gameObject });
             Assert.That(Read(first), Is.EqualTo(Mix));
             Assert.That(Read(second), Is.EqualTo(new LabelMix("leather")));
@@ -76,14 +71,14 @@ namespace HaptoFlow.PreviewTests
         [Test]
         public void FeatureScaleAndToneAreCopiedFromOneSurfaceToAnother()
         {
-            HapticSurface table = Surface("Table");
+            HapticSurface table = Tagged("Table");
             table.Material.Label = "corduroy";
             table.Material.FeatureScale = 2f;
             table.Material.ToneDbPerOctave = 3f;
             TexturePreviewWindow.Open(table);
             Window.Finish();
             Assert.That(Window.Player!.PlayedSound!.Sound.Title, Is.EqualTo("corduroy (x2, +3 dB/oct)"));
-            HapticSurface shelf = Surface("Shelf");
+            HapticSurface shelf = Tagged("Shelf");
             string message = SceneMaterial.Apply(
                 Window.Player.PlayedSound.Sound.Material, null, new Object[] { shelf.gameObject });
             Assert.That(message, Is.EqualTo("Applied corduroy (x2, +3 dB/oct) to Shelf"));
@@ -94,7 +89,7 @@ namespace HaptoFlow.PreviewTests
         [Test]
         public void AChildHasTheMaterialOfItsParentsSurface()
         {
-            HapticSurface table = Surface("Table");
+            HapticSurface table = Tagged("Table");
             table.Material.Label = "stone";
             GameObject leg = Make("Leg");
             leg.transform.SetParent(table.transform, false);
@@ -102,28 +97,6 @@ namespace HaptoFlow.PreviewTests
             Assert.That(mix, Is.EqualTo(new LabelMix("stone")));
             Assert.That(SceneMaterial.TryRead(Make("Lamp"), out _, out _), Is.False);
             Assert.That(SceneMaterial.TryRead(null, out _, out _), Is.False);
-        }
-
-        private HapticSurface Surface(string name)
-        {
-            GameObject owner = Make(name);
-            owner.AddComponent<BoxCollider>();
-            return owner.AddComponent<HapticSurface>();
-        }
-
-        private HapticMaterial Asset(string label)
-        {
-            HapticMaterial asset = Keep(ScriptableObject.CreateInstance<HapticMaterial>());
-            asset.name = label + " asset";
-            asset.Description.Label = label;
-            return asset;
-        }
-
-        private static void Share(HapticSurface surface, HapticMaterial asset)
-        {
-            using var serialized = new SerializedObject(surface);
-            serialized.FindProperty("sharedMaterial").objectReferenceValue = asset;
-            serialized.ApplyModifiedProperties();
         }
 
         private static LabelMix Read(HapticSurface surface)
@@ -143,7 +116,7 @@ namespace HaptoFlow.PreviewTests
         {
             map = Keep(ScriptableObject.CreateInstance<HapticMaterialMap>());
             map.name = "Rooms";
-            map.Add(HapticMaterialRule.ForTag("Finish", Material("stone")));
+            map.Add(HapticMaterialRule.ForTag("Finish", Feeling("stone")));
             map.Add(HapticMaterialRule.ForName("Ghost*", null));
             Make("Scope").AddComponent<HapticMaterialMapScope>().Map = map;
             Window.Finish();
@@ -179,12 +152,12 @@ namespace HaptoFlow.PreviewTests
             mesh.SetTriangles(new[] { 0, 1, 3 }, 0);
             mesh.SetTriangles(new[] { 0, 3, 2 }, 1);
             mesh.SetTriangles(new[] { 2, 3, 5, 2, 5, 4 }, 2);
-            map.Add(HapticMaterialRule.ForSubmesh(mesh, 1, Material("cork")));
-            map.Add(HapticMaterialRule.ForSubmesh(mesh, 2, Material("glass")));
+            map.Add(HapticMaterialRule.ForSubmesh(mesh, 1, Feeling("cork")));
+            map.Add(HapticMaterialRule.ForSubmesh(mesh, 2, Feeling("glass")));
             GameObject tray = Make("Tray");
             tray.AddComponent<MeshCollider>().sharedMesh = mesh;
             Assert.That(Take(tray), Does.StartWith("Took cork from Tray (submesh 2 of 3; rule 3 of \"Rooms\""));
-            map.Insert(0, HapticMaterialRule.ForName("Tray", Material("fur")));
+            map.Insert(0, HapticMaterialRule.ForName("Tray", Feeling("fur")));
             Assert.That(Take(tray), Does.StartWith("Took fur from Tray (rule 1"), "one rule applies to all parts");
         }
 
@@ -219,7 +192,7 @@ namespace HaptoFlow.PreviewTests
         {
             HapticMaskMap mask = Keep(ScriptableObject.CreateInstance<HapticMaskMap>());
             mask.name = "Paint";
-            mask.Green.SetMaterial(Material("cork"));
+            mask.Green.SetMaterial(Feeling("cork"));
             map.Rules[0].Mask = mask;
             GameObject step = Box("Step");
             step.tag = "Finish";
@@ -250,21 +223,6 @@ namespace HaptoFlow.PreviewTests
             (State.First.Label, State.First.FeatureScale, State.First.ToneDbPerOctave);
 
         private string Take(Object? selected) => SceneControls.TakeFrom(selected, State, Window.Session!.Model);
-
-        private GameObject Box(string name)
-        {
-            GameObject box = Make(name);
-            box.AddComponent<BoxCollider>();
-            return box;
-        }
-
-        private HapticMaterial Material(string label)
-        {
-            HapticMaterial material = Keep(ScriptableObject.CreateInstance<HapticMaterial>());
-            material.name = label;
-            material.Description.Label = label;
-            return material;
-        }
     }
 
     /// <summary>Sliders and learnt materials in the Texture Preview.</summary>
@@ -329,8 +287,7 @@ namespace HaptoFlow.PreviewTests
         public void ApplyingALearntMaterialToAnObjectCanBeUndone()
         {
             HapticMaterial material = Keep(HapticMaterial.Create(Text("glass"), "fur"));
-            GameObject table = Make("Table");
-            table.AddComponent<BoxCollider>();
+            GameObject table = Box("Table");
             Undo.IncrementCurrentGroup();
             string message = SceneMaterial.Apply(new LabelMix("glass"), material, new Object[] { table });
             Assert.That(message, Is.EqualTo("Applied glass to Table"));

@@ -31,17 +31,6 @@ namespace HaptoFlow.EditorTests
         }
 
         [Test]
-        public void AnObjectWithoutAProposalIsLeftUntaggedAndLogged()
-        {
-            GameObject thing = Box("Thing");
-            TagPlan plan = Plan(thing);
-            Assert.That(plan.Proposals, Is.Empty);
-            Assert.That(plan.Unmatched, Is.EqualTo(new[] { thing }));
-            GameObjectMenu.TagSelected(new[] { thing }, Matcher);
-            Assert.That(thing.TryGetComponent(out HapticSurface _), Is.False);
-        }
-
-        [Test]
         public void APhysicsMaterialTakesPrecedenceOverTheName()
         {
             GameObject table = Box("Oak_Table");

@@ -15,7 +15,6 @@ namespace UnityEditor
     public enum BuildTarget
     {
         StandaloneOSX = 2,
-        StandaloneWindows = 5,
         iOS = 9,
         Android = 13,
         StandaloneWindows64 = 19,

@@ -264,7 +264,6 @@ namespace UnityEditor
 
     public enum SettingsScope
     {
-        User = 0,
         Project = 1,
     }
 
@@ -312,13 +311,11 @@ namespace UnityEditor.SceneManagement
     public enum NewSceneMode
     {
         Single = 0,
-        Additive = 1,
     }
 
     public enum NewSceneSetup
     {
         EmptyScene = 0,
-        DefaultGameObjects = 1,
     }
 
     public sealed partial class EditorSceneManager : SceneManager

@@ -106,8 +106,6 @@ namespace UnityEngine
     public enum ScaleMode
     {
         StretchToFill = 0,
-        ScaleAndCrop = 1,
-        ScaleToFit = 2,
     }
 
     public partial class GUIUtility

@@ -3,7 +3,7 @@ using UnityShim;
 
 namespace UnityEngine
 {
-    public partial struct Vector2 : IEquatable<Vector2>
+    public partial struct Vector2
     {
         public float x;
         public float y;
@@ -17,18 +17,10 @@ namespace UnityEngine
         public static Vector2 zero => new Vector2(0f, 0f);
 
         public float magnitude => (float)Math.Sqrt(x * x + y * y);
-        public float sqrMagnitude => x * x + y * y;
 
         public static Vector2 operator +(Vector2 a, Vector2 b) => new Vector2(a.x + b.x, a.y + b.y);
         public static Vector2 operator -(Vector2 a, Vector2 b) => new Vector2(a.x - b.x, a.y - b.y);
-        public static Vector2 operator *(Vector2 a, float d) => new Vector2(a.x * d, a.y * d);
-        public static Vector2 operator *(float d, Vector2 a) => a * d;
-        public static bool operator ==(Vector2 lhs, Vector2 rhs) => (lhs - rhs).sqrMagnitude < 9.99999944E-11f;
-        public static bool operator !=(Vector2 lhs, Vector2 rhs) => !(lhs == rhs);
 
-        public bool Equals(Vector2 other) => x == other.x && y == other.y;
-        public override bool Equals(object? other) => other is Vector2 vector && Equals(vector);
-        public override int GetHashCode() => HashCode.Combine(x, y);
         public override string ToString() => FormattableString.Invariant($"({x:F2}, {y:F2})");
     }
 
@@ -44,9 +36,8 @@ namespace UnityEngine
 
         public Vector2 position => new Vector2(x, y);
         public float xMax => x + width;
-        public float yMax => y + height;
 
-        public bool Contains(Vector2 point) => point.x >= x && point.x < xMax && point.y >= y && point.y < yMax;
+        public bool Contains(Vector2 point) => point.x >= x && point.x < xMax && point.y >= y && point.y < y + height;
     }
 
     public partial struct Color
@@ -143,13 +134,9 @@ namespace UnityEngine
 
     public partial class RectOffset
     {
-        public RectOffset(int left, int right, int top, int bottom) =>
-            (this.left, this.right, this.top, this.bottom) = (left, right, top, bottom);
-
-        public int left { get; set; }
-        public int right { get; set; }
-        public int top { get; set; }
-        public int bottom { get; set; }
+        public RectOffset(int left, int right, int top, int bottom)
+        {
+        }
     }
 
     public sealed partial class GUILayoutOption
@@ -169,11 +156,8 @@ namespace UnityEngine
     {
         MouseDown = 0,
         MouseUp = 1,
-        MouseMove = 2,
         MouseDrag = 3,
         KeyDown = 4,
-        KeyUp = 5,
-        ScrollWheel = 6,
         Repaint = 7,
         Layout = 8,
         Ignore = 11,
@@ -207,9 +191,6 @@ namespace UnityEngine
         Control = 2,
         Alt = 4,
         Command = 8,
-        Numeric = 16,
-        CapsLock = 32,
-        FunctionKey = 64,
     }
 
     public enum PointerType
@@ -230,29 +211,10 @@ namespace UnityEngine
         public float pressure { get; set; }
         public PointerType pointerType { get; set; }
 
-        public bool shift
-        {
-            get => Has(EventModifiers.Shift);
-            set => Put(EventModifiers.Shift, value);
-        }
-
-        public bool control
-        {
-            get => Has(EventModifiers.Control);
-            set => Put(EventModifiers.Control, value);
-        }
-
-        public bool alt
-        {
-            get => Has(EventModifiers.Alt);
-            set => Put(EventModifiers.Alt, value);
-        }
-
-        public bool command
-        {
-            get => Has(EventModifiers.Command);
-            set => Put(EventModifiers.Command, value);
-        }
+        public bool shift => Has(EventModifiers.Shift);
+        public bool control => Has(EventModifiers.Control);
+        public bool alt => Has(EventModifiers.Alt);
+        public bool command => Has(EventModifiers.Command);
 
         /// <summary>The event type for a control: Ignore for mouse events that another control has captured.</summary>
         public EventType GetTypeForControl(int controlID)
@@ -265,7 +227,5 @@ namespace UnityEngine
         public void Use() => type = EventType.Used;
 
         private bool Has(EventModifiers one) => (modifiers & one) != 0;
-
-        private void Put(EventModifiers one, bool on) => modifiers = on ? modifiers | one : modifiers & ~one;
     }
 }

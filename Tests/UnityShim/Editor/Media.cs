@@ -60,7 +60,6 @@ namespace UnityEngine
         public static Texture2D whiteTexture { get; } = new Texture2D("UnityWhite");
 
         private readonly int bytes;
-        private byte[] waiting = Array.Empty<byte>();
 
         public Texture2D(int width, int height, TextureFormat textureFormat, bool mipChain)
         {
@@ -117,9 +116,6 @@ namespace UnityEngine
             isKept = !makeNoLongerReadable;
         }
 
-        /// <summary>The pixels that were uploaded to the graphics card.</summary>
-        internal byte[] Uploaded { get; private set; } = Array.Empty<byte>();
-
         public void LoadRawTextureData(byte[] data)
         {
             World.RequireMainThread();
@@ -127,14 +123,9 @@ namespace UnityEngine
             {
                 throw new UnityException($"LoadRawTextureData: not enough data provided: {data.Length} of {bytes}");
             }
-            waiting = data;
         }
 
-        public void Apply(bool updateMipmaps)
-        {
-            World.RequireMainThread();
-            Uploaded = waiting;
-        }
+        public void Apply(bool updateMipmaps) => World.RequireMainThread();
     }
 
     public enum RenderTextureFormat
@@ -259,11 +250,8 @@ namespace UnityEditor
     [Flags]
     public enum GizmoType
     {
-        Pickable = 1,
-        NotInSelectionHierarchy = 2,
         Selected = 4,
         Active = 8,
-        InSelectionHierarchy = 16,
         NonSelected = 32,
     }
 

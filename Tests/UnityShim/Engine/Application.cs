@@ -37,11 +37,9 @@ namespace UnityEngine
     public enum RuntimePlatform
     {
         OSXEditor = 0,
-        OSXPlayer = 1,
         WindowsPlayer = 2,
         WindowsEditor = 7,
         Android = 11,
-        LinuxPlayer = 13,
         LinuxEditor = 16,
     }
 

@@ -55,9 +55,9 @@ namespace UnityEngine
 
     public sealed class AddComponentMenu : Attribute
     {
-        public AddComponentMenu(string menuName) => componentMenu = menuName;
-
-        public string componentMenu { get; }
+        public AddComponentMenu(string menuName)
+        {
+        }
     }
 
     [AttributeUsage(AttributeTargets.Class, Inherited = false)]
@@ -91,10 +91,7 @@ namespace UnityEngine
 
     public enum RuntimeInitializeLoadType
     {
-        AfterSceneLoad = 0,
         BeforeSceneLoad = 1,
-        AfterAssembliesLoaded = 2,
-        BeforeSplashScreen = 3,
         SubsystemRegistration = 4,
     }
 
@@ -127,8 +124,8 @@ namespace UnityEngine.Serialization
     [AttributeUsage(AttributeTargets.Field, AllowMultiple = true, Inherited = false)]
     public class FormerlySerializedAsAttribute : Attribute
     {
-        public FormerlySerializedAsAttribute(string oldName) => this.oldName = oldName;
-
-        public string oldName { get; }
+        public FormerlySerializedAsAttribute(string oldName)
+        {
+        }
     }
 }

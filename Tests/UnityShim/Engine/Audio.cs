@@ -10,7 +10,6 @@ namespace UnityEngine
         Surround = 4,
         Mode5point1 = 5,
         Mode7point1 = 6,
-        Prologic = 7,
     }
 
     public struct AudioConfiguration
@@ -18,8 +17,6 @@ namespace UnityEngine
         public AudioSpeakerMode speakerMode;
         public int dspBufferSize;
         public int sampleRate;
-        public int numRealVoices;
-        public int numVirtualVoices;
     }
 
     public sealed class AudioSettings

@@ -117,7 +117,6 @@ namespace UnityEngine
 
     public enum LightType
     {
-        Spot = 0,
         Directional = 1,
         Point = 2,
     }
@@ -125,7 +124,6 @@ namespace UnityEngine
     public enum LightShadows
     {
         None = 0,
-        Hard = 1,
         Soft = 2,
     }
 
@@ -188,9 +186,7 @@ namespace UnityEngine.Rendering
     public enum AmbientMode
     {
         Skybox = 0,
-        Trilight = 1,
         Flat = 3,
-        Custom = 4,
     }
 }
 

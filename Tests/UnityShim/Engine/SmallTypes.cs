@@ -71,29 +71,20 @@ namespace UnityEngine
 
     public enum QueryTriggerInteraction
     {
-        UseGlobal = 0,
         Ignore = 1,
-        Collide = 2,
     }
 
     public enum RigidbodyInterpolation
     {
         None = 0,
         Interpolate = 1,
-        Extrapolate = 2,
     }
 
     [Flags]
     public enum HideFlags
     {
         None = 0,
-        HideInHierarchy = 1,
         HideInInspector = 2,
-        DontSaveInEditor = 4,
-        NotEditable = 8,
-        DontSaveInBuild = 16,
-        DontUnloadUnusedAsset = 32,
-        DontSave = 52,
         HideAndDontSave = 61,
     }
 

@@ -6,15 +6,9 @@ namespace UnityEngine.XR
 {
     public enum XRNode
     {
-        LeftEye = 0,
-        RightEye = 1,
-        CenterEye = 2,
-        Head = 3,
         LeftHand = 4,
         RightHand = 5,
         GameController = 6,
-        TrackingReference = 7,
-        HardwareTracker = 8,
     }
 
     [Flags]
@@ -28,37 +22,13 @@ namespace UnityEngine.XR
         Right = 1 << 9,
     }
 
-    [Flags]
-    public enum InputTrackingState : uint
-    {
-        None = 0,
-        Position = 1 << 0,
-        Rotation = 1 << 1,
-        Velocity = 1 << 2,
-        AngularVelocity = 1 << 3,
-    }
-
-    public struct HapticCapabilities : IEquatable<HapticCapabilities>
+    public struct HapticCapabilities
     {
         public uint numChannels { get; internal set; }
         public bool supportsImpulse { get; internal set; }
         public bool supportsBuffer { get; internal set; }
         public uint bufferFrequencyHz { get; internal set; }
         public uint bufferMaxSize { get; internal set; }
-        public uint bufferOptimalSize { get; internal set; }
-
-        public override bool Equals(object? obj) => obj is HapticCapabilities other && Equals(other);
-
-        public bool Equals(HapticCapabilities other) =>
-            numChannels == other.numChannels && supportsImpulse == other.supportsImpulse &&
-            supportsBuffer == other.supportsBuffer && bufferFrequencyHz == other.bufferFrequencyHz &&
-            bufferMaxSize == other.bufferMaxSize && bufferOptimalSize == other.bufferOptimalSize;
-
-        public override int GetHashCode() => numChannels.GetHashCode();
-
-        public static bool operator ==(HapticCapabilities a, HapticCapabilities b) => a.Equals(b);
-
-        public static bool operator !=(HapticCapabilities a, HapticCapabilities b) => !a.Equals(b);
     }
 
     public struct InputDevice : IEquatable<InputDevice>
@@ -164,20 +134,10 @@ namespace UnityEngine
 
     public interface ISubsystem
     {
-        bool running { get; }
-
-        void Start();
-
-        void Stop();
-
-        void Destroy();
     }
 
     public interface ISubsystemDescriptor
     {
-        string id { get; }
-
-        ISubsystem Create();
     }
 
     public class IntegratedSubsystem : ISubsystem
@@ -187,8 +147,6 @@ namespace UnityEngine
         public void Start() => running = true;
 
         public void Stop() => running = false;
-
-        public void Destroy() => Stop();
     }
 
     public partial class IntegratedSubsystem<TSubsystemDescriptor> : IntegratedSubsystem
@@ -198,9 +156,6 @@ namespace UnityEngine
 
     public abstract class IntegratedSubsystemDescriptor : ISubsystemDescriptor
     {
-        public string id => "";
-
-        ISubsystem ISubsystemDescriptor.Create() => new IntegratedSubsystem();
     }
 
     public class IntegratedSubsystemDescriptor<TSubsystem> : IntegratedSubsystemDescriptor

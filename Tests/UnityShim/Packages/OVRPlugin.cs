@@ -223,8 +223,6 @@ public static class OVRInput
     {
         None = 0u,
         FirstFrame = 1u,
-        IntermediateFrame = 2u,
-        LastFrame = 3u,
     }
 
     public struct HapticsParametricVibration

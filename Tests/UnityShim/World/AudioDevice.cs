@@ -109,8 +109,6 @@ namespace UnityShim
                 sampleRate = 48000,
                 dspBufferSize = 512,
                 speakerMode = AudioSpeakerMode.Stereo,
-                numRealVoices = 32,
-                numVirtualVoices = 512,
             };
             AudioListener.volume = 1f;
             AudioListener.pause = false;

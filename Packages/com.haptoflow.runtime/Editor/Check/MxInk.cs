@@ -57,17 +57,11 @@ namespace HaptoFlow.Editor
         private const string BindingsFile = "RuntimeActionBindings.json";
         private const string Profile = "mx_ink_stylus_logitech";
 
-        private MxInkSupport(bool isLacking, bool canSwitchOn)
-        {
-            IsLacking = isLacking;
-            CanSwitchOn = canSwitchOn;
-        }
-
         /// <summary>True where the project uses Meta's SDK or OpenXR and has no interaction profile of the pen.</summary>
-        public bool IsLacking { get; }
+        public bool IsLacking { get; init; }
 
         /// <summary>True where <see cref="MxInkSwitch"/> gives the project a profile.</summary>
-        public bool CanSwitchOn { get; }
+        public bool CanSwitchOn { get; init; }
 
         public static MxInkSupport OfProject()
         {
@@ -84,7 +78,7 @@ namespace HaptoFlow.Editor
         internal static MxInkSupport Of(bool meta, bool openXr, string project)
         {
             bool has = (meta && HasActionSet(project)) || (openXr && MxInkSwitch.IsOn);
-            return new MxInkSupport((meta || openXr) && !has, openXr && !has);
+            return new MxInkSupport { IsLacking = (meta || openXr) && !has, CanSwitchOn = openXr && !has };
         }
 
         private static bool HasActionSet(string project) =>

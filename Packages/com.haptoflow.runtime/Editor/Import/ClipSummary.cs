@@ -3,13 +3,12 @@ using System.Collections.Generic;
 using System.Linq;
 using HaptoFlow.Preview;
 using UnityEditor;
-using UnityEditor.AssetImporters;
 using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
     /// <summary>The text and the picture of a clip's Inspector.</summary>
-    internal sealed class ClipSummary
+    internal sealed class ClipSummary : FileSummary
     {
         private static readonly string[] Formats = { ".haptic (Meta, Lofelt)", ".ahap (Apple)", ".hjif (MPEG-I haptics)" };
 
@@ -20,12 +19,11 @@ namespace HaptoFlow.Editor
             Title = clip.Info.Title;
             Description = clip.Info.Description;
             Omitted = clip.Info.Omitted;
-            Rows = RowsOf(clip.Info).Where(row => row.Value.Length > 0).ToArray();
+            SetRows(RowsOf(clip.Info));
             Curves = new ClipCurves(clip);
         }
 
         /// <summary>The vibration at <see cref="PreviewSound.RateHz"/>, in m/s^2.</summary>
-        /// <param name="file">The bytes of a clip file.</param>
         /// <exception cref="HaptoFlowException">The library is missing, or the file is damaged.</exception>
         public static float[] Wave(byte[] file)
         {
@@ -33,21 +31,12 @@ namespace HaptoFlow.Editor
             return clip.Wave(PreviewSound.RateHz);
         }
 
-        /// <summary>The problem of a file that cannot be used, with all other properties empty; else null.</summary>
-        public string? Problem { get; }
-
-        public string Title { get; } = "";
-        public string Description { get; } = "";
-
         /// <summary>What the file has and is not played; empty for nothing.</summary>
         public string Omitted { get; } = "";
-
-        public IReadOnlyList<SummaryRow> Rows { get; } = new SummaryRow[0];
 
         /// <summary>Null where there is a problem.</summary>
         public ClipCurves? Curves { get; }
 
-        /// <param name="file">The bytes of a clip file.</param>
         public static ClipSummary Of(byte[] file)
         {
             try
@@ -88,7 +77,6 @@ namespace HaptoFlow.Editor
         private PreviewView? view;
         private Box box;
 
-        /// <param name="file">The bytes of a clip file.</param>
         public ClipSummaryView(byte[] file)
         {
             this.file = file;
@@ -98,24 +86,12 @@ namespace HaptoFlow.Editor
 
         public void Draw()
         {
-            if (summary.Problem != null)
+            if (!summary.DrawHeading("clip"))
             {
-                EditorGUILayout.HelpBox("This clip cannot be used: " + summary.Problem, MessageType.Error);
                 return;
             }
-            if (summary.Title.Length > 0)
-            {
-                EditorGUILayout.LabelField(summary.Title, EditorStyles.boldLabel);
-            }
-            if (summary.Description.Length > 0)
-            {
-                EditorGUILayout.LabelField(summary.Description, EditorStyles.wordWrappedLabel);
-            }
             DrawPicture(EditorGUILayout.GetControlRect(false, (float)ClipChart.Height));
-            foreach (SummaryRow row in summary.Rows)
-            {
-                EditorGUILayout.LabelField(row.Name, row.Value, EditorStyles.wordWrappedLabel);
-            }
+            summary.DrawRows();
             using (new EditorGUI.DisabledScope(!speaker.IsAvailable))
             {
                 if (GUILayout.Button(speaker.IsAvailable && speaker.IsPlaying ? Stop : Play))
@@ -165,15 +141,10 @@ namespace HaptoFlow.Editor
         }
     }
 
-    /// <summary>The Inspector of a clip file. It shows what the file says; there is nothing to set.</summary>
     [CustomEditor(typeof(HapticClipImporter))]
-    internal sealed class HapticClipImporterEditor : ScriptedImporterEditor
+    internal sealed class HapticClipImporterEditor : FileInspector
     {
         private ClipSummaryView? view;
-
-        public override bool showImportedObject => false;
-
-        protected override bool needsApplyRevert => false;
 
         public override void OnEnable()
         {
@@ -191,7 +162,7 @@ namespace HaptoFlow.Editor
         {
             if (view == null)
             {
-                EditorGUILayout.HelpBox("This file was not imported; the console says why.", MessageType.Error);
+                DrawNotImported();
                 return;
             }
             view.Draw();

@@ -8,12 +8,58 @@ using System.Text;
 using HaptoFlow.Files;
 using HaptoFlow.Model;
 using UnityEditor;
+using UnityEditor.AssetImporters;
+using UnityEngine;
 
 namespace HaptoFlow.Editor
 {
+    /// <summary>What the Inspector of a file says: a title and rows, or why the file cannot be used.</summary>
+    internal abstract class FileSummary
+    {
+        /// <summary>The problem of a file that cannot be used, with all other properties empty; else null.</summary>
+        public string? Problem { get; protected set; }
+
+        public string Title { get; protected set; } = "";
+        public string Description { get; protected set; } = "";
+
+        /// <summary>Only those with a value.</summary>
+        public IReadOnlyList<SummaryRow> Rows { get; private set; } = new SummaryRow[0];
+
+        /// <summary>Draws the problem, or title and description.</summary>
+        /// <param name="kind">Of the file: "model".</param>
+        /// <returns>False if the file cannot be used.</returns>
+        public bool DrawHeading(string kind)
+        {
+            if (Problem != null)
+            {
+                EditorGUILayout.HelpBox($"This {kind} cannot be used: {Problem}", MessageType.Error);
+                return false;
+            }
+            if (Title.Length > 0)
+            {
+                EditorGUILayout.LabelField(Title, EditorStyles.boldLabel);
+            }
+            if (Description.Length > 0)
+            {
+                EditorGUILayout.LabelField(Description, EditorStyles.wordWrappedLabel);
+            }
+            return true;
+        }
+
+        public void DrawRows()
+        {
+            foreach (SummaryRow row in Rows)
+            {
+                EditorGUILayout.LabelField(row.Name, row.Value, EditorStyles.wordWrappedLabel);
+            }
+        }
+
+        protected void SetRows(IEnumerable<SummaryRow> rows) => Rows = rows.Where(row => row.Value.Length > 0).ToArray();
+    }
+
     /// <summary>The text of a learnt material's Inspector: its nearest label, its recording, and whether it can be used
     /// with the project's model.</summary>
-    internal sealed class MaterialSummary
+    internal sealed class MaterialSummary : FileSummary
     {
         private MaterialSummary(string problem) => Problem = problem;
 
@@ -22,7 +68,7 @@ namespace HaptoFlow.Editor
             Title = material.Name;
             Description = material.Description;
             bool isOfModel = model != null && model.Space == material.Space;
-            Rows = RowsOf(material, isOfModel ? model : null).Where(row => row.Value.Length > 0).ToArray();
+            SetRows(RowsOf(material, isOfModel ? model : null));
             Mismatch = isOfModel
                 ? null
                 : model == null
@@ -30,15 +76,8 @@ namespace HaptoFlow.Editor
                     : "Its label is used instead: " + MaterialRegistration.ForeignSpace(material.Space, model.Space);
         }
 
-        /// <summary>The problem of a file that cannot be used, with all other properties empty; else null.</summary>
-        public string? Problem { get; }
-
         /// <summary>Why it cannot be used with the project's model; null when it can.</summary>
         public string? Mismatch { get; }
-
-        public string Title { get; } = "";
-        public string Description { get; } = "";
-        public IReadOnlyList<SummaryRow> Rows { get; } = new SummaryRow[0];
 
         /// <param name="text">The text of a material file.</param>
         /// <param name="model">The model in use; null for none.</param>
@@ -105,28 +144,13 @@ namespace HaptoFlow.Editor
                 model = current;
                 summary = MaterialSummary.Of(material, current);
             }
-            Draw(summary);
-        }
-
-        public static void Draw(MaterialSummary summary)
-        {
-            if (summary.Problem != null)
+            if (summary.DrawHeading("material"))
             {
-                EditorGUILayout.HelpBox("This material cannot be used: " + summary.Problem, MessageType.Error);
-                return;
-            }
-            EditorGUILayout.LabelField(summary.Title, EditorStyles.boldLabel);
-            if (summary.Description.Length > 0)
-            {
-                EditorGUILayout.LabelField(summary.Description, EditorStyles.wordWrappedLabel);
-            }
-            if (summary.Mismatch != null)
-            {
-                EditorGUILayout.HelpBox(summary.Mismatch, MessageType.Warning);
-            }
-            foreach (SummaryRow row in summary.Rows)
-            {
-                EditorGUILayout.LabelField(row.Name, row.Value, EditorStyles.wordWrappedLabel);
+                if (summary.Mismatch != null)
+                {
+                    EditorGUILayout.HelpBox(summary.Mismatch, MessageType.Warning);
+                }
+                summary.DrawRows();
             }
         }
     }
@@ -192,6 +216,44 @@ namespace HaptoFlow.Editor
             catch (Exception error) when (error is IOException || error is UnauthorizedAccessException)
             {
                 return error.Message;
+            }
+        }
+    }
+
+    /// <summary>The Inspector of a file with nothing to set.</summary>
+    internal abstract class FileInspector : ScriptedImporterEditor
+    {
+        public override bool showImportedObject => false;
+
+        protected override bool needsApplyRevert => false;
+
+        protected static void DrawNotImported() =>
+            EditorGUILayout.HelpBox("This file was not imported; the console says why.", MessageType.Error);
+    }
+
+    [CustomEditor(typeof(HapticMaterialImporter))]
+    internal sealed class HapticMaterialImporterEditor : FileInspector
+    {
+        private readonly MaterialSummaryView view = new MaterialSummaryView();
+        private string text = "";
+
+        public override void OnEnable()
+        {
+            base.OnEnable();
+            // From the file, because a damaged one has no text in its asset.
+            string path = ((AssetImporter)target).assetPath;
+            text = HapticMaterialImporter.TextOf(File.ReadAllBytes(FileUtil.GetPhysicalPath(path)));
+        }
+
+        public override void OnInspectorGUI()
+        {
+            view.Draw(text);
+            using (new EditorGUI.DisabledScope(!(assetTarget is HapticMaterial { IsLearnt: true })))
+            {
+                if (GUILayout.Button(HapticMaterialEditor.Preview))
+                {
+                    TexturePreviewWindow.Open(assetTarget!);
+                }
             }
         }
     }

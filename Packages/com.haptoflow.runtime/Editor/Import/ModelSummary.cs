@@ -12,9 +12,14 @@ using Object = UnityEngine.Object;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>The text of a model's Inspector: its origin, its tiers with accuracy and time, its labels.</summary>
-    internal sealed class ModelSummary
+    /// <summary>A model's Inspector: its origin, its tiers with accuracy and time, its labels.</summary>
+    internal sealed class ModelSummary : FileSummary
     {
+        private const string AboutLabels = "The materials that a surface can have: name, category, stiffness of the spring " +
+            "model, mean kinetic friction.";
+
+        private bool showsLabels = true;
+
         private ModelSummary(string problem) => Problem = problem;
 
         /// <exception cref="FormatException">A measured figure is not a number.</exception>
@@ -24,17 +29,10 @@ namespace HaptoFlow.Editor
             ModelHeader header = model.Header;
             Title = header.Name;
             Description = header.Description;
-            Origin = OriginOf(model, asset.File.Length).Where(row => row.Value.Length > 0).ToArray();
+            SetRows(OriginOf(model, asset.File.Length));
             Tiers = header.Tiers.Select(TierSummary.Of).ToArray();
             Labels = header.Labels.Select(LabelRow).ToArray();
         }
-
-        /// <summary>The problem of a file that cannot be used, with all other properties empty; else null.</summary>
-        public string? Problem { get; }
-
-        public string Title { get; } = "";
-        public string Description { get; } = "";
-        public IReadOnlyList<SummaryRow> Origin { get; } = new SummaryRow[0];
 
         /// <summary>The tiers in the order of the file, the most accurate last.</summary>
         public IReadOnlyList<TierSummary> Tiers { get; } = new TierSummary[0];
@@ -55,6 +53,43 @@ namespace HaptoFlow.Editor
             catch (FormatException error)
             {
                 return new ModelSummary("the JSON header: " + error.Message);
+            }
+        }
+
+        /// <summary>Call this in OnInspectorGUI.</summary>
+        public void Draw()
+        {
+            if (!DrawHeading("model"))
+            {
+                return;
+            }
+            EditorGUILayout.Space();
+            DrawRows();
+            EditorGUILayout.Space();
+            EditorGUILayout.LabelField("Tiers: accuracy and time", EditorStyles.boldLabel);
+            foreach (TierSummary tier in Tiers)
+            {
+                DrawTier(tier);
+            }
+            EditorGUILayout.Space();
+            showsLabels = EditorGUILayout.Foldout(
+                showsLabels, new GUIContent($"Labels ({Labels.Count})", AboutLabels), true);
+            using (new EditorGUI.IndentLevelScope())
+            {
+                foreach (SummaryRow row in showsLabels ? Labels : new SummaryRow[0])
+                {
+                    EditorGUILayout.LabelField(row.Name, row.Value);
+                }
+            }
+        }
+
+        private static void DrawTier(TierSummary tier)
+        {
+            EditorGUILayout.LabelField(tier.Name, tier.Network, EditorStyles.wordWrappedLabel);
+            using (new EditorGUI.IndentLevelScope())
+            {
+                EditorGUILayout.LabelField("Accuracy", tier.Accuracy, EditorStyles.wordWrappedLabel);
+                EditorGUILayout.LabelField("Time", tier.Time, EditorStyles.wordWrappedLabel);
             }
         }
 
@@ -138,72 +173,6 @@ namespace HaptoFlow.Editor
         private static string OrNotMeasured(string figures) => figures.Length > 0 ? figures : "not measured";
     }
 
-    /// <summary>Draws the summary of a model.</summary>
-    internal sealed class ModelSummaryView
-    {
-        private readonly ModelSummary summary;
-        private readonly GUIContent labelsTitle;
-        private bool showsLabels = true;
-
-        public ModelSummaryView(ModelSummary summary)
-        {
-            this.summary = summary;
-            labelsTitle = new GUIContent($"Labels ({summary.Labels.Count})",
-                "The materials that a surface can have: name, category, stiffness of the spring model, mean kinetic " +
-                "friction.");
-        }
-
-        public void Draw()
-        {
-            if (summary.Problem != null)
-            {
-                EditorGUILayout.HelpBox("This model cannot be used: " + summary.Problem, MessageType.Error);
-                return;
-            }
-            EditorGUILayout.LabelField(summary.Title, EditorStyles.boldLabel);
-            EditorGUILayout.LabelField(summary.Description, EditorStyles.wordWrappedLabel);
-            EditorGUILayout.Space();
-            foreach (SummaryRow row in summary.Origin)
-            {
-                EditorGUILayout.LabelField(row.Name, row.Value, EditorStyles.wordWrappedLabel);
-            }
-            EditorGUILayout.Space();
-            EditorGUILayout.LabelField("Tiers: accuracy and time", EditorStyles.boldLabel);
-            foreach (TierSummary tier in summary.Tiers)
-            {
-                DrawTier(tier);
-            }
-            EditorGUILayout.Space();
-            DrawLabels();
-        }
-
-        private static void DrawTier(TierSummary tier)
-        {
-            EditorGUILayout.LabelField(tier.Name, tier.Network, EditorStyles.wordWrappedLabel);
-            using (new EditorGUI.IndentLevelScope())
-            {
-                EditorGUILayout.LabelField("Accuracy", tier.Accuracy, EditorStyles.wordWrappedLabel);
-                EditorGUILayout.LabelField("Time", tier.Time, EditorStyles.wordWrappedLabel);
-            }
-        }
-
-        private void DrawLabels()
-        {
-            showsLabels = EditorGUILayout.Foldout(showsLabels, labelsTitle, true);
-            if (!showsLabels)
-            {
-                return;
-            }
-            using (new EditorGUI.IndentLevelScope())
-            {
-                foreach (SummaryRow row in summary.Labels)
-                {
-                    EditorGUILayout.LabelField(row.Name, row.Value);
-                }
-            }
-        }
-    }
-
     /// <summary>Lets the native library check .haptoflow files.</summary>
     internal static class ModelCheck
     {
@@ -264,6 +233,41 @@ namespace HaptoFlow.Editor
             string sum = BitConverter.ToString(hash.ComputeHash(file)).Replace("-", "").ToLowerInvariant();
             return SummaryRow.Format(". The file was not checked; it has {0} bytes and the SHA-256 checksum {1}",
                 file.Length, sum);
+        }
+    }
+
+    [CustomEditor(typeof(HapticModelImporter))]
+    internal sealed class HapticModelImporterEditor : FileInspector
+    {
+        private ModelSummary? view;
+
+        public override void OnEnable()
+        {
+            base.OnEnable();
+            view = assetTarget is HapticModelAsset asset ? ModelSummary.Of(asset) : null;
+        }
+
+        public override void OnInspectorGUI()
+        {
+            if (view == null)
+            {
+                DrawNotImported();
+                return;
+            }
+            view.Draw();
+        }
+    }
+
+    /// <summary>The Inspector of a model asset that has no .haptoflow file.</summary>
+    [CustomEditor(typeof(HapticModelAsset))]
+    internal sealed class HapticModelAssetEditor : UnityEditor.Editor
+    {
+        private ModelSummary? view;
+
+        public override void OnInspectorGUI()
+        {
+            view ??= ModelSummary.Of((HapticModelAsset)target);
+            view.Draw();
         }
     }
 }

@@ -22,13 +22,13 @@ namespace HaptoFlow.Preview
         private const int FewestFrames = 8;
 
         /// <param name="box">As large as <see cref="PreviewLayout.Charts"/> of the smallest window at least.</param>
-        public static void Draw(ICanvas canvas, Palette palette, Box box, LearningCurves curves)
+        public static void Draw(ICanvas canvas, Palette palette, Box box, LearningReport report)
         {
-            DrawSpectra(canvas, palette, Spectra(box), curves);
-            DrawLevels(canvas, palette, box, curves);
-            DrawKurtosis(canvas, palette, Kurtosis(box), curves);
-            DrawRibs(canvas, palette, Ribs(box), curves);
-            string next = curves.RecordNext.TrimEnd('.');
+            DrawSpectra(canvas, palette, Spectra(box), report);
+            DrawLevels(canvas, palette, box, report);
+            DrawKurtosis(canvas, palette, Kurtosis(box), report);
+            DrawRibs(canvas, palette, Ribs(box), report);
+            string next = report.RecordNext.TrimEnd('.');
             string sentence = next.Length > 0
                 ? "To gain most, " + next + "."
                 : "Nothing much is missing from the recording.";
@@ -37,20 +37,16 @@ namespace HaptoFlow.Preview
                 footer.MiddleY + 3.0, Card.TitleSize, palette.Ink);
         }
 
-        /// <summary>Where the panel shows the spectra: a card with a title and its charts.</summary>
         public static Box Spectra(Box box) => box.Rows(0.0, Math.Round(0.54 * (box.Height - FooterHeight)));
 
-        /// <summary>Where the panel shows the levels.</summary>
         public static Box Levels(Box box)
         {
             Box lower = Lower(box);
             return lower.Columns(0.0, lower.Width - FiguresWidth - Card.Gap);
         }
 
-        /// <summary>Where the panel shows the kurtosis.</summary>
         public static Box Kurtosis(Box box) => Figures(box).Rows(0.0, 0.5 * (Figures(box).Height - Card.Gap));
 
-        /// <summary>Where the panel shows the ribs.</summary>
         public static Box Ribs(Box box)
         {
             Box upper = Kurtosis(box);
@@ -94,99 +90,99 @@ namespace HaptoFlow.Preview
         private static void Header(ICanvas canvas, Palette palette, Box plot, string text) => canvas.DrawText(
             canvas.FitText(text, Plot.NumberSize, plot.Width), plot.Left, plot.Top - 8.0, Plot.NumberSize, palette.Soft);
 
-        private static void DrawSpectra(ICanvas canvas, Palette palette, Box card, LearningCurves curves)
+        private static void DrawSpectra(ICanvas canvas, Palette palette, Box card, LearningReport report)
         {
             Box inside = Below(canvas, palette, card, "Spectrum", "dB re 1 (m/s\u00b2)\u00b2/Hz");
-            DrawLegend(canvas, palette, card, curves);
-            LearningCurves.AtSpeed[] speeds = curves.Spectra.Speeds;
+            DrawLegend(canvas, palette, card, report);
+            LearningReport.AtSpeed[] speeds = report.Spectra.Speeds;
             double highest = speeds.SelectMany(each => each.Sides).SelectMany(each => each.Decibels)
                 .DefaultIfEmpty(0.0).Max();
             double top = HaptoFlow.Preview.Levels.Top(highest);
             int columns = speeds.Length <= 3 ? speeds.Length : speeds.Length == 4 ? 2 : 3;
             for (int index = 0; index < speeds.Length; ++index)
             {
-                LearningCurves.AtSpeed speed = speeds[index];
+                LearningReport.AtSpeed speed = speeds[index];
                 Box frame = Cell(inside, index, speeds.Length, columns);
                 CurveChart chart = CurveChart.OverFrequency(
-                    canvas, palette, frame, curves.Spectra.FrequenciesHz, (top - SpectrumDecibels, top));
+                    canvas, palette, frame, report.Spectra.FrequenciesHz, (top - SpectrumDecibels, top));
                 chart.Rows(AxisNumbers.Ticks(top - SpectrumDecibels, top, 4), value => AxisNumbers.Text(value, 0));
                 Header(canvas, palette, frame,
                     Speed(speed.SpeedMps) + " mm/s, " + AxisNumbers.Fixed(speed.Seconds, 1) + " s recorded");
                 for (int side = 0; side < speed.Sides.Length; ++side)
                 {
-                    chart.Line(curves.Spectra.FrequenciesHz.Zip(
+                    chart.Line(report.Spectra.FrequenciesHz.Zip(
                             speed.Sides[side].Decibels, (hertz, decibels) => (hertz, decibels)),
                         ColourOf(palette, side));
                 }
             }
         }
 
-        private static void DrawLevels(ICanvas canvas, Palette palette, Box box, LearningCurves curves)
+        private static void DrawLevels(ICanvas canvas, Palette palette, Box box, LearningReport report)
         {
             Below(canvas, palette, Levels(box), "Level", "m/s\u00b2; points and shade: recorded, dashed: extrapolated");
-            IReadOnlyList<double> all = curves.Levels.Forces
+            IReadOnlyList<double> all = report.Levels.Forces
                 .SelectMany(force => force.LearntMps2.Concat(force.NearestLabelMps2)).Where(level => level > 0.0).ToArray();
             double low = Math.Floor(Math.Log10(all.DefaultIfEmpty(0.1).Min()));
             double high = Math.Max(low + 1.0, Math.Ceiling(Math.Log10(all.DefaultIfEmpty(10.0).Max())));
-            for (int index = 0; index < curves.Levels.Forces.Length; ++index)
+            for (int index = 0; index < report.Levels.Forces.Length; ++index)
             {
-                LearningCurves.AtForce force = curves.Levels.Forces[index];
-                Box frame = LevelPlot(box, index, curves.Levels.Forces.Length);
-                CurveChart chart = CurveChart.OverSpeed(canvas, palette, frame, curves.Levels.SpeedsMps, (low, high));
+                LearningReport.AtForce force = report.Levels.Forces[index];
+                Box frame = LevelPlot(box, index, report.Levels.Forces.Length);
+                CurveChart chart = CurveChart.OverSpeed(canvas, palette, frame, report.Levels.SpeedsMps, (low, high));
                 chart.Shade(1000.0 * force.RecordedSpeedMps[0], 1000.0 * force.RecordedSpeedMps[1],
                     palette.Grid.WithOpacity(0.5));
                 chart.Rows(AxisNumbers.Ticks(low, high, 6).Where(tick => tick == Math.Floor(tick)),
                     value => AxisNumbers.Text(Math.Pow(10.0, value), 3));
                 Header(canvas, palette, frame, AxisNumbers.Fixed(force.ForceNewtons, 1) + " N, " +
                     Speed(force.RecordedSpeedMps[0]) + "\u2013" + Speed(force.RecordedSpeedMps[1]) + " mm/s");
-                chart.Line(Law(curves, force.NearestLabelMps2, _ => true), palette.Soft);
+                chart.Line(Law(report, force.NearestLabelMps2, _ => true), palette.Soft);
                 chart.Points(force.Speeds.Where(each => each.Recorded.Frames >= FewestFrames && each.Recorded.RmsMps2 > 0.0)
                     .Select(each => (1000.0 * each.SpeedMps, Math.Log10(each.Recorded.RmsMps2))), palette.First);
-                (int first, int last) = Recorded(curves, force);
-                chart.Line(Law(curves, force.LearntMps2, place => place <= first), palette.Second, true);
-                chart.Line(Law(curves, force.LearntMps2, place => place >= last), palette.Second, true);
-                chart.Line(Law(curves, force.LearntMps2, place => place >= first && place <= last), palette.Second);
+                (int first, int last) = Recorded(report, force);
+                chart.Line(Law(report, force.LearntMps2, place => place <= first), palette.Second, true);
+                chart.Line(Law(report, force.LearntMps2, place => place >= last), palette.Second, true);
+                chart.Line(Law(report, force.LearntMps2, place => place >= first && place <= last), palette.Second);
             }
         }
 
-        private static void DrawKurtosis(ICanvas canvas, Palette palette, Box card, LearningCurves curves)
+        private static void DrawKurtosis(ICanvas canvas, Palette palette, Box card, LearningReport report)
         {
             Box inside = Below(canvas, palette, card, "Kurtosis", "3: even noise");
-            double highest = Math.Max(6.0, curves.Spectra.Speeds.SelectMany(speed => speed.Sides)
+            double highest = Math.Max(6.0, report.Spectra.Speeds.SelectMany(speed => speed.Sides)
                 .Where(each => each.Frames >= FewestFrames).Max(each => each.Kurtosis) ?? 0.0);
             Box frame = inside.Inside(AxisWidth, 0.0, 0.0, AxisHeight);
-            CurveChart chart = CurveChart.OverSpeed(canvas, palette, frame, curves.Levels.SpeedsMps, (0.0, highest));
+            CurveChart chart = CurveChart.OverSpeed(canvas, palette, frame, report.Levels.SpeedsMps, (0.0, highest));
             chart.Rows(AxisNumbers.Ticks(0.0, highest, 3), value => AxisNumbers.Text(value, 0));
-            DrawFigures(chart, palette, curves, figures => figures.Kurtosis, true);
+            DrawFigures(chart, palette, report, figures => figures.Kurtosis, true);
         }
 
-        private static void DrawRibs(ICanvas canvas, Palette palette, Box card, LearningCurves curves)
+        private static void DrawRibs(ICanvas canvas, Palette palette, Box card, LearningReport report)
         {
             string distances = string.Join(" mm; without points ",
-                curves.WaveVectors.Select(each => AxisNumbers.Fixed(each.Millimetres, 2)));
+                report.WaveVectors.Select(each => AxisNumbers.Fixed(each.Millimetres, 2)));
             Box inside = Below(canvas, palette, card, "Ribs", distances.Length > 0 ? distances + " mm, dB" : "none found");
             if (distances.Length == 0)
             {
                 return;
             }
             Box frame = inside.Inside(AxisWidth, 0.0, 0.0, AxisHeight);
-            CurveChart chart = CurveChart.OverSpeed(canvas, palette, frame, curves.Levels.SpeedsMps, (LowestRibDecibels, 0.0));
+            CurveChart chart = CurveChart.OverSpeed(canvas, palette, frame, report.Levels.SpeedsMps, (LowestRibDecibels, 0.0));
             chart.Rows(AxisNumbers.Ticks(LowestRibDecibels, 0.0, 4), value => AxisNumbers.Text(value, 0));
-            for (int rib = 0; rib < curves.WaveVectors.Length; ++rib)
+            for (int rib = 0; rib < report.WaveVectors.Length; ++rib)
             {
                 int index = rib;
-                DrawFigures(chart, palette, curves, figures => figures.RibsDb[index], index == 0);
+                DrawFigures(chart, palette, report, figures => figures.RibsDb[index], index == 0);
             }
         }
 
         private static void DrawFigures(
-            CurveChart chart, Palette palette, LearningCurves curves, Func<LearningCurves.Figures, double?> figure,
+            CurveChart chart, Palette palette, LearningReport report, Func<LearningReport.Figures, double?> figure,
             bool hasPoints)
         {
-            for (int side = 0; side < curves.Spectra.Speeds[0].Sides.Length; ++side)
+            for (int side = 0; side < report.Spectra.Speeds[0].Sides.Length; ++side)
             {
                 int index = side;
-                (double, double)[] values = curves.Spectra.Speeds
+                (double, double)[] values = report.Spectra.Speeds
                     .Select(speed => (speed.SpeedMps, Figures: speed.Sides[index]))
                     .Where(each => each.Figures.Frames >= FewestFrames && figure(each.Figures) != null)
                     .Select(each => (1000.0 * each.SpeedMps, figure(each.Figures)!.Value)).ToArray();
@@ -197,14 +193,14 @@ namespace HaptoFlow.Preview
         }
 
         /// <summary>From the right edge to the left: learnt, recorded, nearest label.</summary>
-        private static void DrawLegend(ICanvas canvas, Palette palette, Box card, LearningCurves curves)
+        private static void DrawLegend(ICanvas canvas, Palette palette, Box card, LearningReport report)
         {
             double right = card.Right - Margin;
             double y = card.Top + 17.0;
             foreach ((string text, Colour colour) in new[]
                      {
                          ("learnt", palette.Second), ("recorded", palette.First),
-                         ("nearest label, " + curves.NearestLabel, palette.Soft),
+                         ("nearest label, " + report.NearestLabel, palette.Soft),
                      })
             {
                 canvas.DrawText(text, right, y, Plot.NumberSize, colour, TextAlign.Right, true);
@@ -215,27 +211,27 @@ namespace HaptoFlow.Preview
         }
 
         private static IEnumerable<(double, double)> Law(
-            LearningCurves curves, IReadOnlyList<double> levels, Predicate<int> isDrawn) =>
-            Enumerable.Range(0, curves.Levels.SpeedsMps.Length).Where(place => isDrawn(place) && levels[place] > 0.0)
-                .Select(place => (1000.0 * curves.Levels.SpeedsMps[place], Math.Log10(levels[place])));
+            LearningReport report, IReadOnlyList<double> levels, Predicate<int> isDrawn) =>
+            Enumerable.Range(0, report.Levels.SpeedsMps.Length).Where(place => isDrawn(place) && levels[place] > 0.0)
+                .Select(place => (1000.0 * report.Levels.SpeedsMps[place], Math.Log10(levels[place])));
 
         /// <summary>The first and the last place of the law within the recorded speeds.</summary>
-        private static (int First, int Last) Recorded(LearningCurves curves, LearningCurves.AtForce force)
+        private static (int First, int Last) Recorded(LearningReport report, LearningReport.AtForce force)
         {
-            int[] within = Enumerable.Range(0, curves.Levels.SpeedsMps.Length).Where(place =>
-                curves.Levels.SpeedsMps[place] >= force.RecordedSpeedMps[0] &&
-                curves.Levels.SpeedsMps[place] <= force.RecordedSpeedMps[1]).ToArray();
+            int[] within = Enumerable.Range(0, report.Levels.SpeedsMps.Length).Where(place =>
+                report.Levels.SpeedsMps[place] >= force.RecordedSpeedMps[0] &&
+                report.Levels.SpeedsMps[place] <= force.RecordedSpeedMps[1]).ToArray();
             if (within.Length > 0)
             {
                 return (within[0], within[within.Length - 1]);
             }
             // One speed was recorded, between two places.
-            int above = curves.Levels.SpeedsMps.Count(speed => speed < force.RecordedSpeedMps[0]);
-            int place = Math.Min(above, curves.Levels.SpeedsMps.Length - 1);
+            int above = report.Levels.SpeedsMps.Count(speed => speed < force.RecordedSpeedMps[0]);
+            int place = Math.Min(above, report.Levels.SpeedsMps.Length - 1);
             return (place, place);
         }
 
-        /// <param name="side">Place in <see cref="LearningCurves.AtSpeed.Sides"/>.</param>
+        /// <param name="side">Place in <see cref="LearningReport.AtSpeed.Sides"/>.</param>
         private static Colour ColourOf(Palette palette, int side) =>
             side == 0 ? palette.Soft : side == 1 ? palette.First : palette.Second;
 

@@ -1,107 +1,41 @@
 #nullable enable
 using System;
-using System.Collections.Generic;
 using System.Globalization;
 using System.Linq;
-using HaptoFlow.Model;
 using Newtonsoft.Json;
 using Newtonsoft.Json.Serialization;
 
 namespace HaptoFlow.Preview
 {
-    /// <summary>The library's report on learning. Immutable.</summary>
+    /// <summary>The library's report on learning: its result in words, and the curves of recording, learnt material and
+    /// nearest label. Immutable once read.</summary>
     internal sealed class LearningReport
-    {
-        private LearningReport(string text)
-        {
-            JsonValue json = JsonValue.Parse(text);
-            NearestLabel = json.Find("nearest_label")?.Text ?? "";
-            TurnDegrees = json.Find("turn_degrees")?.Number ?? 0.0;
-            Sentences = SentencesOf(json);
-            Curves = LearningCurves.Of(text);
-        }
-
-        /// <summary>The label of the model nearest to the material; empty where the report has none.</summary>
-        public string NearestLabel { get; }
-
-        /// <summary>Angle from the recording's first axis to the material's; 0 if the report has none.</summary>
-        public double TurnDegrees { get; }
-
-        /// <summary>The result in one or two sentences; missing values are left out.</summary>
-        public string Sentences { get; }
-
-        /// <summary>Null where the report has no curves.</summary>
-        public LearningCurves? Curves { get; }
-
-        /// <returns>Null for a text that is no report.</returns>
-        public static LearningReport? Read(string json)
-        {
-            try
-            {
-                return new LearningReport(json.Trim());
-            }
-            catch (FormatException)
-            {
-                return null;
-            }
-        }
-
-        private static string SentencesOf(JsonValue report)
-        {
-            var parts = new List<string>();
-            if (report.Find("nearest_label")?.Text is { } nearest)
-            {
-                parts.Add("nearest label: " + nearest);
-            }
-            Add(parts, report, "spectral_distance_db", "spectra within {0:0.0} dB");
-            Add(parts, report, "level_error_db", "levels within {0:0.0} dB");
-            Add(parts, report, "sliding_seconds", "{0:0.0} s of sliding");
-            if (report.Find("sensor_noise")?.Find("mps2")?.Number is { } noise && noise > 0.0)
-            {
-                parts.Add(string.Format(CultureInfo.InvariantCulture,
-                    "{0:0.000} m/s^2 of the sensor's noise removed", noise));
-            }
-            if (report.Find("turn_degrees")?.Number is { } turn && Math.Abs(turn) >= 0.5)
-            {
-                parts.Add(string.Format(CultureInfo.InvariantCulture,
-                    "the first axis is perpendicular to the ribs, {0:0} degrees from the recording's", turn));
-            }
-            Add(parts, report, "seconds", "learnt in {0:0.0} s");
-            string text = parts.Count > 0 ? "Learnt. " + Capital(string.Join("; ", parts)) + "." : "Learnt.";
-            if (report.Find("record_next")?.Text is { Length: > 0 } next)
-            {
-                text += " To gain most, " + next.TrimEnd('.') + ".";
-            }
-            if (report.Find("warnings")?.Elements is { } warnings)
-            {
-                foreach (JsonValue warning in warnings)
-                {
-                    text += warning.Text is { } words ? " " + Capital(words.TrimEnd('.')) + "." : "";
-                }
-            }
-            return text;
-        }
-
-        private static void Add(List<string> parts, JsonValue report, string key, string format)
-        {
-            if (report.Find(key)?.Number is { } number)
-            {
-                parts.Add(string.Format(CultureInfo.InvariantCulture, format, number));
-            }
-        }
-
-        private static string Capital(string words) =>
-            words.Length > 0 ? char.ToUpperInvariant(words[0]) + words.Substring(1) : words;
-    }
-
-    /// <summary>What the library's report on learning says of recording, learnt material and nearest label, to be drawn.
-    /// Immutable once read.</summary>
-    internal sealed class LearningCurves
     {
         private static readonly JsonSerializerSettings Names = new JsonSerializerSettings
         {
             ContractResolver = new DefaultContractResolver { NamingStrategy = new SnakeCaseNamingStrategy() },
+            NullValueHandling = NullValueHandling.Ignore,
         };
+
+        /// <summary>The label of the model nearest to the material; empty where the report has none.</summary>
+        public string NearestLabel { get; set; } = "";
+
+        /// <summary>Angle from the recording's first axis to the material's; 0 if the report has none.</summary>
+        public double TurnDegrees { get; set; }
+
+        public double? SpectralDistanceDb { get; set; }
+        public double? LevelErrorDb { get; set; }
+
+        public double? SlidingSeconds { get; set; }
+
+        public double? Seconds { get; set; }
+
+        public Noise SensorNoise { get; set; } = new Noise();
+        public string[] Warnings { get; set; } = Array.Empty<string>();
+
+        /// <summary>The recording that would improve the material most, as half a sentence ("record slower strokes");
+        /// empty if no further recording would help much.</summary>
+        public string RecordNext { get; set; } = "";
 
         public OverFrequency Spectra { get; set; } = new OverFrequency();
 
@@ -110,24 +44,53 @@ namespace HaptoFlow.Preview
         /// <summary>One for each family of ribs that was found: none, one or two.</summary>
         public WaveVector[] WaveVectors { get; set; } = Array.Empty<WaveVector>();
 
-        public string NearestLabel { get; set; } = "";
+        public bool HasCurves => Spectra.Speeds.Length > 0 && Levels.Forces.Length > 0;
 
-        /// <summary>The recording that would improve the material most, as half a sentence ("record slower strokes");
-        /// empty if no further recording would help much.</summary>
-        public string RecordNext { get; set; } = "";
+        /// <summary>The result in one or two sentences; missing values are left out.</summary>
+        public string Sentences
+        {
+            get
+            {
+                string[] parts = new[]
+                {
+                    NearestLabel.Length > 0 ? "nearest label: " + NearestLabel : "",
+                    Figure("spectra within {0:0.0} dB", SpectralDistanceDb),
+                    Figure("levels within {0:0.0} dB", LevelErrorDb),
+                    Figure("{0:0.0} s of sliding", SlidingSeconds),
+                    SensorNoise.Mps2 > 0.0 ? Figure("{0:0.000} m/s^2 of the sensor's noise removed", SensorNoise.Mps2) : "",
+                    Math.Abs(TurnDegrees) >= 0.5 ? Figure(
+                        "the first axis is perpendicular to the ribs, {0:0} degrees from the recording's", TurnDegrees) : "",
+                    Figure("learnt in {0:0.0} s", Seconds),
+                }.Where(part => part.Length > 0).ToArray();
+                return "Learnt." + Sentence(string.Join("; ", parts)) +
+                    Sentence(RecordNext.Length > 0 ? "to gain most, " + RecordNext : "") +
+                    string.Concat(Warnings.Select(Sentence));
+            }
+        }
 
-        /// <returns>Null where the report has no curves.</returns>
-        public static LearningCurves? Of(string report)
+        /// <returns>Null for a text that is no report.</returns>
+        public static LearningReport? Read(string json)
         {
             try
             {
-                LearningCurves? curves = JsonConvert.DeserializeObject<LearningCurves>(report, Names);
-                return curves?.Spectra.Speeds.Length > 0 && curves.Levels.Forces.Length > 0 ? curves : null;
+                return JsonConvert.DeserializeObject<LearningReport>(json, Names);
             }
             catch (JsonException)
             {
                 return null;
             }
+        }
+
+        private static string Figure(string format, double? number) =>
+            number.HasValue ? string.Format(CultureInfo.InvariantCulture, format, number) : "";
+
+        private static string Sentence(string words) => words.Length == 0
+            ? ""
+            : $" {char.ToUpperInvariant(words[0])}{words.Substring(1).TrimEnd('.')}.";
+
+        internal sealed class Noise
+        {
+            public double Mps2 { get; set; }
         }
 
         internal sealed class OverFrequency
@@ -152,7 +115,6 @@ namespace HaptoFlow.Preview
             public double XCyclesPerMm { get; set; }
             public double YCyclesPerMm { get; set; }
 
-            /// <summary>Distance of the ribs.</summary>
             public double Millimetres => 1.0 / Math.Sqrt(XCyclesPerMm * XCyclesPerMm + YCyclesPerMm * YCyclesPerMm);
         }
 
@@ -174,7 +136,6 @@ namespace HaptoFlow.Preview
             public double[] Decibels { get; set; } = Array.Empty<double>();
         }
 
-        /// <summary>One range of speed.</summary>
         internal sealed class AtSpeed
         {
             public double SpeedMps { get; set; }
@@ -190,7 +151,6 @@ namespace HaptoFlow.Preview
             public Figures[] Sides => new[] { NearestLabel, Recorded, Learnt };
         }
 
-        /// <summary>One range of force.</summary>
         internal sealed class AtForce
         {
             public double ForceNewtons { get; set; }

@@ -161,7 +161,6 @@ namespace HaptoFlow.Preview
             (plot.X(Math.Log10(each.Across)), plot.Y(each.Value));
     }
 
-    /// <summary>Numbers of chart axes.</summary>
     internal static class AxisNumbers
     {
         /// <summary>Multiples of 1, 2 or 5 times a power of ten from <paramref name="low"/> to <paramref name="high"/>.

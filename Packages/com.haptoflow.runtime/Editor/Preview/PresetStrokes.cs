@@ -3,7 +3,6 @@ using System;
 
 namespace HaptoFlow.Preview
 {
-    /// <summary>Makes strokes from settings.</summary>
     internal static class PresetStrokes
     {
         public const double LeadSeconds = 0.1;

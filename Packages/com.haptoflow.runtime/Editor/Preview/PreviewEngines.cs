@@ -1,6 +1,5 @@
 #nullable enable
 using System;
-using System.Collections.Generic;
 
 namespace HaptoFlow.Preview
 {
@@ -11,15 +10,11 @@ namespace HaptoFlow.Preview
         // The command line's default lead, so that both render the same samples.
         private const double LeadMs = 8.0;
 
-        // Two materials are compared at a time. Registered materials beyond this number are replaced, oldest first.
-        private const int KeptMaterials = 4;
-
         private OnnxRuntime? runtime;
         private byte[]? file;
         private HapticModel? model;
         private HapticEngine? engine;
-        // Materials registered with the engine, the oldest first.
-        private readonly List<(string Text, int Index)> materials = new List<(string, int)>();
+        private int? material;
         private bool used;
         private (HapticQuality Quality, ulong Seed) options;
         private (ReliefHeights Heights, HapticReliefMap Map)? relief;
@@ -51,30 +46,22 @@ namespace HaptoFlow.Preview
             return engine;
         }
 
-        /// <summary>Index of a learnt material in the engine that was created last. Registers the material first if
-        /// necessary, in place of the oldest one if there are too many.</summary>
+        /// <summary>Gives a learnt material to the engine that was created last, in place of the one before: sounds are
+        /// rendered one after the other.</summary>
         /// <param name="text">The text of a material file.</param>
+        /// <returns>Index of the material in the engine.</returns>
         /// <exception cref="HaptoFlowException">The text is no material file, or learnt for another model.</exception>
-        public int MaterialIndex(string text)
+        public int Register(string text)
         {
-            int known = materials.FindIndex(each => each.Text == text);
-            if (known >= 0)
+            if (material.HasValue)
             {
-                return materials[known].Index;
-            }
-            int index;
-            if (materials.Count < KeptMaterials)
-            {
-                index = engine!.RegisterMaterial(text);
+                engine!.ReplaceMaterial(material.Value, text);
             }
             else
             {
-                index = materials[0].Index;
-                engine!.ReplaceMaterial(index, text);
-                materials.RemoveAt(0);
+                material = engine!.RegisterMaterial(text);
             }
-            materials.Add((text, index));
-            return index;
+            return material.Value;
         }
 
         /// <summary>The library's number of a relief, whose map is kept until another one or none is asked for; 0 for
@@ -104,13 +91,8 @@ namespace HaptoFlow.Preview
 
         /// <summary>A generator of one tier, for timing. The caller disposes it.</summary>
         /// <exception cref="HaptoFlowException">A library is missing, or the model cannot be used.</exception>
-        public HapticGenerator Generator(byte[] modelFile, string tier)
-        {
-            HapticModel opened = Model(modelFile);
-            return new HapticGenerator(Runtime, opened, tier);
-        }
-
-        public float[] Embedding(byte[] modelFile) => Model(modelFile).Embedding(0);
+        public HapticGenerator Generator(byte[] modelFile, string tier) =>
+            new HapticGenerator(Runtime, Model(modelFile), tier);
 
         /// <summary>The model, which is kept as long as it is asked for.</summary>
         /// <exception cref="HaptoFlowException">The library is missing, or the model cannot be used.</exception>
@@ -143,7 +125,7 @@ namespace HaptoFlow.Preview
         {
             engine?.Dispose();
             engine = null;
-            materials.Clear();
+            material = null;
             used = false;
         }
 

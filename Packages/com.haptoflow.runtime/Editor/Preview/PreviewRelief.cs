@@ -51,7 +51,6 @@ namespace HaptoFlow.Preview
 
         public double DurationSeconds { get; }
 
-        /// <summary>Of the relief.</summary>
         public double DepthMillimetres { get; }
 
         /// <summary>The lowest and the highest height in a part of the stroke; false where the tip does not touch in
@@ -76,7 +75,6 @@ namespace HaptoFlow.Preview
             new CurvePoint(DurationSeconds * index / millimetres.Length, millimetres[index]);
     }
 
-    /// <summary>A height of a curve, and its time.</summary>
     internal readonly struct CurvePoint
     {
         public readonly double Seconds;

@@ -21,7 +21,6 @@ namespace HaptoFlow.Preview
 
         /// <summary>Makes the result of a request. A missing library, a damaged model or an unknown label is reported
         /// as the result's problem.</summary>
-        /// <exception cref="OperationCanceledException">The token was cancelled.</exception>
         public PreviewResult Do(PreviewRequest request, CancellationToken token)
         {
             IReadOnlyList<AnalysedSound> sounds = Array.Empty<AnalysedSound>();
@@ -65,7 +64,7 @@ namespace HaptoFlow.Preview
                 request.ModelFile, PreviewQualities.Of(engines.Model(request.ModelFile).Header, request.Tier), request.Seed,
                 !request.IsSketch);
             int registered = material.IsRegistered
-                ? engines.MaterialIndex(material.MaterialText(engines.Model(request.ModelFile), request.Sliders))
+                ? engines.Register(material.MaterialText(engines.Model(request.ModelFile), request.Sliders))
                 : -1;
             uint relief = engines.Relief(request.Relief);
             var surface = new ContactState
@@ -113,7 +112,7 @@ namespace HaptoFlow.Preview
             {
                 return;
             }
-            float[] embedding = engines.Embedding(request.ModelFile);
+            float[] embedding = engines.Model(request.ModelFile).Embedding(0);
             foreach (HapticTier tier in header.Tiers)
             {
                 using HapticGenerator generator = engines.Generator(request.ModelFile, tier.Name);

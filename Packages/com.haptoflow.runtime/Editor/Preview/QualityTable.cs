@@ -157,7 +157,6 @@ namespace HaptoFlow.Preview
 
         /// <summary>Generates segments one after the other on the calling thread, the first ones without timing to warm
         /// the caches, as in the benchmarks' column "hot". Takes up to a second.</summary>
-        /// <exception cref="OperationCanceledException">The token was cancelled.</exception>
         public static TierTiming Measure(HapticGenerator generator, float[] embedding, CancellationToken token)
         {
             var motion = new[] { 0.1f, 0.0f, 1.0f };

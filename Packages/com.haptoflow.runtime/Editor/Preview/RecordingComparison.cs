@@ -32,10 +32,8 @@ namespace HaptoFlow.Preview
     internal sealed record ComparisonResult(
         ComparisonRequest Request, IReadOnlyList<AnalysedSound> Sounds, string? Problem)
     {
-        /// <summary>Draws the sounds.</summary>
         public SoundPanel Panel { get; } = new SoundPanel(Sounds);
 
-        /// <summary>Index of the sound that is played.</summary>
         public int Active => Math.Min(Request.Active, Sounds.Count - 1);
     }
 
@@ -51,7 +49,6 @@ namespace HaptoFlow.Preview
         private (byte[] Model, Recording Recording, string Material, double TurnDegrees) rendered;
         private PreviewSound? result;
 
-        /// <exception cref="OperationCanceledException">The token was cancelled.</exception>
         public ComparisonResult Do(ComparisonRequest request, CancellationToken token)
         {
             if (recording == null || !ReferenceEquals(analysed, request.Recording))
@@ -89,7 +86,7 @@ namespace HaptoFlow.Preview
                 HapticEngine engine = engines.Engine(request.ModelFile, HapticQuality.Standard, Seed, true);
                 var surface = new ContactState
                 {
-                    Material = LabelBlend.Of(engines.MaterialIndex(request.Material)),
+                    Material = LabelBlend.Of(engines.Register(request.Material)),
                     Effects = HapticEffects.Texture,
                 };
                 Stroke stroke = RecordingSound.StrokeOf(request.Recording, request.TurnDegrees);

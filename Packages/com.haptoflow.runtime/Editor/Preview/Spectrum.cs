@@ -24,7 +24,6 @@ namespace HaptoFlow.Preview
         /// <summary>Number of frequencies from 0 Hz to past <see cref="MaximumHz"/>.</summary>
         public int Bins => densities.Length;
 
-        /// <exception cref="OperationCanceledException">The token was cancelled.</exception>
         public static Spectrum Of(PreviewSound sound, CancellationToken token)
         {
             var density = new PowerDensity(WindowSamples, PreviewSound.RateHz);
@@ -102,7 +101,6 @@ namespace HaptoFlow.Preview
         /// <summary>Highest level of all, dB re 1 (m/s^2)^2/Hz; minus infinity for silence.</summary>
         public float Highest { get; private set; } = float.NegativeInfinity;
 
-        /// <exception cref="OperationCanceledException">The token was cancelled.</exception>
         public static Spectrogram Of(PreviewSound sound, CancellationToken token)
         {
             var density = new PowerDensity(WindowSamples, PreviewSound.RateHz);
@@ -139,7 +137,6 @@ namespace HaptoFlow.Preview
     /// <summary>A sound with its spectrum and its spectrogram. Immutable.</summary>
     internal sealed record AnalysedSound(PreviewSound Sound, Spectrum Spectrum, Spectrogram Spectrogram)
     {
-        /// <exception cref="System.OperationCanceledException">The token was cancelled.</exception>
         public static AnalysedSound Of(PreviewSound sound, CancellationToken token) =>
             new AnalysedSound(sound, Spectrum.Of(sound, token), Spectrogram.Of(sound, token));
     }
@@ -193,7 +190,6 @@ namespace HaptoFlow.Preview
         }
     }
 
-    /// <summary>Conversions to decibels.</summary>
     internal static class Levels
     {
         /// <summary>10 log10 of a power; minus infinity for zero.</summary>

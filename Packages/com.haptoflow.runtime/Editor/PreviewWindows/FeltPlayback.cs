@@ -70,8 +70,6 @@ namespace HaptoFlow.Editor
             }
         }
 
-        /// <summary>Plays a sound in place of the present one.</summary>
-        /// <param name="startSample">Start position; a position past the end counts as 0.</param>
         public void Play(PreviewSound sound, int startSample, bool loops) => wave.Play(sound, startSample, loops);
 
         public void Stop()
@@ -110,7 +108,6 @@ namespace HaptoFlow.Editor
             }
         }
 
-        /// <summary>Stops and forgets the device.</summary>
         public void Close()
         {
             held.Close();
@@ -160,7 +157,6 @@ namespace HaptoFlow.Editor
         /// <summary>Position in the sound at its own rate.</summary>
         public int PositionSamples { get; private set; }
 
-        /// <inheritdoc/>
         public bool IsStopped => sound == null;
 
         /// <summary>Plays a sound in place of the present one.</summary>
@@ -194,7 +190,6 @@ namespace HaptoFlow.Editor
             }
         }
 
-        /// <inheritdoc/>
         public void Render(Span<float> samples)
         {
             for (int index = 0; index < samples.Length; ++index)

@@ -142,7 +142,7 @@ namespace HaptoFlow.Editor
         {
             learns = session.Learning != null;
             hasResult = state.Material.Length > 0;
-            hasCurves = session.Report?.Curves != null;
+            hasCurves = session.Report?.HasCurves == true;
             report = session.Report?.Sentences ?? "";
             obstacle = session.Obstacle(model) ?? "";
             problem = session.Problem ?? "";

@@ -103,7 +103,6 @@ namespace HaptoFlow.Editor
             }
         }
 
-        /// <summary>Starts learning in the background.</summary>
         public void Learn(HapticModelAsset model)
         {
             if (Learning != null || Obstacle(model) != null)

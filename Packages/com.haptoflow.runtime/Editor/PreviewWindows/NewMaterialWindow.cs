@@ -18,7 +18,7 @@ namespace HaptoFlow.Editor
 
         // Null while the sounds are shown. Of the last layout event, as IMGUI needs the same controls in the events that
         // follow it.
-        private LearningCurves? curves;
+        private LearningReport? curves;
 
         /// <summary>Null while the window is closed.</summary>
         internal NewMaterialSession? Session { get; private set; }
@@ -57,7 +57,7 @@ namespace HaptoFlow.Editor
         {
             if (Event.current.type == EventType.Layout)
             {
-                curves = State.ShowsCurves ? Session!.Report?.Curves : null;
+                curves = State.ShowsCurves && Session!.Report?.HasCurves == true ? Session.Report : null;
             }
             if (curves != null)
             {

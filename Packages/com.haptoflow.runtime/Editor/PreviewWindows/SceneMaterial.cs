@@ -16,29 +16,18 @@ namespace HaptoFlow.Editor
         /// <returns>False for anything else.</returns>
         public static bool TryRead(Object? source, out LabelMix mix, out HapticMaterial? learnt)
         {
-            mix = default;
-            learnt = null;
-            Object? described = SelectedMaterial.Of(source).Described;
-            if (described == null)
+            MaterialDescription? description = SelectedMaterial.Of(source).Described switch
             {
-                return false;
-            }
-            using var serialized = new SerializedObject(described);
-            SerializedProperty? shared = serialized.FindProperty("sharedMaterial");
-            if (shared != null && shared.objectReferenceValue != null)
-            {
-                return TryRead(shared.objectReferenceValue, out mix, out learnt);
-            }
-            string path = described is HapticMaterial ? "description" : "own";
-            mix = new LabelMix(serialized.FindProperty(path + ".label").stringValue,
-                serialized.FindProperty(path + ".secondLabel").stringValue,
-                serialized.FindProperty(path + ".blend").floatValue, "", null,
-                serialized.FindProperty(path + ".featureScale").floatValue,
-                serialized.FindProperty(path + ".toneDbPerOctave").floatValue);
-            learnt = described is HapticMaterial { IsLearnt: true } carrier
-                ? carrier
-                : serialized.FindProperty(path + ".learnt").objectReferenceValue as HapticMaterial;
-            return true;
+                HapticMaterial asset => asset.Description,
+                HapticSurface surface => surface.SharedDescription,
+                _ => null,
+            };
+            mix = description == null
+                ? default
+                : new LabelMix(description.Label, description.SecondLabel, description.Blend, "", null,
+                    description.FeatureScale, description.ToneDbPerOctave);
+            learnt = description?.Learnt;
+            return description != null;
         }
 
         /// <summary>Assigns a material to objects. An object with a collider gets a Haptic Surface if it has none. A

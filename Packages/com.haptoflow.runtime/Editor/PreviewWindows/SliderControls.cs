@@ -137,8 +137,6 @@ namespace HaptoFlow.Editor
         public SliderSet? Sliders { get; }
         public string? Problem { get; }
 
-        /// <summary>The sliders of a model.</summary>
-        /// <param name="model">The model; null for none.</param>
         public static SliderCatalog Of(HapticModelAsset? model)
         {
             byte[] file = model != null ? model.File : Array.Empty<byte>();

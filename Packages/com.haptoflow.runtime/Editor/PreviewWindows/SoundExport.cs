@@ -9,7 +9,6 @@ using HaptoFlow.Preview;
 
 namespace HaptoFlow.Editor
 {
-    /// <summary>Files that the Texture Preview writes.</summary>
     internal enum SoundFormat
     {
         Wav = 0,
@@ -79,7 +78,6 @@ namespace HaptoFlow.Editor
         private const int HeaderBytes = 12 + 8 + 18 + 8 + 4 + 8;
         private const short FloatFormat = 3;
 
-        /// <summary>The bytes of a file.</summary>
         /// <param name="samples">-1 to 1.</param>
         public static byte[] Bytes(ReadOnlySpan<float> samples, int rateHz)
         {

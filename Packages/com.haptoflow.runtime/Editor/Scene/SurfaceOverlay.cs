@@ -98,8 +98,6 @@ namespace HaptoFlow.Editor
         public IReadOnlyList<SurfaceLine> Felt { get; }
         public IReadOnlyList<SurfaceLine> NotFelt { get; }
 
-        /// <summary>Lists the colliders of the selected objects, or of the open scenes.</summary>
-        /// <param name="selected">The selected objects.</param>
         public static SurfaceList Of(IReadOnlyList<GameObject> selected)
         {
             IReadOnlyList<Collider> ofSelection = SceneColliders.Below(selected);
