@@ -19,7 +19,6 @@ from haptoflow_paper.rows.reference_conditions import conditions
 from haptoflow_paper.runs.tier import build_seed_bank
 from haptoflow_training.export.exponents import draw_windows, fit_exponents
 from haptoflow_training.preprocessing.pipeline import preprocess_recording
-from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.recordings.synthetic import load_materials, machine_conditions, record_machine_condition
 from haptoflow_training.training.batches import HeldOut, SegmentBatches, clear_spans
 from haptoflow_training.training.config import BatchConfig, load_config
@@ -161,7 +160,7 @@ def _default_passes() -> Sequence[tuple[int, NDArray[np.float32]]]:
         material, directions=data.machine_directions, speeds_mmps=(60,), forces_millinewtons=(1000,), repeats=1
     ):
         recording = record_machine_condition(material, identity, seed=data.recordings_seed)
-        found.append((identity.direction_degrees, preprocess_recording(recording, PreprocessingSettings()).motion))
+        found.append((identity.direction_degrees, preprocess_recording(recording).motion))
     return found
 
 

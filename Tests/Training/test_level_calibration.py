@@ -22,7 +22,6 @@ from haptoflow_training.export.trained_tier import TrainedTier, load_tiers
 from haptoflow_training.models.skeleton import NOISE_BEFORE
 from haptoflow_training.models.level_model import LevelModel, level_loss, shift_level
 from haptoflow_training.preprocessing.pipeline import preprocess_recording
-from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.recordings.synthetic import load_materials, record_condition
 from haptoflow_training.training.batches import HeldOut
 from haptoflow_training.training.config import ModelConfig, TrainingConfig
@@ -293,7 +292,7 @@ def _slow_store() -> FakeStore:
             forces_millinewtons=(500, 1000), repeats=1,
         )  # fmt: skip
         for recording in slow:
-            prepared = preprocess_recording(recording, PreprocessingSettings())
+            prepared = preprocess_recording(recording)
             waves.append(prepared.waveform_mps2 / 10.0)
             motions.append(prepared.motion)
             recordings.append(FakeRecording(index, "machine", "train", start, len(prepared.waveform_mps2)))
@@ -333,7 +332,7 @@ def _recorded(label: str, speed_mps: float, seed: int) -> np.ndarray:
     recording = record_condition(
         material, velocity_mps=(speed_mps, 0.0), force_newtons=1.0, duration_seconds=2.6, seed=seed
     )
-    return preprocess_recording(recording, PreprocessingSettings()).waveform_mps2
+    return preprocess_recording(recording).waveform_mps2
 
 
 def _level_errors_db(taught: Taught, speed_mps: float) -> tuple[np.ndarray, np.ndarray]:

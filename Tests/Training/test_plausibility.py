@@ -13,7 +13,6 @@ from dataset_samples import small_recording
 from haptoflow_training.errors import InputError
 from haptoflow_training.preprocessing.pipeline import preprocess_recording
 from haptoflow_training.preprocessing.plausibility import implausible
-from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.recordings.recording import Recording
 from haptoflow_training.recordings.synthetic import (
     hand_conditions,
@@ -73,7 +72,7 @@ def test_an_implausible_recording_is_refused_with_name_and_expectation(kind: str
     name, changes, words = BAD[kind]
     recording = changed(name, **changes)
     with pytest.raises(InputError, match=f"recording {name}: .*{re.escape(words)}"):
-        preprocess_recording(recording, PreprocessingSettings())
+        preprocess_recording(recording)
 
 
 @pytest.mark.parametrize("name", [HAND, MACHINE])

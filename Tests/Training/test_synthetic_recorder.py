@@ -9,7 +9,6 @@ import pytest
 from synthetic_samples import record_hand, record_machine
 
 from haptoflow_training.preprocessing.pipeline import preprocess_recording
-from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.recordings.recording import STANDARD_GRAVITY_MPS2, RecordingIdentity
 from haptoflow_training.recordings.synthetic import load_materials, record_condition, record_machine_condition
 from haptoflow_training.recordings.synthetic.contact import SIMULATION_RATE_HZ
@@ -120,7 +119,7 @@ def _prepared_wave(label, *, material=None, speed=0.03, seconds=6.0, seeds=range
             seed=seed,
             accelerometer_noise=accelerometer_noise,
         )
-        waves.append(preprocess_recording(recording, PreprocessingSettings()).waveform_mps2.astype(float))
+        waves.append(preprocess_recording(recording).waveform_mps2.astype(float))
     return np.concatenate(waves)
 
 
@@ -147,7 +146,7 @@ def test_without_the_accelerometer_s_noise_rest_is_digital_silence_and_the_other
     assert np.all(clean.vibration_g == 0.0) and np.any(noisy.vibration_g != 0.0)
     for name in ("acceleration_time_seconds", "force_time_seconds", "force_newtons", "position_mm"):
         assert np.array_equal(getattr(clean, name), getattr(noisy, name))
-    assert not np.any(preprocess_recording(clean, PreprocessingSettings()).waveform_mps2)
+    assert not np.any(preprocess_recording(clean).waveform_mps2)
 
 
 def test_stick_slip_vibrates_along_the_movement_and_vanishes_at_speed():

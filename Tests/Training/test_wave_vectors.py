@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 
 from haptoflow_training.preprocessing.pipeline import preprocess_recording
-from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.recordings.native_recording import estimate_wave_vectors
 from haptoflow_training.recordings.material_recording import MaterialRecording
 from haptoflow_training.recordings.synthetic import Material, load_materials, machine_conditions, record_condition_of
@@ -39,7 +38,7 @@ def _scanned(material: Material) -> list[MaterialRecording]:
     prepared = []
     for identity in machine_conditions(material, speeds_mmps=(20, 40, 60), forces_millinewtons=(500,), repeats=1):
         made = record_condition_of(material, identity, seed=3, accelerometer_noise=False)
-        pieces = preprocess_recording(made, PreprocessingSettings())
+        pieces = preprocess_recording(made)
         prepared.append(
             MaterialRecording(
                 identity.name, material.label, pieces.waveform_mps2, pieces.motion[:, :2], pieces.motion[:, 2], "", ""

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from haptoflow_training.preprocessing.pipeline import PreparedRecording, preprocess_recording
-from haptoflow_training.preprocessing.settings import PreprocessingSettings
+from haptoflow_training.preprocessing.settings import SETTINGS
 from haptoflow_training.recordings.native_recording import WaveVector
 from haptoflow_training.recordings.material_recording import MaterialRecording
 from haptoflow_training.recordings.recording import RecordingIdentity
@@ -98,7 +98,6 @@ def make_rides(
     material: Material, seed: int, count: int, *, guided_share: float = 1.0
 ) -> tuple[MaterialRecording, ...]:
     """`count` rides of 5 s in the recorder's frame, alternately slow and fast, light and firm."""
-    settings = PreprocessingSettings()
     rides = []
     for number in range(count):
         speed, force = _RIDES[number % len(_RIDES)]
@@ -106,11 +105,11 @@ def make_rides(
             material,
             RecordingIdentity(material.texture_id, None, speed, force, number),
             seed=seed,
-            duration_seconds=RIDE_SECONDS + 2.0 * settings.trim_seconds + 0.05,
+            duration_seconds=RIDE_SECONDS + 2.0 * SETTINGS.trim_seconds + 0.05,
             guided_share=guided_share,
             specimen=TRAINING_SPECIMENS[number % len(TRAINING_SPECIMENS)],
         )
-        rides.append(_as_recording(f"ride-{number + 1}", material.label, preprocess_recording(ride, settings)))
+        rides.append(_as_recording(f"ride-{number + 1}", material.label, preprocess_recording(ride)))
     return tuple(rides)
 
 

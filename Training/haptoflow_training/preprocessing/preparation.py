@@ -26,16 +26,7 @@ from haptoflow_training.preprocessing import store as store_module
 from haptoflow_training.preprocessing.pipeline import (
     PaddedRecording, PreparedRecording, pad_recording, preprocess_parts
 )
-from haptoflow_training.preprocessing.settings import PreprocessingSettings
-from haptoflow_training.preprocessing.split import (
-    SPLITS,
-    Split,
-    cut,
-    labels_to_cut,
-    labels_without_a_split,
-    split_of,
-    time_parts,
-)
+from haptoflow_training.preprocessing.split import SPLITS, Split, labels_without_a_split, split_of, time_parts
 from haptoflow_training.preprocessing.store import SegmentStore, SkippedRecording, StoredRecording
 from haptoflow_training.recordings.recording import Recording, RecordingIdentity
 from haptoflow_training.stopping import deferred, end_if_stopped
@@ -81,7 +72,6 @@ def prepare_store(
     recordings: Iterable[Recording | LoadableRecording],
     labels: list[str],
     out: Path,
-    settings: PreprocessingSettings | None = None,
     seed: int = 0,
     *,
     provenance: dict[str, Any] | None = None,
@@ -99,15 +89,14 @@ def prepare_store(
     `out` is then unchanged. The result is the same for any number of `workers`. Two programs must not prepare one
     folder at a time: see store.py.
     """
-    settings = settings or PreprocessingSettings()
     out = Path(out).absolute()
     cut_labels: list[str] = []
     if is_cut:
         recordings = list(recordings)
-        cut_labels = labels_to_cut(((item.label, item.identity) for item in recordings), settings, seed)
+        cut_labels = labels_without_a_split((item.label, split_of(item.identity, seed)) for item in recordings)
     while True:
-        store = _prepared_store(recordings, labels, out, settings, seed, provenance or {}, workers, cut_labels)
-        lacking = labels_without_a_split(((one.label, one.split) for one in store.recordings), settings) if is_cut else []
+        store = _prepared_store(recordings, labels, out, seed, provenance or {}, workers, cut_labels)
+        lacking = labels_without_a_split((one.label, one.split) for one in store.recordings) if is_cut else []
         further = [label for label in lacking if label not in cut_labels]
         if not further:
             return store
@@ -118,7 +107,6 @@ def _prepared_store(
     recordings: Iterable[Recording | LoadableRecording],
     labels: list[str],
     out: Path,
-    settings: PreprocessingSettings,
     seed: int,
     provenance: dict[str, Any],
     workers: int,
@@ -130,10 +118,10 @@ def _prepared_store(
     try:
         shutil.rmtree(unfinished, ignore_errors=True)
         unfinished.mkdir(parents=True)
-        prepared = _prepare_each(recordings, labels, settings, seed, workers, cut_labels)
+        prepared = _prepare_each(recordings, labels, seed, workers, cut_labels)
         with deferred():
             bar = tqdm(prepared, unit=" recordings", desc="prepare")
-            stored, skipped, notes = _append_all(bar, labels, unfinished, settings, seed)
+            stored, skipped, notes = _append_all(bar, labels, unfinished, seed)
         peak_mps2 = _peak(stored, skipped)
         _rescale(unfinished / store_module.WAVEFORM_FILE, peak_mps2)
         store_module.write_header(
@@ -144,7 +132,6 @@ def _prepared_store(
             notes=notes,
             peak_mps2=peak_mps2,
             seed=seed,
-            settings=settings,
             provenance=provenance,
         )
         end_if_stopped()
@@ -162,20 +149,19 @@ def _prepared_store(
 def _prepare_each(
     recordings: Iterable[Recording | LoadableRecording],
     labels: list[str],
-    settings: PreprocessingSettings,
     seed: int,
     workers: int,
     cut_labels: Collection[str],
 ) -> Iterator[list[_Prepared]]:
     checked = _checked(recordings, labels)
     if workers <= 1:
-        yield from (_prepare_one(item, settings, seed, item.label in cut_labels) for item in checked)
+        yield from (_prepare_one(item, seed, item.label in cut_labels) for item in checked)
         return
     pending: deque[Future[list[_Prepared]]] = deque()
     with ProcessPoolExecutor(workers, initializer=_join_parent) as pool:
         try:
             for item in checked:
-                pending.append(pool.submit(_prepare_one, item, settings, seed, item.label in cut_labels))
+                pending.append(pool.submit(_prepare_one, item, seed, item.label in cut_labels))
                 if len(pending) > 2 * workers:
                     yield pending.popleft().result()
             while pending:
@@ -216,26 +202,23 @@ def _checked(
         yield item
 
 
-def _prepare_one(
-    item: Recording | LoadableRecording, settings: PreprocessingSettings, seed: int, is_cut: bool
-) -> list[_Prepared]:
+def _prepare_one(item: Recording | LoadableRecording, seed: int, is_cut: bool) -> list[_Prepared]:
     """One prepared recording for each stretch between gaps, or for each of its parts, or the reason why there is
     none."""
     try:
         recording = item if isinstance(item, Recording) else item.load()
-        parts = preprocess_parts(recording, settings)
+        parts = preprocess_parts(recording)
     except InputError as error:
         return [_Prepared(item.identity, item.label, None, str(error))]
     prepared: list[_Prepared] = []
     pieces = dict.fromkeys(SPLITS, 0)
     for number, part in enumerate(parts):
-        times = time_parts(len(part.waveform_mps2), settings) if is_cut else []
+        times = time_parts(len(part.waveform_mps2)) if is_cut else []
         if not times:
-            prepared.append(_prepare_part(item, number, part, settings, seed))
-        for time in times:
-            piece = _prepare_part(item, number, cut(part, time), settings, seed, time.split, pieces[time.split])
-            pieces[time.split] += 1
-            prepared.append(piece)
+            prepared.append(_prepare_part(item, number, part, seed))
+        for split, samples in times:
+            prepared.append(_prepare_part(item, number, part.part(samples), seed, split, pieces[split]))
+            pieces[split] += 1
     return [dataclasses.replace(one, specimen=recording.specimen, notes=recording.notes) for one in prepared]
 
 
@@ -243,7 +226,6 @@ def _prepare_part(
     item: Recording | LoadableRecording,
     number: int,
     part: PreparedRecording,
-    settings: PreprocessingSettings,
     seed: int,
     split: Split | None = None,
     piece: int = 0,
@@ -253,11 +235,11 @@ def _prepare_part(
         problem = "acceleration never changes; expected a vibration"
         return _Prepared(item.identity, item.label, None, problem, part=number, split=split, piece=piece)
     prepared = _Prepared(item.identity, item.label, None, None, peak_mps2, number, split, piece)
-    return dataclasses.replace(prepared, padded=pad_recording(part, prepared.name, settings, seed))
+    return dataclasses.replace(prepared, padded=pad_recording(part, prepared.name, seed))
 
 
 def _append_all(
-    prepared: Iterable[list[_Prepared]], labels: list[str], folder: Path, settings: PreprocessingSettings, seed: int
+    prepared: Iterable[list[_Prepared]], labels: list[str], folder: Path, seed: int
 ) -> tuple[list[StoredRecording], list[SkippedRecording], list[str]]:
     stored: list[StoredRecording] = []
     skipped: list[SkippedRecording] = []
@@ -286,7 +268,7 @@ def _append_all(
                     label_index=labels.index(item.label),
                     protocol=identity.protocol,
                     **conditions,
-                    split=item.split or split_of(identity, settings, seed),
+                    split=item.split or split_of(identity, seed),
                     start=start,
                     length=length,
                     padding_before=item.padded.padding_before,

@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 
 from haptoflow_training.errors import InputError
 from haptoflow_training.preprocessing.pipeline import preprocess_parts
-from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.recordings.open_recordings import RecordingFile, open_recordings
 
 
@@ -59,12 +58,11 @@ def material_files(paths: Sequence[Path | str], tell: Callable[[str], None]) -> 
 def read_material_recordings(files: Sequence[RecordingFile], tell: Callable[[str], None]) -> list[MaterialRecording]:
     """The samples of recordings, prepared as for training. tell: called with a line for each one that cannot be used,
     and with what the reader ignored or corrected. InputError if none can be used."""
-    settings = PreprocessingSettings()
     recordings: list[MaterialRecording] = []
     for entry in files:
         try:
             read = entry.load()
-            parts = preprocess_parts(read, settings)
+            parts = preprocess_parts(read)
         except InputError as error:
             if len(files) == 1:
                 raise
