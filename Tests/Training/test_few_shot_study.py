@@ -23,7 +23,7 @@ from haptoflow_paper.studies.few_shot_study import StudyPlan, cells_of, with_tra
 from haptoflow_training.export.level_table import LevelTable
 from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.model_stamp import with_measured_words
-from haptoflow_training.recordings.material_recording import MaterialRecording
+from haptoflow_training.recordings.native_recording import MaterialRecording
 from haptoflow_training.recordings.synthetic import load_materials
 
 ROOT = Path(__file__).parents[2]
@@ -183,7 +183,7 @@ def motion_of(speed_mps: np.ndarray, force_newtons: float | np.ndarray = 1.0) ->
 
 
 def recorded(wave: np.ndarray, motion: np.ndarray) -> MaterialRecording:
-    return MaterialRecording("", "", wave.astype(np.float32), motion[:, :2], motion[:, 2], "", "")
+    return MaterialRecording(wave.astype(np.float32), motion)
 
 
 def swept(seconds: float, low: float = 0.02, high: float = 0.2, period: float = 2.5) -> np.ndarray:

@@ -15,7 +15,7 @@ from haptoflow_paper.report.temporal_metrics import rib_rates_hz
 from haptoflow_training.preprocessing.signals import zero_phase_high_pass
 from haptoflow_training.preprocessing.pipeline import preprocess_recording
 from haptoflow_training.preprocessing.settings import SETTINGS
-from haptoflow_training.recordings.material_recording import MaterialRecording
+from haptoflow_training.recordings.native_recording import MaterialRecording
 from haptoflow_training.recordings.synthetic import Material, load_materials, record_condition
 from haptoflow_training.recordings.synthetic.surface import HELD_OUT_SPECIMEN, TRAINING_SPECIMENS
 from haptoflow_training.waveform import SAMPLE_RATE_HZ
@@ -158,12 +158,8 @@ def make_filtered_case(surface: FilteredSurface, seed: int, longest_seconds: flo
     (plain,) = study_materials(1, seed + number)
     case = make_case(plain, seed, longest_seconds)
     rides = tuple(
-        replace(
-            ride,
-            label=surface.label,
-            vibration_mps2=surface.wave(
-                np.column_stack([ride.velocity_mps, ride.force_newtons]), 1000 * seed + 100 * number + place
-            ),
+        ride._replace(
+            vibration_mps2=surface.wave(ride.motion, 1000 * seed + 100 * number + place),
         )
         for place, ride in enumerate(case.rides)
     )
@@ -226,12 +222,4 @@ def _condition(material: Material, number: int, seed: int) -> FewShotCondition:
 
 def _cut(recording: MaterialRecording, seconds: float) -> MaterialRecording:
     count = round(SAMPLE_RATE_HZ * seconds)
-    return MaterialRecording(
-        recording.name,
-        recording.label,
-        recording.vibration_mps2[:count],
-        recording.velocity_mps[:count],
-        recording.force_newtons[:count],
-        recording.licence,
-        recording.source,
-    )
+    return MaterialRecording(recording.vibration_mps2[:count], recording.motion[:count])

@@ -13,10 +13,9 @@ from dataclasses import fields, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from haptoflow_training.preprocessing.pipeline import PreparedRecording, preprocess_recording
+from haptoflow_training.preprocessing.pipeline import preprocess_recording
 from haptoflow_training.preprocessing.settings import SETTINGS
-from haptoflow_training.recordings.native_recording import WaveVector
-from haptoflow_training.recordings.material_recording import MaterialRecording
+from haptoflow_training.recordings.native_recording import MaterialRecording, WaveVector
 from haptoflow_training.recordings.recording import RecordingIdentity
 from haptoflow_training.recordings.synthetic import record_hand_condition
 from haptoflow_training.recordings.synthetic.materials import Calibrated, Material
@@ -109,20 +108,9 @@ def make_rides(
             guided_share=guided_share,
             specimen=TRAINING_SPECIMENS[number % len(TRAINING_SPECIMENS)],
         )
-        rides.append(_as_recording(f"ride-{number + 1}", material.label, preprocess_recording(ride)))
+        prepared = preprocess_recording(ride)
+        rides.append(MaterialRecording(prepared.waveform_mps2, prepared.motion))
     return tuple(rides)
-
-
-def _as_recording(name: str, label: str, prepared: PreparedRecording) -> MaterialRecording:
-    return MaterialRecording(
-        name,
-        label,
-        prepared.waveform_mps2,
-        prepared.motion[:, :2].copy(),
-        prepared.motion[:, 2].copy(),
-        "MIT",
-        "synthetic recorder",
-    )
 
 
 def relative_error(found: WaveVector | NDArray[np.float64], vector: NDArray[np.float64]) -> float:

@@ -17,7 +17,9 @@ from haptoflow_training.preprocessing import signals
 from haptoflow_training.preprocessing.dft321 import dft321
 from haptoflow_training.preprocessing.plausibility import implausible
 from haptoflow_training.preprocessing.settings import SETTINGS
-from haptoflow_training.recordings.native_recording import NO_NOISE, SensorNoise, remove_sensor_noise
+from haptoflow_training.recordings.native_recording import (
+    NO_NOISE, MaterialRecording, SensorNoise, remove_sensor_noise
+)
 from haptoflow_training.recordings.recording import Recording, STANDARD_GRAVITY_MPS2
 
 # A cubic spline through the samples needs this many.
@@ -145,7 +147,7 @@ def _without_noise(recording: Recording, stretches: list[_Untrimmed]) -> list[Pr
         return [each.whole.part(each.kept) for each in stretches]
     try:
         waves, noise = remove_sensor_noise(
-            [each.whole.waveform_mps2 for each in stretches], [each.whole.motion for each in stretches]
+            [MaterialRecording(each.whole.waveform_mps2, each.whole.motion) for each in stretches]
         )
     except InputError as error:
         raise InputError(f"recording {recording.identity.name}: {error}") from error
