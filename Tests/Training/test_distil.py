@@ -26,8 +26,8 @@ from haptoflow_training.recordings.open_recordings import (
 )
 from haptoflow_training.recordings.labels import load_labels
 from haptoflow_training.recordings.recording import RecordingIdentity
+from places import ROOT
 
-ROOT = Path(__file__).resolve().parents[2]
 NARROW = MotionRange((0.02, 0.06), (0.5, 1.0))
 WIDE = MotionRange((0.0, 1.5), (0.0, 5.0))
 IDENTITY = RecordingIdentity(1, None, 40, 750, 3)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 from pathlib import Path
 
 import numpy as np
@@ -25,12 +24,10 @@ from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.model_stamp import with_measured_words
 from haptoflow_training.recordings.native_recording import MaterialRecording
 from haptoflow_training.recordings.synthetic import load_materials
+from places import DEFAULT, ENGINE, ROOT
 
-ROOT = Path(__file__).parents[2]
-DEFAULT = ROOT / "Packages" / "com.haptoflow.runtime" / "Runtime" / "Models" / "default.haptoflow"
 RESULTS = ROOT / "Training" / "haptoflow_paper" / "results" / "few-shot.json"
 TABLES = RESULTS.with_suffix(".md")
-ENGINE = Path(os.environ.get("HAPTOFLOW_ENGINE", ROOT / "build" / "native" / "haptoflow"))
 
 
 @pytest.fixture(scope="module")

@@ -18,8 +18,7 @@ from haptoflow_training.recordings.synthetic import (
     hand_conditions,
     load_materials,
     machine_conditions,
-    record_hand_condition,
-    record_machine_condition,
+    record_condition_of,
 )
 
 HAND, MACHINE = "3_hand_400_1500_0", "0_90_40_500_0"
@@ -91,7 +90,7 @@ def test_no_synthetic_recording_is_refused_at_any_speed() -> None:
             material, directions=(0, 45), speeds_mmps=(10, 60), forces_millinewtons=(200, 1000), repeats=1
         )
         for identity in machine[:: max(1, len(machine) // 3)]:
-            assert list(implausible(record_machine_condition(material, identity, seed=5))) == [], identity.name
+            assert list(implausible(record_condition_of(material, identity, seed=5))) == [], identity.name
         for identity in hand_conditions(material, seed=5, recordings=2):
-            recording = record_hand_condition(material, identity, seed=5, duration_seconds=3.0, guided_share=0.5)
+            recording = record_condition_of(material, identity, seed=5, duration_seconds=3.0, guided_share=0.5)
             assert list(implausible(recording)) == [], identity.name

@@ -25,7 +25,7 @@ from haptoflow_training.recordings.dataset_layout import (
 from haptoflow_training.recordings.own_files import open_own_dataset
 from haptoflow_training.recordings.recording import Recording, RecordingIdentity
 from haptoflow_training.recordings.synthetic import (
-    hand_conditions, load_materials, machine_conditions, record_hand_condition, record_machine_condition
+    hand_conditions, load_materials, machine_conditions, record_condition_of
 )
 from haptoflow_training.training.config import DataConfig
 from haptoflow_training.training.recordings_source import open_source
@@ -379,9 +379,9 @@ def test_recordings_of_published_length_give_the_same_store_as_before(tmp_path: 
         machine = machine_conditions(
             material, directions=(0, 45), speeds_mmps=(60,), forces_millinewtons=(500,), repeats=1
         )
-        recordings += [record_machine_condition(material, identity, seed=1) for identity in machine]
+        recordings += [record_condition_of(material, identity, seed=1) for identity in machine]
         recordings += [
-            record_hand_condition(material, identity, seed=1, duration_seconds=3.0)
+            record_condition_of(material, identity, seed=1, duration_seconds=3.0)
             for identity in hand_conditions(material, seed=1, recordings=2)
         ]
     store = prepare_store(recordings, [one.label for one in chosen], tmp_path / "store")

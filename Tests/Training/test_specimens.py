@@ -32,9 +32,10 @@ from haptoflow_training.recordings.synthetic.surface import (
 )
 from haptoflow_training.training.config import DataConfig, load_config
 from haptoflow_training.training.recordings_source import synthetic_label_infos
+from places import ROOT
 
 MATERIALS = {material.label: material for material in load_materials()}
-CONFIGURATIONS = Path(__file__).parents[2] / "Training" / "configs"
+CONFIGURATIONS = ROOT / "Training" / "configs"
 
 
 def _path(speed_mmps: float = 200.0, seconds: float = 2.0, degrees: float = 20.0) -> TipPath:

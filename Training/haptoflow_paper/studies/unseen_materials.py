@@ -17,7 +17,7 @@ from haptoflow_training.preprocessing.pipeline import preprocess_recording
 from haptoflow_training.preprocessing.settings import SETTINGS
 from haptoflow_training.recordings.native_recording import MaterialRecording, WaveVector
 from haptoflow_training.recordings.recording import RecordingIdentity
-from haptoflow_training.recordings.synthetic import record_hand_condition
+from haptoflow_training.recordings.synthetic import record_condition_of
 from haptoflow_training.recordings.synthetic.materials import Calibrated, Material
 from haptoflow_training.recordings.synthetic.surface import TRAINING_SPECIMENS
 
@@ -100,7 +100,7 @@ def make_rides(
     rides = []
     for number in range(count):
         speed, force = _RIDES[number % len(_RIDES)]
-        ride = record_hand_condition(
+        ride = record_condition_of(
             material,
             RecordingIdentity(material.texture_id, None, speed, force, number),
             seed=seed,
