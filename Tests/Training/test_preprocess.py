@@ -126,8 +126,7 @@ def _loud(samples: int = 2000) -> PreparedRecording:
 
 def test_padding_puts_whole_silent_segments_before_and_after_with_the_probability_asked_for() -> None:
     padded = [pad_recording(_loud(), f"0_90_40_500_{number}", 1) for number in range(1000)]
-    before = np.array([entry.padding_before for entry in padded])
-    after = np.array([entry.padding_after for entry in padded])
+    before, after = (np.array([entry[place] for entry in padded]) for place in (1, 2))
     for found in (before, after):
         assert set(found) == {0, 200, 400, 600}
         assert (found > 0).mean() == pytest.approx(0.3, abs=0.05)
@@ -138,11 +137,10 @@ def test_padding_is_silent_without_velocity_and_fades_into_the_recording_in_10_m
     forces = set()
     velocity_fade = (0.5 - 0.5 * np.cos(np.pi * (np.arange(20) + 0.5) / 20))[:, None] * [0.04, 0.03]
     every = (pad_recording(_loud(), f"0_90_40_500_{number}", 1) for number in range(1000))
-    for padded in (one for one in every if one.padding_before and one.padding_after):
-        wave, moving = padded.prepared.waveform_mps2, padded.prepared.motion
-        front, back = padded.padding_before, padded.padding_after
+    for padded, front, back in (one for one in every if one[1] and one[2]):
+        wave, moving = padded.waveform_mps2, padded.motion
         assert len(wave) == len(moving) == 2000 + front + back
-        wander = padded.prepared.wander_turns
+        wander = padded.wander_turns
         np.testing.assert_array_equal(wander[: front + 1], np.tile(_loud().wander_turns[0], (front + 1, 1)))
         np.testing.assert_array_equal(wander[-back - 1 :], np.tile(_loud().wander_turns[-1], (back + 1, 1)))
         silent = np.r_[0:front, len(wave) - back : len(wave)]

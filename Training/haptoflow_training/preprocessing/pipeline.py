@@ -133,27 +133,23 @@ def _generated(recording: Recording) -> PreparedRecording:
     )
 
 
-@dataclass(frozen=True)
-class _Untrimmed:
-    """A stretch with a little of what is trimmed at both ends, and the samples that are kept."""
-
-    whole: PreparedRecording
-    kept: slice
+# A stretch with a little of what is trimmed at both ends, and the samples that are kept.
+_Untrimmed = tuple[PreparedRecording, slice]
 
 
 def _without_noise(recording: Recording, stretches: list[_Untrimmed]) -> list[PreparedRecording]:
     """The noise is that of the sensor, so that all stretches of a recording show it together."""
     if not recording.has_sensor_noise:
-        return [each.whole.part(each.kept) for each in stretches]
+        return [whole.part(kept) for whole, kept in stretches]
     try:
         waves, noise = remove_sensor_noise(
-            [MaterialRecording(each.whole.waveform_mps2, each.whole.motion) for each in stretches]
+            [MaterialRecording(whole.waveform_mps2, whole.motion) for whole, _ in stretches]
         )
     except InputError as error:
         raise InputError(f"recording {recording.identity.name}: {error}") from error
     return [
-        dataclasses.replace(each.whole, waveform_mps2=wave, noise=noise).part(each.kept)
-        for each, wave in zip(stretches, waves, strict=True)
+        dataclasses.replace(whole, waveform_mps2=wave, noise=noise).part(kept)
+        for (whole, kept), wave in zip(stretches, waves, strict=True)
     ]
 
 
@@ -193,7 +189,7 @@ def _prepared(recording: Recording) -> _Untrimmed:
         position.astype(np.float32),
         signals.wander_turns_on_grid(recording.wander, grid),
     )
-    return _Untrimmed(whole, slice(lead, lead + kept))
+    return whole, slice(lead, lead + kept)
 
 
 def _waveform(recording: Recording, origin_seconds: float, count: int) -> NDArray[np.float64]:
@@ -284,18 +280,12 @@ PADDING_STATES: tuple[PaddingState, ...] = ("rest", "contact", "air")
 _MAXIMUM_SHARE = 1.0 / 3.0
 
 
-@dataclass(frozen=True)
-class PaddedRecording:
-    """`prepared` with silence at its ends; padding_before and padding_after count samples of it."""
+def pad_recording(prepared: PreparedRecording, name: str, seed: int) -> tuple[PreparedRecording, int, int]:
+    """The recording with silence at its ends, and the samples of silence before and after it.
 
-    prepared: PreparedRecording
-    padding_before: int
-    padding_after: int
-
-
-def pad_recording(prepared: PreparedRecording, name: str, seed: int) -> PaddedRecording:
-    """Each end is padded with `padding_probability`; the draw depends on `seed` and `name` only, and the padding at
-    an end is at most a third of the recording's length."""
+    Each end is padded with `padding_probability`; the draw depends on `seed` and `name` only, and the padding at an end
+    is at most a third of the recording's length.
+    """
     digest = hashlib.blake2b(f"padding/{seed}/{name}".encode(), digest_size=8).digest()
     generator = np.random.default_rng(int.from_bytes(digest, "little"))
     longest = int(_MAXIMUM_SHARE * len(prepared.waveform_mps2))
@@ -306,7 +296,7 @@ def pad_recording(prepared: PreparedRecording, name: str, seed: int) -> PaddedRe
     if after is not None:
         backward = slice(None, None, -1)
         prepared = _pad_front(prepared.part(backward), *after).part(backward)
-    return PaddedRecording(prepared, before[1] if before else 0, after[1] if after else 0)
+    return prepared, before[1] if before else 0, after[1] if after else 0
 
 
 def _draw(generator: np.random.Generator, longest: int) -> tuple[PaddingState, int] | None:
