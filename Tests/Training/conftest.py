@@ -6,8 +6,12 @@ import os
 import sys
 from collections.abc import Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pytest
+
+if TYPE_CHECKING:
+    from haptoflow_benchmark.engine_library import EngineLibrary
 
 # A process a core runs tests: threads of theirs would only compete. To be said before NumPy and PyTorch are imported.
 for _library in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
@@ -31,3 +35,11 @@ def quick_training() -> Iterator[None]:
         patch.setattr(trainer, "_VALIDATION_BATCH", 96)
         patch.setattr(trainer, "plot_metrics", lambda *given: next(plots, lambda *_: None)(*given))
         yield
+
+
+@pytest.fixture(scope="session")
+def engine() -> EngineLibrary:
+    """The built library with its ONNX Runtime."""
+    from haptoflow_benchmark.engine_library import default_engine
+
+    return default_engine(_TESTS.parents[1])

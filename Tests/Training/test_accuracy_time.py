@@ -24,8 +24,7 @@ from haptoflow_paper.rows.row_runner import weights_crc32
 from haptoflow_paper.rows.row_summary import median_interval, summary, with_interval
 from haptoflow_paper.rows.workplace import read_row
 from haptoflow_training.model_stamp import SHIPPED_MODEL
-
-ROOT = Path(__file__).parents[2]
+from places import ROOT
 
 
 def _pair(label: str, index: int, seed: int) -> ReferencePair:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-import os
 import subprocess
 from pathlib import Path
 from typing import Any
@@ -25,14 +24,11 @@ from haptoflow_training.export.sliders import Sliders, find_sliders
 from haptoflow_training.recordings.synthetic import load_materials
 from own_samples import csv_one_axis, stroke
 from training_fixtures import still_surfaces
+from places import DEFAULT, ENGINE, ROOT, SMALL
 
-ROOT = Path(__file__).parents[2]
-DEFAULT = ROOT / "Packages" / "com.haptoflow.runtime" / "Runtime" / "Models" / "default.haptoflow"
 # A small model with a skeleton, on which a material is learnt in a second.
-SMALL = ROOT / "Tests" / "Golden" / "model" / "skeleton.haptoflow"
 TINY = ROOT / "Tests" / "Golden" / "model" / "tiny.haptoflow"
 RIBBED = ROOT / "Tests" / "Golden" / "material" / "ribbed.haptomaterial"
-ENGINE = Path(os.environ.get("HAPTOFLOW_ENGINE", ROOT / "build" / "native" / "haptoflow"))
 # The search ends early, so that two runs may differ.
 QUICK = ["--seconds-limit", "1"]
 

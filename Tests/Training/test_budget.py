@@ -23,24 +23,20 @@ from training_fixtures import make_store
 SECONDS_PER_STEP = {"level": 1.0, "field": 4.0, "polish": 1.0}
 
 
-class _Clock:
-    """Computing time that passes only with training steps."""
-
-    def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
-        self.now = 0.0
-        monkeypatch.setattr(time, "process_time", lambda: self.now)
-        train_step = Trainer._train_step
-
-        def step(trainer: Trainer, losses: object, phase: object) -> object:
-            self.now += SECONDS_PER_STEP[phase.name]  # type: ignore[attr-defined]
-            return train_step(trainer, losses, phase)  # type: ignore[arg-type]
-
-        monkeypatch.setattr(Trainer, "_train_step", step)
-
-
 @pytest.fixture
-def clock(monkeypatch: pytest.MonkeyPatch) -> _Clock:
-    return _Clock(monkeypatch)
+def clock(monkeypatch: pytest.MonkeyPatch) -> list[float]:
+    """Computing time, and a wall clock, that pass only with training steps."""
+    now = [0.0]
+    for name in ("process_time", "monotonic"):
+        monkeypatch.setattr(trainer_module.time, name, lambda: now[0])
+    train_step = Trainer._train_step
+
+    def step(trainer: Trainer, losses: object, phase: object) -> object:
+        now[0] += SECONDS_PER_STEP[phase.name]  # type: ignore[attr-defined]
+        return train_step(trainer, losses, phase)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(Trainer, "_train_step", step)
+    return now
 
 
 def _budgeted(seconds: float) -> EvaluatedConfig:
@@ -64,7 +60,7 @@ def test_a_budget_keeps_the_level_phases_and_scales_all_others_by_one_factor() -
 
 
 @pytest.mark.parametrize("seconds", [75.0, 300.0])
-def test_a_run_makes_as_many_steps_as_fit_its_budget(seconds: float, tmp_path: Path, clock: _Clock) -> None:
+def test_a_run_makes_as_many_steps_as_fit_its_budget(seconds: float, tmp_path: Path, clock: list[float]) -> None:
     EvaluatedTrainer(_budgeted(seconds), make_store(), tmp_path, ALONE).run()
     phases = _phases(tmp_path)
     for name, steps in (("level", 20), ("field", (seconds - 30.0) / 4.0), ("polish", 10)):
@@ -72,34 +68,18 @@ def test_a_run_makes_as_many_steps_as_fit_its_budget(seconds: float, tmp_path: P
     assert sum(phase["core_seconds"] for phase in phases.values()) == pytest.approx(seconds, abs=6.0)
 
 
-def test_a_resumed_run_uses_the_rest_of_its_budget(tmp_path: Path, clock: _Clock) -> None:
+def test_a_resumed_run_uses_the_rest_of_its_budget(tmp_path: Path, clock: list[float]) -> None:
     stopped = EvaluatedTrainer(_budgeted(300.0), make_store(), tmp_path, ALONE)
     ask_to_stop_after(stopped, 60)
     with pytest.raises(TrainingStopped):
         stopped.run()
-    clock.now += 1000.0
+    clock[0] += 1000.0
     EvaluatedTrainer(_budgeted(300.0), make_store(), tmp_path, ALONE).run()
     phases = _phases(tmp_path)
     steps = [phases[name]["steps"] for name in ("level", "field", "polish")]
     assert steps == pytest.approx([20, 270 / 4.0, 10], abs=1.0)
-    finished = EvaluatedTrainer(_budgeted(300.0), make_store(), tmp_path, ALONE)
-    finished.run()
+    EvaluatedTrainer(_budgeted(300.0), make_store(), tmp_path, ALONE).run()
     assert load_trained(tmp_path)[0].optimiser.budget_seconds == 300.0
-
-
-@pytest.fixture
-def wall(monkeypatch: pytest.MonkeyPatch) -> list[float]:
-    """A wall clock that advances only with training steps."""
-    now = [0.0]
-    monkeypatch.setattr(trainer_module.time, "monotonic", lambda: now[0])
-    train_step = Trainer._train_step
-
-    def step(trainer: Trainer, losses: object, phase: object) -> object:
-        now[0] += SECONDS_PER_STEP[phase.name]  # type: ignore[attr-defined]
-        return train_step(trainer, losses, phase)  # type: ignore[arg-type]
-
-    monkeypatch.setattr(Trainer, "_train_step", step)
-    return now
 
 
 def limited(folder: Path, limit: TimeLimit) -> Trainer:
@@ -110,16 +90,16 @@ def limited(folder: Path, limit: TimeLimit) -> Trainer:
 
 @pytest.mark.parametrize("seconds", [200.0, 400.0])
 def test_timed_steps_and_training_together_take_the_given_time_and_finish(
-    tmp_path: Path, wall: list[float], seconds: float
+    tmp_path: Path, clock: list[float], seconds: float
 ) -> None:
     limited(tmp_path, TimeLimit(seconds)).run()
-    assert wall[0] == pytest.approx(seconds, abs=10.0)
+    assert clock[0] == pytest.approx(seconds, abs=10.0)
     _, labels, _ = load_trained(tmp_path)
     assert labels == ["tone", "noise"]
 
 
 def test_the_bar_shows_the_time_left_including_what_follows_training(
-    tmp_path: Path, wall: list[float], monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, clock: list[float], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     shown = io.StringIO()
     original = trainer_module.tqdm
@@ -130,15 +110,15 @@ def test_the_bar_shows_the_time_left_including_what_follows_training(
     assert left == sorted(left, reverse=True)
 
 
-def test_a_resumed_run_uses_the_rest_of_its_time(tmp_path: Path, wall: list[float]) -> None:
+def test_a_resumed_run_uses_the_rest_of_its_time(tmp_path: Path, clock: list[float]) -> None:
     first = limited(tmp_path, TimeLimit(300.0))
     first._stop = True
     with pytest.raises(trainer_module.TrainingStopped):
         first.run()
-    used = wall[0]
-    wall[0] += 5000.0
+    used = clock[0]
+    clock[0] += 5000.0
     limited(tmp_path, TimeLimit(123.0)).run()
-    assert wall[0] - 5000.0 == pytest.approx(300.0, abs=10.0) and used < 100.0
+    assert clock[0] - 5000.0 == pytest.approx(300.0, abs=10.0) and used < 100.0
 
 
 @pytest.mark.parametrize(("networks", "lanes", "rounds"), [(2, 2, 1), (2, 1, 2), (3, 2, 2), (1, 8, 1)])

@@ -34,8 +34,7 @@ from published_samples import (
     PUBLISHED, SOLVERS, assert_within_1e_4_of_its_rms, change_safetensors, copied,
     write_checkpoint_of_published_sizes
 )
-
-ROOT = Path(__file__).parents[2]
+from places import ROOT
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -45,11 +44,6 @@ def one_block() -> Iterator[None]:
         patch.setattr(check_points, "_BLOCKS", 1)
         patch.setattr(check_published, "_LEAST_RUNS", 2)
         yield
-
-
-@pytest.fixture(scope="module")
-def engine() -> EngineLibrary:
-    return default_engine(ROOT)
 
 
 @pytest.fixture(scope="module")

@@ -22,13 +22,14 @@ from haptoflow_training.recordings.cluster_dataset import labels_of_textures
 from haptoflow_training.recordings.dataset_layout import TextureEntry, write_recording, write_texture_list
 from haptoflow_training.recordings.labels import LabelDefinition, LabelMap, load_labels
 from haptoflow_training.recordings.recording import Recording, RecordingIdentity
-from haptoflow_training.recordings.synthetic import load_materials, record_machine_condition
+from haptoflow_training.recordings.synthetic import load_materials, record_condition_of
 from parquet_samples import HUB
 from test_skeleton_training import SMALL_BASE, SMALL_STANDARD
 from training_fixtures import run_here
+from places import ROOT
 
 NAME = "tamago117/cluster-haptic-texture-dataset"
-SCRIPT = Path(__file__).resolve().parents[2] / "scripts" / "train.mjs"
+SCRIPT = ROOT / "scripts" / "train.mjs"
 
 
 @contextmanager
@@ -80,7 +81,6 @@ def test_a_model_of_chosen_textures_has_their_labels_and_licence(tmp_path: Path,
     assert header["provenance"]["licence"] == "CC BY 4.0"
 
 
-ROOT = Path(__file__).parents[2]
 CONFIGURATIONS = ROOT / "Training" / "configs" / "cluster"
 # Only sizes and steps are smaller than in the recipe.
 SMALLER = {
@@ -98,7 +98,7 @@ MOTION = np.tile(np.array([0.05, 0.0, 0.8]), (1600, 1))
 def _pass_over(texture: int, direction_degrees: int, speed_mmps: int) -> Recording:
     material = {each.label: each for each in load_materials()}[TEXTURES[texture]]
     identity = RecordingIdentity(texture, direction_degrees, speed_mmps, 500, 0)
-    return record_machine_condition(material, identity, seed=1)
+    return record_condition_of(material, identity, seed=1)
 
 
 @pytest.fixture(scope="module")

@@ -22,7 +22,7 @@ from haptoflow_training.recordings.dataset_layout import (
 )
 from haptoflow_training.recordings.labels import load_labels
 from haptoflow_training.recordings.recording import Recording, RecordingIdentity
-from haptoflow_training.recordings.synthetic import load_materials, record_machine_condition
+from haptoflow_training.recordings.synthetic import load_materials, record_condition_of
 
 NAMES = ["0_0_20_500_0", "0_135_40_500_0", "66_90_60_1000_1", "0_hand_400_1500_3"]
 KINDS = ("accel", "force", "position")
@@ -302,7 +302,7 @@ def test_what_the_apparatus_adds_to_one_axis_shows_in_the_sum_of_all_directions(
     """Passes in one direction cannot tell the apparatus from the material."""
     wood = load_materials()[0]
     passes = [
-        record_machine_condition(wood, RecordingIdentity(wood.texture_id, direction, 60, 1000, 0), seed=1)
+        record_condition_of(wood, RecordingIdentity(wood.texture_id, direction, 60, 1000, 0), seed=1)
         for direction in directions
     ]
     scaled = [dataclasses.replace(each, acceleration_g=each.acceleration_g * [stronger, 1.0, 1.0]) for each in passes]

@@ -6,12 +6,12 @@ import base64
 import json
 import re
 import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
 
-ROOT = Path(__file__).resolve().parents[2]
+from places import ROOT
+
 sys.path[:0] = [str(ROOT / "scripts/pack"), str(ROOT / "scripts/demo")]
 
 import demo  # noqa: E402

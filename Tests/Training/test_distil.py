@@ -21,14 +21,13 @@ from haptoflow_paper.runs.distil_teacher import MotionRange, Teacher, strokes_of
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.preprocessing.pipeline import preprocess_parts
-from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.recordings.open_recordings import (
     GENERATED_FILE, GeneratedOrigin, open_generated, open_recordings
 )
 from haptoflow_training.recordings.labels import load_labels
 from haptoflow_training.recordings.recording import RecordingIdentity
+from places import ROOT
 
-ROOT = Path(__file__).resolve().parents[2]
 NARROW = MotionRange((0.02, 0.06), (0.5, 1.0))
 WIDE = MotionRange((0.0, 1.5), (0.0, 5.0))
 IDENTITY = RecordingIdentity(1, None, 40, 750, 3)
@@ -66,7 +65,7 @@ def test_a_generated_recording_keeps_every_sample_through_preparation(tmp_path: 
     write_generated(generated_path(tmp_path, IDENTITY), wave, motion)
     entry = next(iter(open_recordings(tmp_path)))
     assert (entry.label, entry.licence, entry.source) == ("wool felt", ORIGIN.licence, ORIGIN.source)
-    (prepared,) = preprocess_parts(entry.load(), PreprocessingSettings())
+    (prepared,) = preprocess_parts(entry.load())
     np.testing.assert_allclose(prepared.waveform_mps2, wave, rtol=2e-7, atol=0.0)
     np.testing.assert_array_equal(prepared.motion, motion)
     travelled = np.cumsum(motion[:-1, :2].astype(np.float64), axis=0) * 0.5

@@ -14,14 +14,9 @@ from haptoflow_benchmark.engine_library import EngineLibrary, default_engine
 from haptoflow_paper.rows.engine_generator import EngineGenerator
 from haptoflow_training.errors import InputError
 from haptoflow_writer import write_model
+from places import ROOT
 
-ROOT = Path(__file__).parents[2]
 GOLDEN = ROOT / "Tests" / "Golden" / "model"
-
-
-@pytest.fixture(scope="module")
-def engine() -> EngineLibrary:
-    return default_engine(ROOT)
 
 
 def _golden_cases() -> list[dict[str, object]]:

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import json
-import re
 import struct
-import tomllib
 import zlib
 from collections.abc import Callable
 from pathlib import Path
@@ -16,7 +14,6 @@ import numpy as np
 import onnx
 import pytest
 import torch
-from numpy.typing import NDArray
 from torch import nn
 
 from haptoflow_paper.codec.small_codec import SmallCodec, SmallCodecShape
@@ -34,16 +31,15 @@ from haptoflow_training.export.model_file import (
 )
 from haptoflow_training.export.trained_tier import export_graph
 from haptoflow_training.export.skeleton_tensors import condition_tensors, skeleton_tensors, skeleton_weights
-from haptoflow_training.models.conditioning import MotionFeatures
 from haptoflow_training.models.level_model import LevelModel
-from haptoflow_training.models.skeleton import ATOMS, TAIL_THRESHOLDS, TAPS, Skeleton, SkeletonGains
-from haptoflow_training.models.label_embedding import rate_features
+from haptoflow_training.models.skeleton import Skeleton
 from haptoflow_training.training.batches import HeldOut
 from haptoflow_training.training.recordings_source import Provenance, Source
 from haptoflow_training.training.trainer import Trainer
 from paper_samples import field_config
 from test_trainer import ALONE, _config
 from training_fixtures import FakeRecording, FakeStore, make_store, travelled_mm
+from places import DEFAULT, ROOT
 
 LANDING = Landing((LandingMode(180.0, 75.5, 170.0), LandingMode(640.0, 700.0, 40.0)), 0.25)
 INFOS = [
@@ -79,7 +75,7 @@ def test_the_header_says_origin_labels_range_and_tier(exported: tuple[Path, Mode
 
 def test_no_path_of_the_training_machine_is_in_the_file(exported: tuple[Path, ModelFile, FakeStore]) -> None:
     content = (exported[0] / "m.haptoflow").read_bytes()
-    assert str(Path(__file__).parents[2]).encode() not in content
+    assert str(ROOT).encode() not in content
     assert str(exported[0]).encode() not in content
 
 
@@ -119,8 +115,6 @@ def test_a_surface_that_levels_off_at_high_speeds_is_extrapolated_with_the_slope
 
 
 def test_golden_vectors_name_the_file_they_belong_to(exported: tuple[Path, ModelFile, FakeStore]) -> None:
-    import zlib
-
     golden = json.loads((exported[0] / "parity.json").read_text(encoding="utf-8"))
     assert golden["model_crc32"] == f"{zlib.crc32((exported[0] / 'm.haptoflow').read_bytes()):08x}"
     assert len(golden["cases"]) == 10
@@ -177,9 +171,6 @@ def test_a_rival_becomes_a_direct_tier_with_the_inputs_that_it_reads(tmp_path: P
     assert {case["solver"] for case in cases} == {"euler"}
 
 
-ROOT = Path(__file__).parents[2]
-
-
 def test_the_default_exporter_of_pytorch_2_9_is_not_used(monkeypatch: pytest.MonkeyPatch) -> None:
     traced: Callable[..., Any] = torch.onnx.export
     told: list[bool] = []
@@ -211,15 +202,7 @@ def test_an_older_pytorch_is_given_no_argument_that_it_does_not_know(monkeypatch
     assert export_graph(nn.Linear(4, 2), {"given": torch.zeros(2, 4)}, "made")
 
 
-def test_every_dependency_has_a_lower_and_an_upper_bound() -> None:
-    project = tomllib.loads((ROOT / "Training" / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-    wanted = [*project["dependencies"], *(one for extra in project["optional-dependencies"].values() for one in extra)]
-    assert len(wanted) >= 10
-    assert [one for one in wanted if not re.fullmatch(r"[a-z0-9-]+>=[\d.]+,<\d+", one)] == []
-
-
 GOLDEN = ROOT / "Tests" / "Golden"
-DEFAULT = ROOT / "Packages" / "com.haptoflow.runtime" / "Runtime" / "Models" / "default.haptoflow"
 MODEL = ModelFile(
     header={"name": "tést", "labels": [{"name": "wood"}]},
     tensors={"embedding": np.arange(128, dtype=np.float32).reshape(2, 64), "seeds": np.ones((1, 400), np.float32)},
@@ -231,22 +214,19 @@ def _of_version(version: int, content: bytes) -> bytes:
     return content[:8] + struct.pack("<I", version) + content[12:]
 
 
-def test_what_is_written_is_read_back(tmp_path: Path) -> None:
+def test_what_is_written_with_lengths_and_checksums_is_read_back(tmp_path: Path) -> None:
     path = tmp_path / "model.haptoflow"
     checksum = write_model_file(path, MODEL)
-    assert checksum == zlib.crc32(path.read_bytes())
-    read = read_model_file(path)
-    assert read.header == MODEL.header
-    assert read.graphs == MODEL.graphs
-    np.testing.assert_array_equal(read.tensors["embedding"], MODEL.tensors["embedding"])
-
-
-def test_the_preamble_holds_magic_version_lengths_and_checksums() -> None:
-    content = encode_model_file(MODEL)
+    content = path.read_bytes()
+    assert checksum == zlib.crc32(content)
     magic, version, header_length, total, header_crc, own_crc = struct.unpack_from("<8sIIQII", content)
     assert (magic, version, total) == (b"HAPTFLOW", VERSION, len(content))
     assert zlib.crc32(content[32 : 32 + header_length]) == header_crc
     assert zlib.crc32(content[:28]) == own_crc
+    read = read_model_file(path)
+    assert read.header == MODEL.header
+    assert read.graphs == MODEL.graphs
+    np.testing.assert_array_equal(read.tensors["embedding"], MODEL.tensors["embedding"])
 
 
 def test_header_and_blobs_end_and_start_on_multiples_of_64(tmp_path: Path) -> None:
@@ -297,14 +277,6 @@ def test_the_space_follows_the_networks_and_neither_labels_nor_embedding() -> No
     assert model_space(model) != spaces["tiny"]
 
 
-SHIPPED = Path(__file__).parents[2] / "Packages" / "com.haptoflow.runtime" / "Runtime" / "Models" / "default.haptoflow"
-
-
-@pytest.fixture(scope="module")
-def file() -> ModelFile:
-    return read_model_file(SHIPPED)
-
-
 def _part(weights: dict[str, torch.Tensor], name: str, module: nn.Module) -> nn.Module:
     module.load_state_dict(
         {key.removeprefix(name): value for key, value in weights.items() if key.startswith(name)}, strict=True
@@ -312,7 +284,8 @@ def _part(weights: dict[str, torch.Tensor], name: str, module: nn.Module) -> nn.
     return module
 
 
-def test_level_and_skeleton_are_written_again_as_they_were_read(file: ModelFile) -> None:
+def test_level_and_skeleton_are_written_again_as_they_were_read() -> None:
+    file = read_model_file(DEFAULT)
     weights = skeleton_weights(file)
     # Of two perceptrons or one, a file knows one.
     skeleton = _part(weights, "skeleton.", Skeleton((file.header["skeleton"]["hidden"],)))
@@ -322,46 +295,9 @@ def test_level_and_skeleton_are_written_again_as_they_were_read(file: ModelFile)
         np.testing.assert_allclose(tensor, file.tensors[name], rtol=1e-6, atol=0.0)
 
 
-SKELETON_FILE_GOLDEN = GOLDEN / "model"
-
-
-_Floats = NDArray[np.float32]
-
-
 @pytest.fixture(scope="module")
 def skeleton_file() -> ModelFile:
-    return read_model_file(SKELETON_FILE_GOLDEN / "skeleton.haptoflow")
-
-
-@pytest.fixture(scope="module")
-def cases() -> list[dict[str, Any]]:
-    golden = json.loads((SKELETON_FILE_GOLDEN / "skeleton.parity.json").read_text(encoding="utf-8"))
-    assert golden["model_crc32"] == f"{zlib.crc32((SKELETON_FILE_GOLDEN / 'skeleton.haptoflow').read_bytes()):08x}"
-    made: list[dict[str, Any]] = golden["cases"]
-    return made
-
-
-def _perceptron(skeleton_file: ModelFile, name: str, given: _Floats) -> _Floats:
-    """As native code computes it."""
-    for layer in (0, 2, 4):
-        given = given @ skeleton_file.tensors[f"{name}.{layer}.weight"].T + skeleton_file.tensors[f"{name}.{layer}.bias"]
-        if layer < 4:
-            given = given / (1.0 + np.exp(-given))
-    return given
-
-
-def _condition(case: dict[str, Any], harmonics: tuple[float, ...]) -> _Floats:
-    features = MotionFeatures(harmonics)(torch.tensor([case["motion"]]))[0].numpy()
-    return np.concatenate([np.array(case["embedding"], np.float32), features])
-
-
-def _moving_condition(case: dict[str, Any]) -> _Floats:
-    """With the rates of the surface's waves."""
-    rates = rate_features(torch.tensor([case["phases"]]))[0].numpy()
-    return np.concatenate([_condition(case, FINE), rates])
-
-
-FINE, SMOOTH = (0.5, 1.0, 2.0, 4.0, 8.0), (0.5, 1.0)
+    return read_model_file(GOLDEN / "model" / "skeleton.haptoflow")
 
 
 def test_the_file_is_that_of_the_model_which_made_the_golden_vectors(skeleton_file: ModelFile) -> None:
@@ -376,62 +312,23 @@ def test_the_file_is_that_of_the_model_which_made_the_golden_vectors(skeleton_fi
         np.testing.assert_allclose(values, skeleton_file.tensors[name], rtol=1e-6, atol=1e-7, err_msg=name)
 
 
-def test_the_tensors_alone_give_level_filter_and_the_film_with_its_factors(
-    skeleton_file: ModelFile, cases: list[dict[str, Any]]
-) -> None:
-    for case in cases:
-        embedding = np.array(case["embedding"], np.float32)
-        velocity, force = np.array(case["motion"][:2]), case["motion"][2]
-        logarithms = np.log([(np.hypot(*velocity) + 0.0005) / 0.06, max(force, 0.0) + 0.02])
-        law = skeleton_file.tensors["level.law.weight"] @ embedding + skeleton_file.tensors["level.law.bias"]
-        crossing = 0.25 * np.log1p(1000.0 * np.abs(embedding[-4:].reshape(2, 2) @ velocity))
-        correction = _perceptron(skeleton_file, "level.correction", np.concatenate([_condition(case, SMOOTH), crossing]))[0]
-        level = law[0] + law[1:] @ logarithms + 0.9 * np.tanh(correction)
-        assert level == pytest.approx(case["log_level"][0], abs=1e-4)
-
-        outputs = _perceptron(skeleton_file, "skeleton", _moving_condition(case))
-        log_cosh = [np.log(np.cosh(argument)) for argument in np.clip(outputs[:24], -3.8, 3.8)]
-        assert sum(log_cosh) < np.log(10.0**2.5), "below the limit of resonance, so that no argument is scaled"
-        log_gain = 2.0 * np.tanh(outputs[24] / 2.0) - sum(log_cosh)
-        assert log_gain == pytest.approx(case["log_gain"][0], abs=1e-4)
-
-        film = _perceptron(skeleton_file, "standard.condition", _moving_condition(case))
-        np.testing.assert_allclose(film, case["film"], atol=1e-4)
+def test_the_model_makes_the_golden_vectors_that_native_code_must_reproduce() -> None:
+    models = make_skeleton_model.exact(*make_skeleton_model.build())
+    made = [make_skeleton_model.golden_case(*models, number) for number in range(len(make_skeleton_model.CASES))]
+    stream = make_skeleton_model.golden_stream(models[0])
+    checksum = zlib.crc32((GOLDEN / "model" / "skeleton.haptoflow").read_bytes())
+    for name, wanted in (("parity", {"cases": made}), ("stream", stream)):
+        golden = json.loads((GOLDEN / "model" / f"skeleton.{name}.json").read_text(encoding="utf-8"))
+        assert golden.pop("model_crc32") == f"{checksum:08x}"
+        assert golden.keys() == wanted.keys()
+        for key, values in wanted.items():
+            for one, other in zip(_numbers(values), _numbers(golden[key]), strict=True):
+                np.testing.assert_allclose(one, other, rtol=1e-6, atol=1e-6, err_msg=f"{name}: {key}")
 
 
-def _kernels(skeleton: Skeleton, gains: SkeletonGains) -> NDArray[np.float64]:
-    """[2, thresholds, 64]: how the impulses of the positive tail and of the negative one ring."""
-    return (gains.impulses.reshape(2, len(TAIL_THRESHOLDS), ATOMS) @ skeleton.impulses.atoms).numpy()
-
-
-def test_the_golden_stream_is_made_sample_by_sample_by_one_filter_whose_impulses_ring_on() -> None:
-    stream = json.loads((SKELETON_FILE_GOLDEN / "skeleton.stream.json").read_text(encoding="utf-8"))
-    sketch = make_skeleton_model.exact(*make_skeleton_model.build())[0]
-    skeleton = sketch.skeleton
-    scales = skeleton.impulses.scales.flatten()[: len(TAIL_THRESHOLDS)].numpy()
-    past, ringing = list(stream["begun"]), np.zeros(500)
-    for state in stream["states"]:
-        given = sketch.embedding(torch.tensor([state["label"]])), torch.tensor([state["motion"]]).double()
-        phases = torch.tensor([state["phases"]]).double()
-        gains = skeleton.gains(*given, phases)
-        kernels, gain = _kernels(skeleton, gains), gains.log_gain.exp().item()
-        coefficients = gains.coefficients[0].numpy()
-        waves = [skeleton.swing_waves(phases), skeleton.line_waves(phases)]
-        swing, lines = (
-            (parts[:, :, 0] * cosines + parts[:, :, 1] * sines).sum(dim=(1, 2))[0].numpy()
-            for parts, (cosines, sines) in zip((gains.swing, gains.lines), waves, strict=True)
-        )
-        for n, noise in enumerate(state["noise"]):
-            excess = np.maximum(abs(noise) - np.array(TAIL_THRESHOLDS), 0.0) * scales * np.sign(noise)
-            ringing[:TAPS] += excess @ kernels[0 if noise > 0.0 else 1]
-            assert gain * ringing[0] == pytest.approx(state["impulses"][n], abs=1e-6)
-            drive = gain * (noise * np.exp(2.0 * np.tanh(0.5 * swing[n])) + lines[n] + ringing[0])
-            past.append(drive - coefficients @ past[:-25:-1])
-            assert past[-1] == pytest.approx(state["unit"][n], abs=1e-5)
-            ringing = np.append(ringing[1:], 0.0)
-    np.testing.assert_allclose(past[-24:], stream["past"], atol=1e-5)
-    np.testing.assert_allclose(ringing[:TAPS], stream["ringing"], atol=1e-6)
-    assert sum(np.abs(state["impulses"]).max() > 0.5 for state in stream["states"]) == len(stream["states"])
+def _numbers(values: Any) -> list[Any]:
+    """A list of numbers, or those of a list of tables one after the other."""
+    return [number for table in values for number in table.values()] if isinstance(values[0], dict) else [values]
 
 
 def test_a_further_label_of_a_model_with_specimens_has_the_offsets_of_the_label_itself(skeleton_file: ModelFile) -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 from pathlib import Path
 
 import numpy as np
@@ -23,14 +22,12 @@ from haptoflow_paper.studies.few_shot_study import StudyPlan, cells_of, with_tra
 from haptoflow_training.export.level_table import LevelTable
 from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.model_stamp import with_measured_words
-from haptoflow_training.recordings.material_recording import MaterialRecording
+from haptoflow_training.recordings.native_recording import MaterialRecording
 from haptoflow_training.recordings.synthetic import load_materials
+from places import DEFAULT, ENGINE, ROOT
 
-ROOT = Path(__file__).parents[2]
-DEFAULT = ROOT / "Packages" / "com.haptoflow.runtime" / "Runtime" / "Models" / "default.haptoflow"
 RESULTS = ROOT / "Training" / "haptoflow_paper" / "results" / "few-shot.json"
 TABLES = RESULTS.with_suffix(".md")
-ENGINE = Path(os.environ.get("HAPTOFLOW_ENGINE", ROOT / "build" / "native" / "haptoflow"))
 
 
 @pytest.fixture(scope="module")
@@ -183,7 +180,7 @@ def motion_of(speed_mps: np.ndarray, force_newtons: float | np.ndarray = 1.0) ->
 
 
 def recorded(wave: np.ndarray, motion: np.ndarray) -> MaterialRecording:
-    return MaterialRecording("", "", wave.astype(np.float32), motion[:, :2], motion[:, 2], "", "")
+    return MaterialRecording(wave.astype(np.float32), motion)
 
 
 def swept(seconds: float, low: float = 0.02, high: float = 0.2, period: float = 2.5) -> np.ndarray:

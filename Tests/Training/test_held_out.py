@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Sequence
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -19,12 +18,11 @@ from haptoflow_paper.rows.reference_conditions import conditions
 from haptoflow_paper.runs.tier import build_seed_bank
 from haptoflow_training.export.exponents import draw_windows, fit_exponents
 from haptoflow_training.preprocessing.pipeline import preprocess_recording
-from haptoflow_training.preprocessing.settings import PreprocessingSettings
-from haptoflow_training.recordings.synthetic import load_materials, machine_conditions, record_machine_condition
+from haptoflow_training.recordings.synthetic import load_materials, machine_conditions, record_condition_of
 from haptoflow_training.training.batches import HeldOut, SegmentBatches, clear_spans
 from haptoflow_training.training.config import BatchConfig, load_config
+from places import ROOT
 
-ROOT = Path(__file__).parents[2]
 BATCH = BatchConfig(
     silence_probability=0.0, switch_probability=0.0, chain_silence_probability=0.0,
     held_out_speed_mps=(0.25, 0.3), held_out_force_newtons=(1.2, 1.5), held_out_direction_degrees=(215.0, 235.0),
@@ -160,8 +158,8 @@ def _default_passes() -> Sequence[tuple[int, NDArray[np.float32]]]:
     for identity in machine_conditions(
         material, directions=data.machine_directions, speeds_mmps=(60,), forces_millinewtons=(1000,), repeats=1
     ):
-        recording = record_machine_condition(material, identity, seed=data.recordings_seed)
-        found.append((identity.direction_degrees, preprocess_recording(recording, PreprocessingSettings()).motion))
+        recording = record_condition_of(material, identity, seed=data.recordings_seed)
+        found.append((identity.direction_degrees, preprocess_recording(recording).motion))
     return found
 
 

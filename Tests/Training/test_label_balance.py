@@ -242,62 +242,54 @@ def test_a_recipe_runs_through_its_phases_and_states_its_tier_kind(name: str, tm
     assert made.shape == (3, 1, 200) and torch.isfinite(made).all()
 
 
-def test_a_further_tier_keeps_the_level_and_embedding_of_its_base(tmp_path: Path) -> None:
-    store = make_store()
-    Trainer(_config(steps=5), store, tmp_path / "base", ALONE).run()
-    refinement = ModelConfig(network="refinement", hidden=(8, 8), width=8, previous_width=4, levels=1)
-    recipe = RecipeConfig(shares_base=True)
-    config = dataclasses.replace(_config(steps=5), tier="draft", model=refinement, recipe=recipe)
-    Trainer(config, store, tmp_path / "draft", ALONE, tmp_path / "base").run()
-    tiers = load_tiers([tmp_path / "base", tmp_path / "draft"])
-    assert [tier.name for tier in tiers] == ["draft", "standard"]
-    assert torch.equal(tiers[0].model.embedding.weight, tiers[1].model.embedding.weight)
+STORE = make_store()
 
 
-def test_tiers_that_share_no_level_are_refused(tmp_path: Path) -> None:
-    store = make_store()
-    for tier, seed in (("standard", 1), ("draft", 2)):
-        Trainer(dataclasses.replace(_config(steps=5), tier=tier, seed=seed), store, tmp_path / tier, ALONE).run()
+@pytest.fixture(scope="module")
+def first(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A finished run of five steps."""
+    folder = tmp_path_factory.mktemp("first")
+    Trainer(_config(steps=5), STORE, folder, ALONE).run()
+    return folder
+
+
+def test_tiers_that_share_no_level_are_refused(first: Path, tmp_path: Path) -> None:
+    Trainer(dataclasses.replace(_config(steps=5), tier="draft", seed=2), STORE, tmp_path, ALONE).run()
     with pytest.raises(InputError, match="--base"):
-        load_tiers([tmp_path / "standard", tmp_path / "draft"])
+        load_tiers([first, tmp_path])
 
 
-def test_a_further_round_begins_with_the_averaged_weights_of_the_run_it_goes_on_from(tmp_path: Path) -> None:
-    store = make_store()
-    Trainer(_config(steps=5), store, tmp_path / "first", ALONE).run()
-    begun = Trainer(_config(steps=5), store, tmp_path / "second", ALONE, start=tmp_path / "first")
-    first = load_trained(tmp_path / "first")[2].state_dict()
+def test_a_further_round_begins_with_the_averaged_weights_of_the_run_it_goes_on_from(
+    first: Path, tmp_path: Path
+) -> None:
+    begun = Trainer(_config(steps=5), STORE, tmp_path, ALONE, start=first)
+    averaged = load_trained(first)[2].state_dict()
     for weights in (begun.model.state_dict(), begun.averaged_model.state_dict()):
-        assert all(torch.equal(value, first[name]) for name, value in weights.items())
+        assert all(torch.equal(value, averaged[name]) for name, value in weights.items())
 
 
-def test_a_layer_with_more_outputs_keeps_the_old_ones_and_initialises_the_new_ones(tmp_path: Path) -> None:
-    store = make_store()
-    Trainer(_config(steps=5), store, tmp_path / "first", ALONE).run()
-    content = torch.load(tmp_path / "first" / "checkpoint.pt")
-    weights = content["average"]["module"]
-    kept = weights["skeleton.perceptron.layers.4.bias"][:260].clone()
-    weights["skeleton.perceptron.layers.4.bias"], weights["skeleton.perceptron.layers.4.weight"] = kept, weights["skeleton.perceptron.layers.4.weight"][:260]
-    torch.save(content, tmp_path / "first" / "checkpoint.pt")
+def test_a_layer_with_more_outputs_keeps_the_old_ones_and_initialises_the_new_ones(first: Path, tmp_path: Path) -> None:
+    content = torch.load(first / "checkpoint.pt")
+    weights, layer = content["average"]["module"], "skeleton.perceptron.layers.4"
+    kept = weights[f"{layer}.bias"][:260].clone()
+    weights |= {f"{layer}.bias": kept, f"{layer}.weight": weights[f"{layer}.weight"][:260]}
+    torch.save(content, tmp_path / "checkpoint.pt")
     torch.manual_seed(1)
-    built = build_model(_config(), [()] * 2).state_dict()["skeleton.perceptron.layers.4.bias"]
-    begun = Trainer(_config(), store, tmp_path / "second", ALONE, start=tmp_path / "first").model.state_dict()
-    assert torch.equal(begun["skeleton.perceptron.layers.4.bias"][:260], kept)
-    assert torch.equal(begun["skeleton.perceptron.layers.4.bias"][260:], built[260:])
+    built = build_model(_config(), [()] * 2).state_dict()[f"{layer}.bias"]
+    begun = Trainer(_config(), STORE, tmp_path / "second", ALONE, start=tmp_path).model.state_dict()
+    assert torch.equal(begun[f"{layer}.bias"][:260], kept)
+    assert torch.equal(begun[f"{layer}.bias"][260:], built[260:])
 
 
-def test_a_further_round_refuses_runs_with_other_shapes_or_labels(tmp_path: Path) -> None:
-    store = make_store()
-    Trainer(_config(steps=5), store, tmp_path / "first", ALONE).run()
+def test_a_further_round_refuses_runs_with_other_shapes_or_labels(first: Path, tmp_path: Path) -> None:
     wide = dataclasses.replace(_config(), model=ModelConfig(hidden=(16, 16)))
     with pytest.raises(InputError, match=r"--from .*'skeleton\..*does not fit"):
-        Trainer(wide, store, tmp_path / "second", ALONE, start=tmp_path / "first")
-    content = torch.load(tmp_path / "first" / "checkpoint.pt")
-    torch.save({**content, "labels": ["tone", "hiss"]}, tmp_path / "first" / "checkpoint.pt")
+        Trainer(wide, STORE, tmp_path / "second", ALONE, start=first)
+    torch.save({**torch.load(first / "checkpoint.pt"), "labels": ["tone", "hiss"]}, tmp_path / "checkpoint.pt")
     with pytest.raises(InputError, match="--from .*hiss"):
-        Trainer(_config(), store, tmp_path / "second", ALONE, start=tmp_path / "first")
+        Trainer(_config(), STORE, tmp_path / "second", ALONE, start=tmp_path)
     with pytest.raises(InputError, match="train first"):
-        Trainer(_config(), store, tmp_path / "second", ALONE, start=tmp_path / "nowhere")
+        Trainer(_config(), STORE, tmp_path / "second", ALONE, start=tmp_path / "nowhere")
 
 
 @pytest.mark.parametrize(("energy_steps", "chains"), [(4, 3), (0, 6)])

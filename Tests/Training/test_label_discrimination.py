@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 from pathlib import Path
 
 import numpy as np
@@ -16,9 +15,7 @@ from haptoflow_benchmark.label_discrimination import (
     window_features, write_report
 )
 from haptoflow_training.recordings.synthetic import load_materials
-
-ROOT = Path(__file__).parents[2]
-ENGINE = Path(os.environ.get("HAPTOFLOW_ENGINE", ROOT / "build" / "native" / "haptoflow"))
+from places import ENGINE
 
 
 def _coloured(generator: np.random.Generator, centre_hz: float, level_mps2: float, samples: int) -> NDArray[np.float64]:

@@ -15,9 +15,8 @@ from haptoflow_training.cli import main
 from haptoflow_training.preprocessing.preparation import prepare_store
 from haptoflow_training.recordings.labels import plain_name
 from haptoflow_training.recordings.own_files import open_own_dataset
+from places import SMALL, TRAINING
 
-ROOT = Path(__file__).parents[2]
-MODEL = ROOT / "Tests" / "Golden" / "model" / "skeleton.haptoflow"
 DEGREES = "columns Temp (\\xB0C) are not known and are ignored"
 
 
@@ -47,16 +46,12 @@ def folder(tmp_path: Path) -> Path:
     return root
 
 
-def run(*words: str | Path) -> subprocess.CompletedProcess[str]:
-    """In a process of its own, whose terminal is one of UTF-8."""
-    return subprocess.run(
-        [sys.executable, "-m", "haptoflow_training", *map(str, words)], capture_output=True, encoding="utf-8",
-        env={**os.environ, "PYTHONPATH": str(ROOT / "Training"), "PYTHONIOENCODING": "utf-8"}, check=False,
-    )  # fmt: skip
-
-
 def test_inspect_shows_the_folder_and_says_what_is_wrong_with_each_file(folder: Path) -> None:
-    done = run("inspect", folder)
+    # In a process of its own, whose terminal is one of UTF-8.
+    done = subprocess.run(
+        [sys.executable, "-m", "haptoflow_training", "inspect", str(folder)], capture_output=True, encoding="utf-8",
+        env={**os.environ, "PYTHONPATH": str(TRAINING), "PYTHONIOENCODING": "utf-8"}, check=False,
+    )  # fmt: skip
     assert done.returncode == 0, done.stderr
     assert ": 4 recordings" in done.stdout
     assert f"degrees.csv: {DEGREES}" in done.stdout
@@ -68,21 +63,24 @@ def test_inspect_shows_the_folder_and_says_what_is_wrong_with_each_file(folder: 
     assert "Traceback" not in done.stderr
 
 
-def test_a_material_is_made_of_the_files_of_a_folder_that_can_be_used(folder: Path, tmp_path: Path) -> None:
+def test_a_material_is_made_of_the_files_of_a_folder_that_can_be_used(
+    folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     out = tmp_path / "denim.haptomaterial"
-    done = run("add-material", "--model", MODEL, "--recording", folder, "--seconds-limit", "1", "-o", out)
-    assert done.returncode == 0, done.stderr
+    words = ["--model", str(SMALL), "--recording", str(folder), "--seconds-limit", "1", "-o", str(out)]
+    assert main(["add-material", *words]) == 0
+    said = capsys.readouterr().err
     assert out.is_file()
-    assert "skipped: " in done.stderr and "turned.csv: force_newtons is negative" in done.stderr
-    assert "broken.csv: is text in UTF-16" in done.stderr
-    assert "zero.csv: force_newtons is below 0" in done.stderr
-    assert DEGREES in done.stderr
+    assert "skipped: " in said and "turned.csv: force_newtons is negative" in said
+    assert "broken.csv: is text in UTF-16" in said
+    assert "zero.csv: force_newtons is below 0" in said
+    assert DEGREES in said
 
 
 def test_a_file_that_is_named_alone_is_refused_with_its_sentence(
     folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    words = ["add-material", "--model", str(MODEL), "-o", str(tmp_path / "a.haptomaterial"), "--recording"]
+    words = ["add-material", "--model", str(SMALL), "-o", str(tmp_path / "a.haptomaterial"), "--recording"]
     assert main([*words, str(folder / "turned.csv")]) == 3
     assert "--force-sign -1" in capsys.readouterr().err
     with_sidecar(folder / "turned.csv", {"label": "denim", "force_sign": -1})

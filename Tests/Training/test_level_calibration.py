@@ -22,13 +22,12 @@ from haptoflow_training.export.trained_tier import TrainedTier, load_tiers
 from haptoflow_training.models.skeleton import NOISE_BEFORE
 from haptoflow_training.models.level_model import LevelModel, level_loss, shift_level
 from haptoflow_training.preprocessing.pipeline import preprocess_recording
-from haptoflow_training.preprocessing.settings import PreprocessingSettings
-from haptoflow_training.recordings.synthetic import load_materials, record_condition
+from haptoflow_training.recordings.synthetic import load_materials, machine_conditions, record_condition, record_condition_of
+from haptoflow_training.recordings.synthetic.materials import select_materials
 from haptoflow_training.training.batches import HeldOut
 from haptoflow_training.training.config import ModelConfig, TrainingConfig
 from haptoflow_training.training.recordings_source import Source
 from haptoflow_training.training.trainer import Trainer, build_model
-from synthetic_samples import record_machine
 from test_export import INFOS, PROVENANCE
 from test_trainer import ALONE, _config
 from training_fixtures import (
@@ -288,12 +287,9 @@ class Taught:
 def _slow_store() -> FakeStore:
     waves, motions, recordings, start = [], [], [], 0
     for index, label in enumerate(LABELS):
-        slow = record_machine(
-            load_materials(), seed=5, labels=(label,), directions=(0,), speeds_mmps=(20, 40, 60),
-            forces_millinewtons=(500, 1000), repeats=1,
-        )  # fmt: skip
-        for recording in slow:
-            prepared = preprocess_recording(recording, PreprocessingSettings())
+        (material,) = select_materials(load_materials(), [label])
+        for identity in machine_conditions(material, directions=(0,), speeds_mmps=(20, 40, 60), repeats=1):
+            prepared = preprocess_recording(record_condition_of(material, identity, seed=5))
             waves.append(prepared.waveform_mps2 / 10.0)
             motions.append(prepared.motion)
             recordings.append(FakeRecording(index, "machine", "train", start, len(prepared.waveform_mps2)))
@@ -333,7 +329,7 @@ def _recorded(label: str, speed_mps: float, seed: int) -> np.ndarray:
     recording = record_condition(
         material, velocity_mps=(speed_mps, 0.0), force_newtons=1.0, duration_seconds=2.6, seed=seed
     )
-    return preprocess_recording(recording, PreprocessingSettings()).waveform_mps2
+    return preprocess_recording(recording).waveform_mps2
 
 
 def _level_errors_db(taught: Taught, speed_mps: float) -> tuple[np.ndarray, np.ndarray]:

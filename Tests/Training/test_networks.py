@@ -23,6 +23,7 @@ from haptoflow_training.models.skeleton import ATOMS, NOISE_BEFORE, TAIL_THRESHO
 from haptoflow_training.training.config import TrainingConfig, load_config
 from haptoflow_training.training.trainer import build_model
 from paper_samples import evaluated
+from places import ROOT
 
 def _inputs(batch: int, channels: int = 1, positions: int = 200) -> dict[str, torch.Tensor]:
     generator = torch.Generator().manual_seed(5)
@@ -99,7 +100,6 @@ def test_the_band_limit_is_the_convolution_of_past_segment_and_mirrored_segment_
     )
 
 
-ROOT = Path(__file__).parents[2]
 CONFIGS = ROOT / "Training" / "configs"
 NO_RIBS: list[list[tuple[float, float]]] = [[], []]
 

@@ -12,15 +12,18 @@ from own_samples import RATE_HZ, Stroke, csv_one_axis, csv_three_axes, stroke, w
 from scipy.io import wavfile
 
 from haptoflow_training.errors import InputError
-from haptoflow_training.recordings.material_recording import MaterialRecording, material_files, read_material_recordings
+from haptoflow_training.recordings.material_recording import material_files, read_material_recordings
+from haptoflow_training.recordings.native_recording import MaterialRecording
+from haptoflow_training.recordings.open_recordings import RecordingFile
 from haptoflow_training.recordings.own_files import open_own_dataset
 
 MADE = stroke(4.0)
 
 
-def read(path: Path) -> MaterialRecording:
-    (recording,) = read_material_recordings(material_files([path], print), print)
-    return recording
+def read(path: Path) -> tuple[RecordingFile, MaterialRecording]:
+    (file,) = material_files([path], print)
+    (recording,) = read_material_recordings([file], print)
+    return file, recording
 
 
 def assert_is_the_stroke(recording: MaterialRecording, made: Stroke, moving: bool = True) -> None:
@@ -35,33 +38,32 @@ def assert_is_the_stroke(recording: MaterialRecording, made: Stroke, moving: boo
     if moving:
         for axis in range(2):
             velocity = np.interp(at, made.time_seconds, made.velocity_mps[:, axis])
-            assert np.abs(recording.velocity_mps[:, axis] - velocity).max() < 0.004
+            assert np.abs(recording.motion[:, axis] - velocity).max() < 0.004
         force = np.interp(at, made.time_seconds, made.force_newtons)
-        assert np.abs(recording.force_newtons - force).max() < 0.02
+        assert np.abs(recording.motion[:, 2] - force).max() < 0.02
 
 
 @pytest.mark.parametrize("form", [csv_one_axis, csv_three_axes, wav_with_motion])
 def test_every_form_reads_as_the_same_stroke(tmp_path: Path, form: object) -> None:
     path = form(tmp_path, "slow", "denim", MADE, licence="CC0 1.0", source="a jacket")  # type: ignore[operator]
-    recording = read(path)
+    file, recording = read(path)
     assert_is_the_stroke(recording, MADE)
-    assert (recording.name, recording.label) == (path.name, "denim")
-    assert (recording.licence, recording.source) == ("CC0 1.0", "a jacket")
+    assert (file.identity.name, file.label) == (path.name, "denim")
+    assert (file.licence, file.source) == ("CC0 1.0", "a jacket")
 
 
 def test_constants_are_read_from_the_sidecar_or_the_folder_s_recordings_json(tmp_path: Path) -> None:
     path = tmp_path / "plain.wav"
     wavfile.write(path, RATE_HZ, (MADE.acceleration_mps2 / 50.0).astype(np.float32))
     (tmp_path / "recordings.json").write_text(json.dumps({"full_scale_mps2": 50, "speed_mps": 0.08, "force_newtons": 2}))
-    recording = read(path)
+    file, recording = read(path)
     assert_is_the_stroke(recording, MADE, moving=False)
-    np.testing.assert_allclose(recording.velocity_mps, np.tile([0.08, 0.0], (len(recording.velocity_mps), 1)), atol=1e-6)
-    np.testing.assert_allclose(recording.force_newtons, 2.0, atol=1e-6)
-    assert (recording.label, recording.licence, recording.source) == ("", "unknown", "unknown")
+    np.testing.assert_allclose(recording.motion, np.tile([0.08, 0.0, 2.0], (len(recording.motion), 1)), atol=1e-6)
+    assert (file.label, file.licence, file.source) == ("", "unknown", "unknown")
     with_sidecar(path, {"velocity_mps": [0.0, -0.1], "label": "felt"})
-    recording = read(path)
-    np.testing.assert_allclose(recording.velocity_mps[:, 1], -0.1, atol=1e-6)
-    assert recording.label == "felt" and recording.force_newtons[0] == pytest.approx(2.0)
+    file, recording = read(path)
+    np.testing.assert_allclose(recording.motion[:, 1], -0.1, atol=1e-6)
+    assert file.label == "felt" and recording.motion[0, 2] == pytest.approx(2.0)
 
 
 @pytest.mark.parametrize(("rate_hz", "kind"), [(1000, np.int32), (44100, np.float32)])
@@ -76,7 +78,7 @@ def test_a_wav_of_any_rate_and_kind_keeps_its_level_and_what_lies_above_the_band
     path = tmp_path / "tone.wav"
     wavfile.write(path, rate_hz, (wave / 20.0 * scale).astype(kind))
     with_sidecar(path, {"full_scale_mps2": 20, "speed_mps": 0.1, "force_newtons": 1})
-    found = read(path).vibration_mps2[200:-200]
+    found = read(path)[1].vibration_mps2[200:-200]
     assert np.sqrt(np.mean(found**2)) == pytest.approx(3.0 / np.sqrt(2.0), rel=0.02)
     spectrum = np.abs(np.fft.rfft(found * np.hanning(len(found))))
     frequency = np.fft.rfftfreq(len(found), 0.0005)

@@ -203,7 +203,7 @@ def test_the_hub_s_release_gives_the_recordings_of_the_file_release(csv_release:
     assert not hub.problems and hub.published and files.published
     assert [entry.identity.name for entry in hub] == sorted(HUB_NAMES, key=lambda name: int(name.split("_")[0]))
     for of_hub, of_files in zip(hub, files, strict=True):
-        assert of_hub.acceleration_path.suffix == ".parquet" and of_files.acceleration_path.suffix == ".csv"
+        assert of_hub.paths[0].suffix == ".parquet" and of_files.paths[0].suffix == ".csv"
         _assert_same(of_hub.load(), of_files.load())
 
 

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -16,6 +14,7 @@ from haptoflow_paper.studies.place_study import RULED, Pass, Profile, bumps, lik
 from haptoflow_paper.studies.velocity_cases import growing_parabola, made_motions, real_motions, sampled
 from haptoflow_paper.studies.velocity_study import PRODUCT, PRODUCT_SETTINGS, page_words, product_velocity
 from haptoflow_training.model_stamp import with_measured_words
+from places import ENGINE, ROOT
 
 
 def _surface(places_metres: np.ndarray, seed: int = 3) -> np.ndarray:
@@ -72,9 +71,7 @@ def test_the_page_says_met_and_missed() -> None:
     assert "1 are exactly silent" in words and "heard are 1.40 mm (goal missed)" in words
 
 
-ROOT = Path(__file__).parents[2]
 STROKES = ROOT.parent / "shared" / "strokes" / "vr-pen-on-surface" / "strokes.csv"
-ENGINE = Path(os.environ.get("HAPTOFLOW_ENGINE", ROOT / "build" / "native" / "haptoflow"))
 RESULTS = ROOT / "Training" / "haptoflow_paper" / "results" / "velocity.json"
 PAGE = ROOT / "Training" / "haptoflow_paper" / "results" / "velocity.md"
 

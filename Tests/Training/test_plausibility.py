@@ -13,14 +13,12 @@ from dataset_samples import small_recording
 from haptoflow_training.errors import InputError
 from haptoflow_training.preprocessing.pipeline import preprocess_recording
 from haptoflow_training.preprocessing.plausibility import implausible
-from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.recordings.recording import Recording
 from haptoflow_training.recordings.synthetic import (
     hand_conditions,
     load_materials,
     machine_conditions,
-    record_hand_condition,
-    record_machine_condition,
+    record_condition_of,
 )
 
 HAND, MACHINE = "3_hand_400_1500_0", "0_90_40_500_0"
@@ -73,7 +71,7 @@ def test_an_implausible_recording_is_refused_with_name_and_expectation(kind: str
     name, changes, words = BAD[kind]
     recording = changed(name, **changes)
     with pytest.raises(InputError, match=f"recording {name}: .*{re.escape(words)}"):
-        preprocess_recording(recording, PreprocessingSettings())
+        preprocess_recording(recording)
 
 
 @pytest.mark.parametrize("name", [HAND, MACHINE])
@@ -92,7 +90,7 @@ def test_no_synthetic_recording_is_refused_at_any_speed() -> None:
             material, directions=(0, 45), speeds_mmps=(10, 60), forces_millinewtons=(200, 1000), repeats=1
         )
         for identity in machine[:: max(1, len(machine) // 3)]:
-            assert list(implausible(record_machine_condition(material, identity, seed=5))) == [], identity.name
+            assert list(implausible(record_condition_of(material, identity, seed=5))) == [], identity.name
         for identity in hand_conditions(material, seed=5, recordings=2):
-            recording = record_hand_condition(material, identity, seed=5, duration_seconds=3.0, guided_share=0.5)
+            recording = record_condition_of(material, identity, seed=5, duration_seconds=3.0, guided_share=0.5)
             assert list(implausible(recording)) == [], identity.name

@@ -16,7 +16,7 @@ from haptoflow_training.cli import main
 from haptoflow_training.errors import InputError
 from haptoflow_training.preprocessing import preparation
 from haptoflow_training.preprocessing.preparation import prepare_store
-from haptoflow_training.preprocessing.settings import PreprocessingSettings
+from haptoflow_training.preprocessing.settings import SETTINGS
 from haptoflow_training.preprocessing.split import SPLITS, split_of, time_parts
 from haptoflow_training.preprocessing.store import SegmentStore
 from haptoflow_training.recordings.dataset_layout import (
@@ -25,7 +25,7 @@ from haptoflow_training.recordings.dataset_layout import (
 from haptoflow_training.recordings.own_files import open_own_dataset
 from haptoflow_training.recordings.recording import Recording, RecordingIdentity
 from haptoflow_training.recordings.synthetic import (
-    hand_conditions, load_materials, machine_conditions, record_hand_condition, record_machine_condition
+    hand_conditions, load_materials, machine_conditions, record_condition_of
 )
 from haptoflow_training.training.config import DataConfig
 from haptoflow_training.training.recordings_source import open_source
@@ -95,7 +95,6 @@ def test_prepare_refuses_two_folders_with_the_same_names(tmp_path: Path, capsys:
     assert not (tmp_path / "store").exists()
 
 
-SETTINGS = PreprocessingSettings()
 LABELS = ["stone", "wood"]
 
 
@@ -129,46 +128,33 @@ def some_recordings(directions: tuple[int, ...] = (0, 90, 180), repeats: int = 2
 def store(tmp_path_factory: pytest.TempPathFactory) -> SegmentStore:
     out = tmp_path_factory.mktemp("prepared") / "store"
     return prepare_store(
-        some_recordings(), LABELS, out, SETTINGS, seed=4, provenance={"licence": "MIT"}
+        some_recordings(), LABELS, out, seed=4, provenance={"licence": "MIT"}
     )
 
 
 def test_a_store_opened_again_is_the_store_that_was_written(store: SegmentStore) -> None:
     again = SegmentStore.open(store.path)
-    assert again.recordings == store.recordings and again.settings == SETTINGS
+    assert again.recordings == store.recordings
     assert again.labels == LABELS and again.provenance == {"licence": "MIT"} and again.seed == 4
     np.testing.assert_array_equal(again.waveform, store.waveform)
     with pytest.raises(ValueError, match="read-only"):
         again.waveform[0] = 1.0
 
 
-def test_every_recording_is_in_exactly_one_split_and_all_splits_occur(store: SegmentStore) -> None:
-    names = [{stored.name for stored in store.split(split)} for split in SPLITS]
-    assert all(names)
-    assert sum(map(len, names)) == len(set.union(*names)) == len(store.recordings)
-
-
-def test_no_sample_of_one_split_belongs_to_another_split(store: SegmentStore) -> None:
+def test_every_sample_belongs_to_one_split_and_all_splits_occur(store: SegmentStore) -> None:
     splits_of_sample = np.zeros(len(store.waveform), dtype=int)
     for split in SPLITS:
         used = np.zeros(len(store.waveform), dtype=bool)
+        assert store.split(split)
         for stored in store.split(split):
             used[stored.start : stored.start + stored.length] = True
         splits_of_sample += used
-    assert splits_of_sample.max() == 1
-
-
-def test_no_pass_over_a_track_of_the_surface_is_in_two_splits(store: SegmentStore) -> None:
-    track = {}
-    for stored in store.recordings:
-        if stored.protocol == "machine":
-            key = (stored.texture_id, stored.direction_degrees, stored.speed_mmps, stored.force_millinewtons)
-            assert track.setdefault(key, stored.split) == stored.split
+    assert np.all(splits_of_sample == 1)
 
 
 def test_a_recording_keeps_its_split_and_its_silence_when_others_are_added(store: SegmentStore, tmp_path: Path) -> None:
     more = some_recordings(directions=(0, 45, 90, 180))[::-1]
-    larger = prepare_store(more, LABELS, tmp_path / "larger", SETTINGS, seed=4)
+    larger = prepare_store(more, LABELS, tmp_path / "larger", seed=4)
     found = {stored.name: stored for stored in larger.recordings}
     assert len(found) > len(store.recordings)
     for stored in store.recordings:
@@ -178,18 +164,10 @@ def test_a_recording_keeps_its_split_and_its_silence_when_others_are_added(store
         )
 
 
-def test_held_out_directions_and_speeds_land_in_the_test_split(tmp_path: Path) -> None:
-    settings = replace(SETTINGS, held_out_directions=(90,), held_out_speeds_mmps=(40,))
-    store = prepare_store(some_recordings(), LABELS, tmp_path / "store", settings, seed=4)
-    held_out = [one for one in store.recordings if one.direction_degrees == 90 or one.speed_mmps == 40]
-    assert held_out and {one.split for one in held_out} == {"test"}
-    assert store.split("train")
-
-
 def test_a_broken_recording_is_skipped_with_its_reason_and_the_rest_is_kept(tmp_path: Path) -> None:
     good, bad = small_recording("1_0_20_500_0", seconds=1.2), small_recording("1_0_30_500_0", seconds=1.2)
     bad.force_newtons[3] = np.nan
-    store = prepare_store([bad, good], LABELS, tmp_path / "store", SETTINGS)
+    store = prepare_store([bad, good], LABELS, tmp_path / "store")
     assert [stored.name for stored in store.recordings] == ["1_0_20_500_0"]
     assert [skipped.name for skipped in store.skipped] == ["1_0_30_500_0"]
     assert "force holds values that are not finite" in store.skipped[0].reason
@@ -197,7 +175,7 @@ def test_a_broken_recording_is_skipped_with_its_reason_and_the_rest_is_kept(tmp_
 
 def test_nothing_usable_is_an_error_that_names_the_first_problem(tmp_path: Path) -> None:
     with pytest.raises(InputError, match=r"no recording could be prepared \(1 were skipped.*1_0_20_500_0.*trimming"):
-        prepare_store([small_recording("1_0_20_500_0", seconds=0.15)], LABELS, tmp_path / "s", SETTINGS)
+        prepare_store([small_recording("1_0_20_500_0", seconds=0.15)], LABELS, tmp_path / "s")
     assert list(tmp_path.iterdir()) == []
 
 
@@ -212,14 +190,14 @@ def test_a_name_given_twice_or_an_unknown_label_is_refused(
     names: list[str], label: str, words: str, tmp_path: Path
 ) -> None:
     with pytest.raises(InputError, match=words):
-        prepare_store((OnDemand(name, label) for name in names), LABELS, tmp_path / "store", SETTINGS)
+        prepare_store((OnDemand(name, label) for name in names), LABELS, tmp_path / "store")
 
 
 def test_a_full_disk_is_an_input_error_and_leaves_the_older_store_as_it_was(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     out = tmp_path / "store"
-    prepare_store([OnDemand("1_0_20_500_0", "wood")], LABELS, out, SETTINGS)
+    prepare_store([OnDemand("1_0_20_500_0", "wood")], LABELS, out)
     before = {path.name: path.read_bytes() for path in out.iterdir()}
 
     def refuse(*_: object) -> None:
@@ -227,14 +205,14 @@ def test_a_full_disk_is_an_input_error_and_leaves_the_older_store_as_it_was(
 
     monkeypatch.setattr(preparation, "_append", refuse)
     with pytest.raises(InputError, match="No space left on device; make room"):
-        prepare_store([OnDemand("1_0_30_500_0", "wood")], LABELS, out, SETTINGS)
+        prepare_store([OnDemand("1_0_30_500_0", "wood")], LABELS, out)
     assert {path.name: path.read_bytes() for path in out.iterdir()} == before
     assert [path.name for path in tmp_path.iterdir()] == ["store"]
 
 
 def test_a_rename_that_fails_puts_the_older_store_back(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     out = tmp_path / "store"
-    prepare_store([OnDemand("1_0_20_500_0", "wood")], LABELS, out, SETTINGS)
+    prepare_store([OnDemand("1_0_20_500_0", "wood")], LABELS, out)
     rename = os.replace
 
     def refuse_the_new(source: Path, target: Path) -> None:
@@ -244,20 +222,20 @@ def test_a_rename_that_fails_puts_the_older_store_back(tmp_path: Path, monkeypat
 
     monkeypatch.setattr(os, "replace", refuse_the_new)
     with pytest.raises(InputError, match="Permission denied"):
-        prepare_store([OnDemand("1_0_30_500_0", "wood")], LABELS, out, SETTINGS)
+        prepare_store([OnDemand("1_0_30_500_0", "wood")], LABELS, out)
     assert [stored.name for stored in SegmentStore.open(out).recordings] == ["1_0_20_500_0"]
     assert [path.name for path in tmp_path.iterdir()] == ["store"]
 
 
 def test_an_older_store_is_replaced_but_a_folder_of_other_files_is_not(tmp_path: Path) -> None:
     out = tmp_path / "store"
-    prepare_store([OnDemand("1_0_20_500_0", "wood")], LABELS, out, SETTINGS)
-    newer = prepare_store([OnDemand("1_0_30_500_0", "wood")], LABELS, out, SETTINGS)
+    prepare_store([OnDemand("1_0_20_500_0", "wood")], LABELS, out)
+    newer = prepare_store([OnDemand("1_0_30_500_0", "wood")], LABELS, out)
     assert [stored.name for stored in newer.recordings] == ["1_0_30_500_0"]
     assert [path.name for path in tmp_path.iterdir()] == ["store"]
     (out / "notes.txt").write_text("mine")
     with pytest.raises(InputError, match="holds files that are not a store"):
-        prepare_store([OnDemand("1_0_20_500_0", "wood")], LABELS, out, SETTINGS)
+        prepare_store([OnDemand("1_0_20_500_0", "wood")], LABELS, out)
     assert (out / "notes.txt").read_text() == "mine"
 
 
@@ -277,7 +255,7 @@ def test_an_older_store_is_replaced_but_a_folder_of_other_files_is_not(tmp_path:
 )
 def test_a_damaged_store_is_refused_by_what_is_wrong_with_it(damage, words: str, tmp_path: Path) -> None:
     out = tmp_path / "store"
-    prepare_store([OnDemand("1_0_20_500_0", "wood")], LABELS, out, SETTINGS)
+    prepare_store([OnDemand("1_0_20_500_0", "wood")], LABELS, out)
     damage(out)
     with pytest.raises(InputError, match=words):
         SegmentStore.open(out)
@@ -301,7 +279,7 @@ def hand_strokes(texture_id: int, count: int) -> list[RecordingIdentity]:
 
 @pytest.mark.parametrize("texture_id", range(0, 118, 13))
 def test_every_texture_is_split_70_10_20_on_the_machine(texture_id: int) -> None:
-    found = Counter(split_of(identity, SETTINGS, 7) for identity in machine_grid(texture_id))
+    found = Counter(split_of(identity, 7) for identity in machine_grid(texture_id))
     assert found["train"] == pytest.approx(112, abs=4)
     assert found["validation"] == pytest.approx(16, abs=4)
     assert found["test"] == pytest.approx(32, abs=4)
@@ -309,7 +287,7 @@ def test_every_texture_is_split_70_10_20_on_the_machine(texture_id: int) -> None
 
 @pytest.mark.parametrize("texture_id", range(0, 118, 13))
 def test_a_few_hand_strokes_of_a_texture_reach_all_three_splits(texture_id: int) -> None:
-    found = Counter(split_of(identity, SETTINGS, 7) for identity in hand_strokes(texture_id, 24))
+    found = Counter(split_of(identity, 7) for identity in hand_strokes(texture_id, 24))
     assert found["train"] == pytest.approx(17, abs=3)
     assert found["validation"] >= 1
     assert found["test"] == pytest.approx(5, abs=3)
@@ -319,21 +297,13 @@ def test_repeats_of_one_machine_pass_share_a_split_because_they_share_its_bumps(
     for texture_id in range(20):
         for identity in machine_grid(texture_id):
             twin = replace(identity, repeat=1 - identity.repeat)
-            assert split_of(identity, SETTINGS, 7) == split_of(twin, SETTINGS, 7)
+            assert split_of(identity, 7) == split_of(twin, 7)
 
 
 def test_the_split_of_a_name_never_changes_between_releases() -> None:
     names = ["0_0_20_500_0", "5_135_40_1000_1", "81_315_60_500_0", "3_hand_400_1500_3", "3_hand_400_1500_4"]
-    found = [split_of(RecordingIdentity.parse(name), SETTINGS, 0) for name in names]
+    found = [split_of(RecordingIdentity.parse(name), 0) for name in names]
     assert found == ["train", "test", "test", "train", "test"]
-
-
-def test_a_held_out_direction_and_speed_are_for_testing_only() -> None:
-    settings = replace(SETTINGS, held_out_directions=(135,), held_out_speeds_mmps=(50,))
-    for identity in machine_grid(5):
-        held_out = identity.direction_degrees == 135 or identity.speed_mmps == 50
-        expected = "test" if held_out else split_of(identity, SETTINGS, 7)
-        assert split_of(identity, settings, 7) == expected
 
 
 # Of the same store's waveform: its RMS, and the sum of every 500th sample's magnitude.
@@ -354,12 +324,12 @@ BEFORE = [
 @pytest.mark.parametrize("seconds", [1.2, 3.0, 9.4, 31.0, 299.4])
 def test_every_split_gets_its_share_and_no_sample_is_near_another_split_s(seconds: float) -> None:
     samples = int(2000 * seconds)
-    parts = time_parts(samples, SETTINGS)
-    assert {part.split for part in parts} == set(SPLITS)
-    assert parts[0].start == 0 and parts[-1].stop <= samples
-    for before, after in pairwise(parts):
+    parts = time_parts(samples)
+    assert {split for split, _ in parts} == set(SPLITS)
+    assert parts[0][1].start == 0 and parts[-1][1].stop <= samples
+    for (_, before), (_, after) in pairwise(parts):
         assert after.start - before.stop >= SETTINGS.segment_samples
-    share = {split: sum(one.stop - one.start for one in parts if one.split == split) / samples for split in SPLITS}
+    share = {split: sum(one.stop - one.start for name, one in parts if name == split) / samples for split in SPLITS}
     assert share["train"] > 0.3 and share["validation"] > 0.05 and share["test"] > 0.08
     if seconds > 9.0:
         assert 0.66 < share["train"] < 0.71 and sum(share.values()) > 0.95
@@ -409,9 +379,9 @@ def test_recordings_of_published_length_give_the_same_store_as_before(tmp_path: 
         machine = machine_conditions(
             material, directions=(0, 45), speeds_mmps=(60,), forces_millinewtons=(500,), repeats=1
         )
-        recordings += [record_machine_condition(material, identity, seed=1) for identity in machine]
+        recordings += [record_condition_of(material, identity, seed=1) for identity in machine]
         recordings += [
-            record_hand_condition(material, identity, seed=1, duration_seconds=3.0)
+            record_condition_of(material, identity, seed=1, duration_seconds=3.0)
             for identity in hand_conditions(material, seed=1, recordings=2)
         ]
     store = prepare_store(recordings, [one.label for one in chosen], tmp_path / "store")

@@ -9,10 +9,7 @@ from dataset_samples import small_recording
 from haptoflow_training.errors import InputError
 from haptoflow_training.preprocessing import signals
 from haptoflow_training.preprocessing.pipeline import PreparedRecording, pad_recording, preprocess_recording
-from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.recordings.recording import STANDARD_GRAVITY_MPS2, Recording
-
-SETTINGS = PreprocessingSettings()
 
 
 def tone_recording(hertz: float, amplitude_g: float = 0.5, seconds: float = 2.0) -> Recording:
@@ -26,7 +23,7 @@ def tone_recording(hertz: float, amplitude_g: float = 0.5, seconds: float = 2.0)
 
 @pytest.mark.parametrize("hertz", [40.0, 150.0, 400.0])
 def test_a_tone_keeps_its_frequency_and_amplitude_in_metres_per_second_squared(hertz: float) -> None:
-    prepared = preprocess_recording(tone_recording(hertz), SETTINGS)
+    prepared = preprocess_recording(tone_recording(hertz))
     time = 0.0005 * np.arange(len(prepared.waveform_mps2))
     basis = np.column_stack([np.sin(2 * np.pi * hertz * time), np.cos(2 * np.pi * hertz * time)])
     weights, residual, *_ = np.linalg.lstsq(basis, prepared.waveform_mps2.astype(np.float64), rcond=None)
@@ -36,7 +33,7 @@ def test_a_tone_keeps_its_frequency_and_amplitude_in_metres_per_second_squared(h
 
 def test_the_waveform_is_aligned_with_the_true_time_stamps() -> None:
     recording = tone_recording(100.0)
-    prepared = preprocess_recording(recording, SETTINGS)
+    prepared = preprocess_recording(recording)
     start = max(recording.acceleration_time_seconds[0], 0.0) + 0.3
     time = start + 0.0005 * np.arange(len(prepared.waveform_mps2))
     expected = 0.5 * STANDARD_GRAVITY_MPS2 * np.sin(2 * np.pi * 100.0 * time)
@@ -45,7 +42,7 @@ def test_the_waveform_is_aligned_with_the_true_time_stamps() -> None:
 
 @pytest.mark.parametrize("hertz", [1100.0, 1300.0])
 def test_a_tone_above_the_band_leaves_less_than_half_a_percent(hertz: float) -> None:
-    prepared = preprocess_recording(tone_recording(hertz), SETTINGS)
+    prepared = preprocess_recording(tone_recording(hertz))
     assert np.sqrt(2 * np.mean(prepared.waveform_mps2**2)) < 0.005 * 0.5 * STANDARD_GRAVITY_MPS2
 
 
@@ -64,7 +61,7 @@ def test_decimation_is_flat_to_950_hz_6_db_down_at_nyquist_and_60_db_above_1050_
 
 
 def test_the_motion_of_a_straight_pass_is_its_speed_along_its_direction() -> None:
-    prepared = preprocess_recording(small_recording("0_45_40_1000_0", seconds=2.0), SETTINGS)
+    prepared = preprocess_recording(small_recording("0_45_40_1000_0", seconds=2.0))
     steady = prepared.motion[200:-200]
     np.testing.assert_allclose(steady[:, :2], 0.04 / np.sqrt(2), atol=0.0015)
     np.testing.assert_allclose(steady[:, 2], 1.0, atol=0.01)
@@ -117,7 +114,7 @@ def _broken(recording: Recording, how: str) -> Recording:
 )
 def test_a_recording_that_cannot_be_prepared_is_refused_by_name(how: str, words: str) -> None:
     with pytest.raises(InputError, match=f"0_90_40_500_0.*{words}"):
-        preprocess_recording(_broken(small_recording(), how), SETTINGS)
+        preprocess_recording(_broken(small_recording(), how))
 
 
 def _loud(samples: int = 2000) -> PreparedRecording:
@@ -128,9 +125,8 @@ def _loud(samples: int = 2000) -> PreparedRecording:
 
 
 def test_padding_puts_whole_silent_segments_before_and_after_with_the_probability_asked_for() -> None:
-    padded = [pad_recording(_loud(), f"0_90_40_500_{number}", SETTINGS, 1) for number in range(1000)]
-    before = np.array([entry.padding_before for entry in padded])
-    after = np.array([entry.padding_after for entry in padded])
+    padded = [pad_recording(_loud(), f"0_90_40_500_{number}", 1) for number in range(1000)]
+    before, after = (np.array([entry[place] for entry in padded]) for place in (1, 2))
     for found in (before, after):
         assert set(found) == {0, 200, 400, 600}
         assert (found > 0).mean() == pytest.approx(0.3, abs=0.05)
@@ -138,15 +134,13 @@ def test_padding_puts_whole_silent_segments_before_and_after_with_the_probabilit
 
 
 def test_padding_is_silent_without_velocity_and_fades_into_the_recording_in_10_ms() -> None:
-    settings = replace(SETTINGS, padding_probability=1.0)
     forces = set()
     velocity_fade = (0.5 - 0.5 * np.cos(np.pi * (np.arange(20) + 0.5) / 20))[:, None] * [0.04, 0.03]
-    for number in range(60):
-        padded = pad_recording(_loud(), f"0_90_40_500_{number}", settings, 1)
-        wave, moving = padded.prepared.waveform_mps2, padded.prepared.motion
-        front, back = padded.padding_before, padded.padding_after
+    every = (pad_recording(_loud(), f"0_90_40_500_{number}", 1) for number in range(1000))
+    for padded, front, back in (one for one in every if one[1] and one[2]):
+        wave, moving = padded.waveform_mps2, padded.motion
         assert len(wave) == len(moving) == 2000 + front + back
-        wander = padded.prepared.wander_turns
+        wander = padded.wander_turns
         np.testing.assert_array_equal(wander[: front + 1], np.tile(_loud().wander_turns[0], (front + 1, 1)))
         np.testing.assert_array_equal(wander[-back - 1 :], np.tile(_loud().wander_turns[-1], (back + 1, 1)))
         silent = np.r_[0:front, len(wave) - back : len(wave)]

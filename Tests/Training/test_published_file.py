@@ -28,9 +28,7 @@ from haptoflow_paper.published.published_file import PublishedFile, TrainedRange
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.model_file import read_model_file
 from published_samples import PUBLISHED, change_meta, change_safetensors, copied
-
-ROOT = Path(__file__).parents[2]
-ENGINE = ROOT / "build" / "native" / "haptoflow"
+from places import ENGINE, ROOT
 
 
 @pytest.fixture(scope="module")

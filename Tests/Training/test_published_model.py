@@ -12,7 +12,7 @@ import torch
 from numpy.typing import NDArray
 from scipy.io import wavfile
 
-from haptoflow_benchmark.engine_library import EngineLibrary, default_engine
+from haptoflow_benchmark.engine_library import EngineLibrary
 from haptoflow_benchmark.engine_render import render_motion
 from haptoflow_paper.cli import main
 from haptoflow_paper.published.checkpoint import read_checkpoint
@@ -22,6 +22,7 @@ from haptoflow_paper.published.published_model import PublishedModel
 from haptoflow_paper.rows.engine_generator import EngineGenerator
 from haptoflow_training.export.model_file import ModelFile, read_model_file
 from published_samples import PUBLISHED, SOLVERS, GoldenChain, assert_within_1e_4_of_its_rms
+from places import ENGINE
 
 @pytest.fixture(scope="module", params=SOLVERS)
 def solver(request: pytest.FixtureRequest) -> str:
@@ -50,15 +51,8 @@ def test_three_segments_that_follow_each_other_are_the_golden_ones(model: Publis
         assert_within_1e_4_of_its_rms(previous, golden.tensor(segment, "waveform"))
 
 
-ROOT = Path(__file__).parents[2]
-ENGINE = ROOT / "build" / "native" / "haptoflow"
 PEAK_G = 1.5
 UNIT_MPS2 = PEAK_G * STANDARD_GRAVITY_MPS2
-
-
-@pytest.fixture(scope="module")
-def engine() -> EngineLibrary:
-    return default_engine(ROOT)
 
 
 @pytest.fixture(scope="module")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 import subprocess
 from pathlib import Path
 
@@ -16,10 +15,9 @@ from haptoflow_benchmark.engine_render import (
     FULL_SCALE_MPS2, onto_table, read_recorded_strokes, read_wav, rendered_samples, write_rows, write_scene
 )
 from haptoflow_training.errors import InputError
+from places import DEFAULT, ENGINE, ROOT
 
-ROOT = Path(__file__).parents[2]
 STROKES = ROOT.parent / "shared" / "strokes" / "vr-pen-on-surface" / "strokes.csv"
-ENGINE = Path(os.environ.get("HAPTOFLOW_ENGINE", ROOT / "build" / "native" / "haptoflow"))
 
 UPDATE_RATE_HZ = 72.0
 
@@ -127,9 +125,6 @@ def test_a_damaged_stroke_file_is_refused_with_the_line_named(tmp_path: Path, te
         read_recorded_strokes(path)
 
 
-MODEL = ROOT / "Packages" / "com.haptoflow.runtime" / "Runtime" / "Models" / "default.haptoflow"
-
-
 def test_the_engine_follows_a_scribble_within_a_pose_interval_lead_and_hop(tmp_path: Path) -> None:
     """The lag at which the log level of the vibration correlates best with the log speed of a scribble of 2 Hz."""
     assert ENGINE.is_file(), f"{ENGINE} is missing: build it with `npm run build`"
@@ -139,7 +134,10 @@ def test_the_engine_follows_a_scribble_within_a_pose_interval_lead_and_hop(tmp_p
     along = metres * np.sin(turn * times)
     write_scene(scene, "wood", 90.0, 0.5)
     write_rows(table, np.c_[times, 0.8 * along, np.full(len(times), 0.25), 0.6 * along, np.ones(len(times))])
-    waves = [rendered_samples(ENGINE, scene, table, wav, model=MODEL, seed=seed, options=("--quiet",)) for seed in (1, 2, 3)]
+    waves = [
+        rendered_samples(ENGINE, scene, table, wav, model=DEFAULT, seed=seed, options=("--quiet",))
+        for seed in (1, 2, 3)
+    ]
     window = np.hanning(25)
     level = np.log(np.convolve(np.mean(np.square(waves), axis=0), window / window.sum(), mode="same") + 1e-20)
     index = np.arange(600, 7600)
@@ -150,7 +148,6 @@ def test_the_engine_follows_a_scribble_within_a_pose_interval_lead_and_hop(tmp_p
     assert 2.0 < lag_ms < 11.1 + 8.0 + 5.0
 
 
-TAPS_ENGINE = ROOT / "build" / "native" / "haptoflow"
 LABELS = ("rubber", "wood", "stone")
 RATE_HZ = 8000
 GRAVITY_MPS2 = 9.81
@@ -181,7 +178,7 @@ def _drops(path: Path) -> NDArray[np.float64]:
 def _render(folder: Path, label: str, stroke: Path, effects: str) -> NDArray[np.float64]:
     scene, wav = folder / "scene.json", folder / "out.wav"
     write_scene(scene, label, 90.0, tip_radius_metres=0.002)
-    command = [str(TAPS_ENGINE), "render", str(scene), "--stroke", str(stroke), "-o", str(wav), "--quiet"]
+    command = [str(ENGINE), "render", str(scene), "--stroke", str(stroke), "-o", str(wav), "--quiet"]
     done = subprocess.run(
         [*command, "--rate", str(RATE_HZ), "--effects", effects], capture_output=True, text=True, check=False
     )

@@ -37,8 +37,9 @@ from test_export import PROVENANCE
 from test_networks import _check
 from test_trainer import ALONE
 from training_fixtures import make_store
+from places import ROOT
 
-CONFIGS = Path(__file__).parents[2] / "Training" / "haptoflow_paper" / "configs"
+CONFIGS = ROOT / "Training" / "haptoflow_paper" / "configs"
 GIVEN_THE_SAME = ("field", "ar-ribs", "mean-flow-ribs", "reflow-ribs", "spsi-ribs", "transformer-noise", "dstn-noise")
 INFOS = [LabelInfo("tone", "metal", 900.0, 0.3, 0.002, ((0.5, 0.0),)), LabelInfo("noise", "stone", 1500.0, 0.6)]
 WAVE_VECTORS = [[(0.5, 0.0)], []]

@@ -24,6 +24,7 @@ from haptoflow_training.training.processes import Job
 from haptoflow_training.training.trainer import Trainer, build_model
 from paper_samples import evaluated
 from test_trainer import _config
+from places import ROOT
 
 _ROWS = [PlannedRow(name, "reference") for name in ("silence", "white-noise", "mean-spectrum")]
 
@@ -145,7 +146,7 @@ def test_a_row_without_its_model_here_is_timed_by_an_untrained_network_of_the_sa
     assert place.timed_file(_ROW) == place.model_file(_ROW, 1)
 
 
-PAPER = Path(__file__).parents[2] / "Training" / "haptoflow_paper"
+PAPER = ROOT / "Training" / "haptoflow_paper"
 
 
 def test_every_published_row_was_measured_with_the_present_configuration_of_its_model() -> None:

@@ -15,14 +15,13 @@ from own_samples import csv_one_axis, stroke
 from haptoflow_training.commands import inspect
 from haptoflow_training.errors import InputError
 from haptoflow_training.preprocessing.pipeline import PreparedRecording, preprocess_parts, preprocess_recording
-from haptoflow_training.preprocessing.settings import PreprocessingSettings
+from haptoflow_training.preprocessing.settings import SETTINGS
 from haptoflow_training.recordings.dataset_inspection import inspect_dataset
 from haptoflow_training.recordings.open_recordings import open_recordings
 from haptoflow_training.recordings.recording import Recording
 from haptoflow_training.recordings.synthetic import load_materials, record_condition
 
 MATERIALS = {material.label: material for material in load_materials()}
-SETTINGS = PreprocessingSettings()
 SECONDS_EACH = 12.0
 SPEEDS_MPS = (0.0, 0.005, 0.01, 0.03, 0.1, 0.3)
 
@@ -39,7 +38,7 @@ def _recorded(label: str, *, noise: bool, speeds: tuple[float, ...] = SPEEDS_MPS
 
 
 def _prepared(recording: Recording, *, removes_noise: bool) -> PreparedRecording:
-    return preprocess_recording(replace(recording, has_sensor_noise=removes_noise), SETTINGS)
+    return preprocess_recording(replace(recording, has_sensor_noise=removes_noise))
 
 
 def _steps(wave: NDArray[np.float32]) -> list[NDArray[np.float64]]:
@@ -63,9 +62,9 @@ def test_all_stretches_between_gaps_lose_the_noise_that_one_shows() -> None:
     time = noisy.acceleration_time_seconds
     kept = (time < 11.0) | (time > 13.0)
     gapped = replace(noisy, acceleration_time_seconds=time[kept], acceleration_g=noisy.acceleration_g[kept])
-    first, second = preprocess_parts(gapped, SETTINGS)
+    first, second = preprocess_parts(gapped)
     assert first.noise == second.noise and first.noise.source == "rest"
-    whole = preprocess_recording(noisy, SETTINGS)
+    whole = preprocess_recording(noisy)
     slow = slice(1000, 18_000)
     assert np.std(second.waveform_mps2[slow]) == pytest.approx(np.std(whole.waveform_mps2[26_400:][slow]), rel=0.15)
 
@@ -77,7 +76,7 @@ def test_a_recording_of_nothing_but_noise_is_refused_by_name() -> None:
     path = silent.position_mm[half] + moving.position_mm[half:] - moving.position_mm[half]
     position = np.concatenate([silent.position_mm[:half], path])
     with pytest.raises(InputError, match=r"recording .*: the acceleration is no stronger where the tip slides"):
-        preprocess_recording(replace(silent, position_mm=position), SETTINGS)
+        preprocess_recording(replace(silent, position_mm=position))
 
 
 def _noisy_file(folder: Path) -> None:

@@ -15,7 +15,7 @@ from dataset_samples import small_recording
 from haptoflow_training.errors import InputError
 from haptoflow_training.preprocessing.pipeline import PreparedRecording, preprocess_recording
 from haptoflow_training.preprocessing.preparation import prepare_store
-from haptoflow_training.preprocessing.settings import PreprocessingSettings
+from haptoflow_training.preprocessing.settings import SETTINGS
 from haptoflow_training.recordings.landing import RibWander, StickSlip, landing_of, landing_of_spring
 from haptoflow_training.recordings.synthetic import (
     FURTHER_SPECIMENS, HELD_OUT_SPECIMEN, TRAINING_SPECIMENS, Material, hand_conditions, load_materials,
@@ -32,9 +32,10 @@ from haptoflow_training.recordings.synthetic.surface import (
 )
 from haptoflow_training.training.config import DataConfig, load_config
 from haptoflow_training.training.recordings_source import synthetic_label_infos
+from places import ROOT
 
 MATERIALS = {material.label: material for material in load_materials()}
-CONFIGURATIONS = Path(__file__).parents[2] / "Training" / "configs"
+CONFIGURATIONS = ROOT / "Training" / "configs"
 
 
 def _path(speed_mmps: float = 200.0, seconds: float = 2.0, degrees: float = 20.0) -> TipPath:
@@ -106,14 +107,14 @@ SMOOTH = ("glass", "metal", "plastic", "paper")
 
 def _level_and_slope(material: Material, specimen: int) -> tuple[float, float]:
     """Level in dB and slope of the spectrum in dB per octave, 50 to 400 Hz."""
-    rate, size = PreprocessingSettings().sample_rate_hz, 400
+    rate, size = SETTINGS.sample_rate_hz, 400
     powers = []
     for seed in range(4):
         recording = record_condition(
             material, velocity_mps=(0.2, 0.06), force_newtons=1.0, duration_seconds=4.0, seed=seed, specimen=specimen,
             accelerometer_noise=False,
         )  # fmt: skip
-        wave = preprocess_recording(recording, PreprocessingSettings()).waveform_mps2.astype(np.float64)
+        wave = preprocess_recording(recording).waveform_mps2.astype(np.float64)
         frames = wave[: len(wave) // size * size].reshape(-1, size) * np.hanning(size)
         powers.append((np.abs(np.fft.rfft(frames, axis=1)) ** 2).mean(axis=0))
     power, frequency = np.mean(powers, axis=0), np.fft.rfftfreq(size, 1.0 / rate)
@@ -311,15 +312,12 @@ def test_a_field_has_unit_power_and_the_same_spectrum_in_every_direction_and_pla
     assert np.abs(np.array(spectra)[:, heard] / mean[heard] - 1.0).max() < 0.12
 
 
-SETTINGS = PreprocessingSettings()
-
-
 def _prepared(material: Material, velocity: tuple[float, float], seed: int, seconds: float = 6.0) -> PreparedRecording:
     recording = record_condition(
         material, velocity_mps=velocity, force_newtons=1.0, duration_seconds=seconds, seed=seed,
         accelerometer_noise=False,
     )  # fmt: skip
-    return preprocess_recording(recording, SETTINGS)
+    return preprocess_recording(recording)
 
 
 def _true_phases_line(prepared: PreparedRecording, turns: NDArray[np.float64]) -> float:
@@ -371,7 +369,7 @@ def test_a_store_keeps_wander_specimen_and_the_fraction_of_the_slip_s_phase(tmp_
     assert [one.specimen for one in store.recordings] == [3, 9, 0, None]
     assert store.wander_turns.shape == (len(store.waveform), 3) and store.wander_turns.dtype == np.float32
     for recording, stored in zip(recordings, store.recordings, strict=False):
-        turns = preprocess_recording(recording, SETTINGS).wander_turns
+        turns = preprocess_recording(recording).wander_turns
         found = store.wander_turns[stored.recorded_samples]
         np.testing.assert_allclose(found[:, :2], turns[:, :2], atol=1e-6)
         apart = found[:, 2] - turns[:, 2]

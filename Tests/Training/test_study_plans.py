@@ -14,9 +14,10 @@ from haptoflow_training.cli import main
 from haptoflow_training.errors import InputError
 from haptoflow_training.model_stamp import with_measured_words
 from haptoflow_training.studies.delay_budget import (
-    BenchFigures, Block, Budget, Spread, budgets, page_words as budget_words, read_bench
+    BenchFigures, Block, Budget, budgets, page_words as budget_words, read_bench
 )
 from haptoflow_training.studies.plans import SplitMix64, latency_plan, similarity_plan, williams_design
+from places import ROOT
 
 GOLDEN = Path(__file__).parents[1] / "Golden" / "studies" / "plans.json"
 LEVELS = [float(level) for level in range(50, 251, 20)]
@@ -91,7 +92,7 @@ def test_the_committed_golden_plans_are_what_the_command_writes(tmp_path: Path) 
     assert {case["seed"] for case in golden["similarity"]} == {1, 2**63 + 5}
 
 
-PUBLISHED = Path(__file__).parents[2] / "Training" / "results" / "benchmarks.md"
+PUBLISHED = ROOT / "Training" / "results" / "benchmarks.md"
 ROWS = [
     {"block_frames": 256, "burst_blocks": 1, "p50": 2.0, "p99": 5.0},
     {"block_frames": 256, "burst_blocks": 2, "p50": 4.0, "p99": 10.0},
@@ -111,12 +112,12 @@ def test_the_report_gives_inference_at_the_pace_of_use_and_latencies_by_block(tm
     path = tmp_path / "bench.json"
     path.write_text(json.dumps(REPORT), encoding="utf-8")
     bench = read_bench(path)
-    assert bench.inference_ms == {"standard": Spread(1.0, 1.5)} and bench.model_sha256 == "a" * 64
-    assert bench.onset_ms[Block(256, 2)] == Spread(4.0, 10.0) and bench.words == "2026-11-23, Some CPU, 2 cores"
+    assert bench.inference_ms == {"standard": 1.5} and bench.model_sha256 == "a" * 64
+    assert bench.onset_ms[Block(256, 2)] == 10.0 and bench.words == "2026-11-23, Some CPU, 2 cores"
 
 
 def test_a_budget_is_the_sum_of_its_parts_and_leaves_the_rest_of_the_threshold() -> None:
-    bench = BenchFigures("", "", 48000.0, {"standard": Spread(1.0, 2.0)}, {}, {})
+    bench = BenchFigures("", "", 48000.0, {"standard": 2.0}, {}, {})
     (budget,) = budgets(bench, 100.0, Block(480), 20.0).values()
     assert budget == Budget(10.0, 2.0, 10.0, 20.0) and budget.known_ms == 42.0
     assert budget.left_ms("turn-on") == pytest.approx(88.25) and budget.left_ms("turn-off") == pytest.approx(65.74)
@@ -159,7 +160,6 @@ def test_the_chart_and_the_page_are_written_together(tmp_path: Path) -> None:
     assert chart.startswith(b"\x89PNG") and read_bench(PUBLISHED).model_sha256.encode() in chart
 
 
-ROOT = Path(__file__).parents[2]
 PAGES = ROOT / "Documentation~"
 FILES, STUDIES = PAGES / "study-files.md", PAGES / "studies.md"
 RESULTS = ROOT / "Training" / "results"

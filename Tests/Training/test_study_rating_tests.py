@@ -95,17 +95,17 @@ def test_pairs_are_followed_up_only_where_the_methods_differ() -> None:
 
 
 def test_equal_methods_are_equivalent_with_enough_participants_and_different_ones_never() -> None:
-    assert equivalence(*ratings_of(8, 300, [4.0, 4.0]).T, 0.5) < 0.001
-    assert equivalence(*ratings_of(8, 300, [5.5, 3.0]).T, 0.5) > 0.99
+    assert equivalence(np.subtract(*ratings_of(8, 300, [4.0, 4.0]).T), 0.5) < 0.001
+    assert equivalence(np.subtract(*ratings_of(8, 300, [5.5, 3.0]).T), 0.5) > 0.99
 
 
 def test_the_larger_side_of_equivalence_decides_and_a_wider_bound_is_easier() -> None:
-    first, second = ratings_of(9, 24, [4.2, 4.0]).T
-    below, above = signed_rank_p(first - second - 0.5, "less"), signed_rank_p(first - second + 0.5, "greater")
-    assert equivalence(first, second, 0.5) == max(below, above)  # type: ignore[type-var]
-    assert equivalence(first, second, 2.0) < equivalence(first, second, 1.0) < equivalence(first, second, 0.5)
+    differences = np.subtract(*ratings_of(9, 24, [4.2, 4.0]).T)
+    below, above = signed_rank_p(differences - 0.5, "less"), signed_rank_p(differences + 0.5, "greater")
+    assert equivalence(differences, 0.5) == max(below, above)  # type: ignore[type-var]
+    assert equivalence(differences, 2.0) < equivalence(differences, 1.0) < equivalence(differences, 0.5)
     # All differences at the bound are no evidence for a smaller one.
-    assert equivalence(np.full(24, 5.0), np.full(24, 4.0), 1.0) == 1.0
+    assert equivalence(np.full(24, 1.0), 1.0) == 1.0
 
 
 def test_holm_s_correction_is_that_of_its_definition() -> None:
@@ -142,15 +142,10 @@ def test_adjusted_values_keep_the_order_and_stay_below_one_whatever_the_values()
     for methods in range(2, 7):
         for _ in range(50):
             p_values = list(random.uniform(size=len(factors(methods))) ** 3)
-            result = adjusted(p_values, methods)
+            result = adjusted(p_values, factors(methods))
             assert all(raw <= value <= 1.0 for raw, value in zip(p_values, result, strict=True))
             by_rank = [value for _, value in sorted(zip(p_values, result, strict=True))]
             assert by_rank == sorted(by_rank)
-
-
-def test_a_wrong_number_of_values_is_refused() -> None:
-    with pytest.raises(ValueError, match="6 pairs"):
-        adjusted([0.1, 0.2], 4)
 
 
 @pytest.mark.parametrize("between", [0.0, 0.3, 0.9])

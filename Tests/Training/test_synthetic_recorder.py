@@ -6,12 +6,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from synthetic_samples import record_hand, record_machine
 
 from haptoflow_training.preprocessing.pipeline import preprocess_recording
-from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.recordings.recording import STANDARD_GRAVITY_MPS2, RecordingIdentity
-from haptoflow_training.recordings.synthetic import load_materials, record_condition, record_machine_condition
+from haptoflow_training.recordings.synthetic import (
+    hand_conditions, load_materials, machine_conditions, record_condition, record_condition_of
+)
 from haptoflow_training.recordings.synthetic.contact import SIMULATION_RATE_HZ
 from haptoflow_training.recordings.synthetic.surface import TipPath, random_height
 
@@ -120,7 +120,7 @@ def _prepared_wave(label, *, material=None, speed=0.03, seconds=6.0, seeds=range
             seed=seed,
             accelerometer_noise=accelerometer_noise,
         )
-        waves.append(preprocess_recording(recording, PreprocessingSettings()).waveform_mps2.astype(float))
+        waves.append(preprocess_recording(recording).waveform_mps2.astype(float))
     return np.concatenate(waves)
 
 
@@ -147,7 +147,7 @@ def test_without_the_accelerometer_s_noise_rest_is_digital_silence_and_the_other
     assert np.all(clean.vibration_g == 0.0) and np.any(noisy.vibration_g != 0.0)
     for name in ("acceleration_time_seconds", "force_time_seconds", "force_newtons", "position_mm"):
         assert np.array_equal(getattr(clean, name), getattr(noisy, name))
-    assert not np.any(preprocess_recording(clean, PreprocessingSettings()).waveform_mps2)
+    assert not np.any(preprocess_recording(clean).waveform_mps2)
 
 
 def test_stick_slip_vibrates_along_the_movement_and_vanishes_at_speed():
@@ -183,7 +183,7 @@ def test_the_sensors_are_those_of_the_published_machine():
 
 def test_a_machine_pass_rests_at_both_ends_and_moves_as_its_name_says():
     identity = RecordingIdentity(0, 45, 40, 500, 1)
-    recording = record_machine_condition(MATERIALS["wood"], identity, seed=5)
+    recording = record_condition_of(MATERIALS["wood"], identity, seed=5)
     velocity = np.diff(recording.position_mm, axis=0) * 100.0
     speed = np.hypot(*velocity.T)
     assert np.all(speed[:25] == 0.0) and np.all(speed[-25:] == 0.0)
@@ -195,7 +195,7 @@ def test_a_machine_pass_rests_at_both_ends_and_moves_as_its_name_says():
 
 
 def test_the_frame_s_vibration_is_present_at_rest_and_stronger_in_motion():
-    recording = record_machine_condition(MATERIALS["glass"], RecordingIdentity(6, 0, 60, 500, 0), seed=5)
+    recording = record_condition_of(MATERIALS["glass"], RecordingIdentity(6, 0, 60, 500, 0), seed=5)
     time = recording.acceleration_time_seconds
     still, moving = (recording.acceleration_g[(time > low) & (time < low + 0.3)] for low in (0.0, 0.8))
 
@@ -221,21 +221,31 @@ def _same(one, other):
     )
 
 
+def _strokes(*labels):
+    return {
+        identity: record_condition_of(MATERIALS[label], identity, seed=9, duration_seconds=2.0)
+        for label in labels
+        for identity in hand_conditions(MATERIALS[label], seed=9, recordings=2)
+    }
+
+
+def _passes(seed, forces_millinewtons):
+    stone = MATERIALS["stone"]
+    identities = machine_conditions(
+        stone, directions=[90], speeds_mmps=[60], forces_millinewtons=forces_millinewtons, repeats=2
+    )
+    return [record_condition_of(stone, identity, seed=seed) for identity in identities]
+
+
 def test_recordings_are_the_same_bytes_again_in_any_order_and_subset():
-    words = {"seed": 9, "recordings_per_label": 2, "duration_seconds": 2.0}
-    materials = list(MATERIALS.values())
-    everything = {each.identity: each for each in record_hand(materials, labels=["wood", "stone"], **words)}
-    backwards = {each.identity: each for each in record_hand(materials[::-1], labels=["stone"], **words)}
+    everything, backwards = _strokes("wood", "stone"), _strokes("stone")
     assert len(everything) == 4 and len(backwards) == 2
     for identity, recording in backwards.items():
         assert _same(recording, everything[identity])
-    machine = {"labels": ["stone"], "directions": [90], "speeds_mmps": [60], "repeats": 2}
-    first = list(record_machine(materials, seed=9, forces_millinewtons=[500, 1000], **machine))
-    again = list(record_machine(materials, seed=9, forces_millinewtons=[1000], **machine))
+    first, again = _passes(9, [500, 1000]), _passes(9, [1000])
     assert _same(first[2], again[0]) and _same(first[3], again[1])
     assert not _same(first[2], first[3])
-    other_seed = next(record_machine(materials, seed=10, forces_millinewtons=[500], **machine))
-    assert not _same(other_seed, first[0])
+    assert not _same(_passes(10, [500])[0], first[0])
 
 
 def test_a_trajectory_of_arrays_is_followed():

@@ -17,8 +17,8 @@ from haptoflow_training.cli import main
 from haptoflow_training.errors import InputError
 from haptoflow_training.preprocessing.store import store_lock
 from haptoflow_training.training.processes import Job, run_jobs
+from places import ROOT, TRAINING
 
-TRAINING = Path(__file__).resolve().parents[2] / "Training"
 CONFIGURATION = """
 name = "small"
 threads = 1
@@ -206,7 +206,7 @@ def test_terminating_the_parent_terminates_its_jobs(tmp_path: Path) -> None:
         f"words = ({_CAREFUL!r}, str(folder), 'job', '60')\n"
         "run_jobs([Job('job', words, folder / 'log', folder / 'job', program=(sys.executable, '-c'))], 1)\n"
     )
-    training = Path(__file__).resolve().parents[2] / "Training"
+    training = ROOT / "Training"
     process = subprocess.Popen([*_PYTHON, parent], env={**os.environ, "PYTHONPATH": str(training)})
     end = time.monotonic() + 30.0
     while not (tmp_path / "job.began").exists() and time.monotonic() < end:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 import json
 import os
+import shutil
 import socket
 import subprocess
 import sys
@@ -48,6 +49,20 @@ def ask_to_stop_after(trainer: Trainer, step: int) -> None:
     trainer._train_step = stop_in_the_middle  # type: ignore[method-assign,assignment]
 
 
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """An uninterrupted run."""
+    folder = tmp_path_factory.mktemp("whole")
+    Trainer(_config(), make_store(), folder, ALONE).run()
+    return folder
+
+
+def assert_same_weights(folder: Path, whole: Path) -> None:
+    found, wanted = (load_trained(each)[2].state_dict() for each in (folder, whole))
+    for name, weights in wanted.items():
+        torch.testing.assert_close(found[name], weights, msg=name)
+
+
 def test_training_lowers_both_validation_losses(tmp_path: Path) -> None:
     trainer = Trainer(_config(steps=150), make_store(), tmp_path, ALONE)
     level_before, _ = trainer.validate()
@@ -60,39 +75,30 @@ def test_training_lowers_both_validation_losses(tmp_path: Path) -> None:
     assert field_after < trainer.validate()[1]
 
 
-def test_a_finished_run_that_is_started_again_keeps_its_summary(tmp_path: Path) -> None:
-    store = make_store()
-    Trainer(_config(), store, tmp_path, ALONE).run()
-    said = (tmp_path / "run.json").read_text(encoding="utf-8")
+def test_a_finished_run_that_is_started_again_keeps_its_summary(whole: Path, tmp_path: Path) -> None:
+    folder = shutil.copytree(whole, tmp_path / "run")
+    said = (folder / "run.json").read_text(encoding="utf-8")
     # The present commit is not the one that trained.
-    (tmp_path / "run.json").write_text(said.replace('"commit": "', '"commit": "older '), encoding="utf-8")
-    Trainer(_config(), store, tmp_path, ALONE).run()
-    assert "older " in json.loads((tmp_path / "run.json").read_text(encoding="utf-8"))["commit"]
+    (folder / "run.json").write_text(said.replace('"commit": "', '"commit": "older '), encoding="utf-8")
+    Trainer(_config(), make_store(), folder, ALONE).run()
+    assert "older " in json.loads((folder / "run.json").read_text(encoding="utf-8"))["commit"]
 
 
-def test_a_resumed_run_ends_with_the_weights_of_an_uninterrupted_one(tmp_path: Path) -> None:
-    store = make_store()
-    Trainer(_config(), store, tmp_path / "whole", ALONE).run()
-
-    interrupted = Trainer(_config(), store, tmp_path / "halves", ALONE)
+def test_a_resumed_run_ends_with_the_weights_of_an_uninterrupted_one(whole: Path, tmp_path: Path) -> None:
+    interrupted = Trainer(_config(), make_store(), tmp_path, ALONE)
     ask_to_stop_after(interrupted, 33)
     with pytest.raises(TrainingStopped, match="step 33 of 60"):
         interrupted.run()
     # Half of its phases are missing, so it must not be exported as finished.
     with pytest.raises(InputError, match="interrupted at step 33 of 60; go on with"):
-        load_trained(tmp_path / "halves")
-    Trainer(_config(), store, tmp_path / "halves", ALONE).run()
-
-    whole, halves = (load_trained(tmp_path / name)[2].state_dict() for name in ("whole", "halves"))
-    for name, weights in whole.items():
-        torch.testing.assert_close(halves[name], weights, msg=name)
+        load_trained(tmp_path)
+    Trainer(_config(), make_store(), tmp_path, ALONE).run()
+    assert_same_weights(tmp_path, whole)
 
 
-def test_a_folder_of_another_configuration_is_refused(tmp_path: Path) -> None:
-    store = make_store()
-    Trainer(_config(), store, tmp_path, ALONE).run()
+def test_a_folder_of_another_configuration_is_refused(whole: Path) -> None:
     with pytest.raises(InputError, match="another configuration"):
-        Trainer(_config(steps=31), store, tmp_path, ALONE).run()
+        Trainer(_config(steps=31), make_store(), whole, ALONE).run()
 
 
 def test_a_loss_that_is_not_finite_stops_the_run_with_a_remedy(tmp_path: Path) -> None:
@@ -140,11 +146,10 @@ def test_two_torchrun_processes_end_with_equal_weights_on_a_machine_whose_name_d
 
 
 def test_a_slow_run_writes_its_first_checkpoint_after_half_a_minute_and_a_killed_one_goes_on_from_it(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    whole: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     store, now = make_store(), [0.0]
     monkeypatch.setattr(trainer_module.time, "monotonic", lambda: now[0])
-    Trainer(_config(), store, tmp_path / "whole", ALONE).run()
     killed = Trainer(_config(), store, tmp_path / "run", ALONE)
     train_step = killed._train_step
 
@@ -159,14 +164,13 @@ def test_a_slow_run_writes_its_first_checkpoint_after_half_a_minute_and_a_killed
         killed.run()
     assert torch.load(tmp_path / "run" / "checkpoint.pt")["step"] == 24
     Trainer(_config(), store, tmp_path / "run", ALONE).run()
-    whole, resumed = (load_trained(tmp_path / name)[2].state_dict() for name in ("whole", "run"))
-    for name, weights in whole.items():
-        torch.testing.assert_close(resumed[name], weights, msg=name)
+    assert_same_weights(tmp_path / "run", whole)
 
 
-def test_a_run_killed_between_the_two_files_of_a_checkpoint_goes_on_from_the_one_before(tmp_path: Path) -> None:
+def test_a_run_killed_between_the_two_files_of_a_checkpoint_goes_on_from_the_one_before(
+    whole: Path, tmp_path: Path
+) -> None:
     store = make_store()
-    Trainer(_config(), store, tmp_path / "whole", ALONE).run()
     for step in (20, 33):
         interrupted = Trainer(_config(), store, tmp_path / "run", ALONE)
         ask_to_stop_after(interrupted, step)
@@ -175,9 +179,7 @@ def test_a_run_killed_between_the_two_files_of_a_checkpoint_goes_on_from_the_one
             interrupted.run()
     (tmp_path / "run" / "checkpoint.pt").write_bytes(before)
     Trainer(_config(), store, tmp_path / "run", ALONE).run()
-    whole, resumed = (load_trained(tmp_path / name)[2].state_dict() for name in ("whole", "run"))
-    for name, weights in whole.items():
-        torch.testing.assert_close(resumed[name], weights, msg=name)
+    assert_same_weights(tmp_path / "run", whole)
 
 
 def test_a_signal_after_the_last_step_stops_the_run_too(tmp_path: Path) -> None:

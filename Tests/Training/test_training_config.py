@@ -12,8 +12,8 @@ from haptoflow_training.errors import InputError
 from haptoflow_training.models.haptoflow_model import SkeletonModel
 from haptoflow_training.training.config import TrainingConfig, config_of_run, load_config
 from haptoflow_training.training.trainer import Trainer, build_model, planned_steps
+from places import TRAINING
 
-TRAINING = Path(__file__).parents[2] / "Training"
 CONFIGURATIONS = TRAINING / "configs"
 PAPER = TRAINING / "haptoflow_paper" / "configs"
 

@@ -10,9 +10,8 @@ import numpy as np
 import pytest
 
 from haptoflow_training.preprocessing.pipeline import preprocess_recording
-from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.recordings.native_recording import estimate_wave_vectors
-from haptoflow_training.recordings.material_recording import MaterialRecording
+from haptoflow_training.recordings.native_recording import MaterialRecording
 from haptoflow_training.recordings.synthetic import Material, load_materials, machine_conditions, record_condition_of
 
 MATERIALS = load_materials()
@@ -24,7 +23,7 @@ def test_recordings_that_are_joined_have_the_wave_vectors_stated_in_their_file_a
     velocity = np.concatenate([np.tile(each["velocity_mps"], (each["samples"], 1)) for each in golden["strokes"]])
     wave = np.float32(golden["scale_mps2"]) * np.array(golden["wave"], dtype=np.float32)
     force = np.full(len(wave), golden["force_newtons"], dtype=np.float32)
-    whole = MaterialRecording("", "", wave, velocity.astype(np.float32), force, "", "")
+    whole = MaterialRecording(wave, np.column_stack([velocity, force]).astype(np.float32))
     expected = golden["wave_vectors_per_mm"]
     for recordings in ([whole], [whole, whole]):
         found = estimate_wave_vectors(recordings)
@@ -39,11 +38,9 @@ def _scanned(material: Material) -> list[MaterialRecording]:
     prepared = []
     for identity in machine_conditions(material, speeds_mmps=(20, 40, 60), forces_millinewtons=(500,), repeats=1):
         made = record_condition_of(material, identity, seed=3, accelerometer_noise=False)
-        pieces = preprocess_recording(made, PreprocessingSettings())
+        pieces = preprocess_recording(made)
         prepared.append(
-            MaterialRecording(
-                identity.name, material.label, pieces.waveform_mps2, pieces.motion[:, :2], pieces.motion[:, 2], "", ""
-            )
+            MaterialRecording(pieces.waveform_mps2, pieces.motion)
         )
     return prepared
 

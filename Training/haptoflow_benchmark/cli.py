@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Sequence
 
 from haptoflow_training.cli import run_program
@@ -20,7 +19,3 @@ To train and export a model, `haptoflow-training` is enough; the comparison with
 def main(arguments: Sequence[str] | None = None) -> int:
     """`haptoflow-benchmark`; returns the exit code."""
     return run_program("haptoflow-benchmark", _DESCRIPTION, _COMMANDS, arguments)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -19,8 +19,7 @@ from haptoflow_benchmark.own_accuracy import HeldOutPart
 from haptoflow_training.errors import InputError
 from haptoflow_training.model_stamp import model_line, picture_metadata, table
 from haptoflow_training.preprocessing.pipeline import PreparedRecording, preprocess_recording
-from haptoflow_training.preprocessing.settings import PreprocessingSettings
-from haptoflow_training.recordings.synthetic import HELD_OUT_SPECIMEN, Material, hand_conditions, record_hand_condition
+from haptoflow_training.recordings.synthetic import HELD_OUT_SPECIMEN, Material, hand_conditions, record_condition_of
 from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
 WINDOW_SECONDS = 1.0
@@ -187,10 +186,9 @@ def _prepared(material: Material, recordings: int, seed: int) -> list[tuple[str,
         (
             identity.name,
             preprocess_recording(
-                record_hand_condition(
+                record_condition_of(
                     material, identity, seed=seed, specimen=HELD_OUT_SPECIMEN, accelerometer_noise=False
                 ),
-                PreprocessingSettings(),
             ),
         )
         for identity in hand_conditions(material, seed=seed, recordings=recordings)

@@ -16,9 +16,9 @@ from numpy.typing import NDArray
 
 from haptoflow_benchmark.engine_render import render_motion
 from haptoflow_benchmark.waveform_metrics import gfc_recording, level_error_db, log_spectral_distance_db, power_spectrum
-from haptoflow_training.export.learning import MaterialWords, joined, learn_material
+from haptoflow_training.export.learning import joined, learn_material
 from haptoflow_training.model_stamp import model_line, picture_metadata, table
-from haptoflow_training.recordings.material_recording import MaterialRecording
+from haptoflow_training.recordings.native_recording import MaterialRecording
 from haptoflow_training.training.found_wave_vectors import turned_vectors
 from haptoflow_training.waveform import SAMPLE_RATE_HZ
 from haptoflow_training.whole_file import write_json, write_text, write_whole
@@ -235,13 +235,12 @@ def render_learnt(
     rendered = []
     for label in dict.fromkeys(part.label for part in held_out):
         back = -turned_degrees.get(label, 0.0)
-        learnt = learn_material(
-            base, joined([_recording(_turned(part, back)) for part in seen if part.label == label]), MaterialWords(label)
-        )
+        recordings = [_recording(_turned(part, back)) for part in seen if part.label == label]
+        text, report = learn_material(base, joined(recordings), label)
         material = folder / "learnt.haptomaterial"
-        write_whole(material, learnt.text.encode())
+        write_whole(material, text.encode())
         for number, part in enumerate(each for each in held_out if each.label == label):
-            moved = _turned(part, back + learnt.report["turn_degrees"])
+            moved = _turned(part, back + report["turn_degrees"])
             made = render_motion(
                 engine, label, moved.motion, folder, model=base, seed=1 + number, options=("--material", str(material))
             )
@@ -273,7 +272,4 @@ def _turned(part: HeldOutPart, degrees: float) -> HeldOutPart:
 
 
 def _recording(part: HeldOutPart) -> MaterialRecording:
-    wave, velocity, force = (
-        np.asarray(values, dtype=np.float32) for values in (part.recorded, part.motion[:, :2], part.motion[:, 2])
-    )
-    return MaterialRecording(part.name, part.label, wave, velocity, force, "", "")
+    return MaterialRecording(np.asarray(part.recorded, np.float32), np.asarray(part.motion, np.float32))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Sequence
 
 from haptoflow_training.cli import run_program
@@ -30,7 +29,3 @@ To train and export a model of your own, `haptoflow-training` is enough; `haptof
 def main(arguments: Sequence[str] | None = None) -> int:
     """`haptoflow-paper`; returns the exit code."""
     return run_program("haptoflow-paper", _DESCRIPTION, _COMMANDS, arguments, borrowed=("train", "export"))
-
-
-if __name__ == "__main__":
-    sys.exit(main())

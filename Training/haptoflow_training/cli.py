@@ -91,7 +91,3 @@ def run_program(
 def main(arguments: Sequence[str] | None = None) -> int:
     """`haptoflow-training`; returns the exit code."""
     return run_program("haptoflow-training", _DESCRIPTION, _COMMANDS, arguments)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -208,7 +208,8 @@ def force_profile(
     ) * float(rng.uniform(0.2, 0.6))
     scale = float(np.median(speed_mps)) + 1e-3
     wander = wander + float(rng.normal(0.05, 0.2)) * np.tanh(np.log((speed_mps + 0.1 * scale) / scale))
-    smooth = _low_pass(wander, 4.0, rate_hz)
+    sections = butter(2, min(4.0, 0.45 * rate_hz), fs=rate_hz, output="sos")
+    smooth = sosfiltfilt(sections, wander, padlen=min(count - 1, int(rate_hz / 2)))
     smooth -= float(np.median(smooth))
     return np.clip(median_force_newtons * np.exp(smooth), *_FORCE_RANGE_NEWTONS)
 
@@ -269,8 +270,3 @@ def scripted_stroke(
     if tremor_metres > 0.0:
         position += tremor(rng, len(time), rate_hz, tremor_metres, 3)
     return SpatialStroke(time, position, force)
-
-
-def _low_pass(values: NDArray[np.float64], cutoff_hz: float, rate_hz: float) -> NDArray[np.float64]:
-    sections = butter(2, min(cutoff_hz, 0.45 * rate_hz), fs=rate_hz, output="sos")
-    return sosfiltfilt(sections, values, padlen=min(len(values) - 1, int(rate_hz / 2)))

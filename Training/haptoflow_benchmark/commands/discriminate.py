@@ -16,6 +16,9 @@ from haptoflow_training.model_stamp import SHIPPED_MODEL, sha256_of
 from haptoflow_training.recordings.synthetic import load_materials
 
 _ROOT = Path(__file__).resolve().parents[3]
+# Of each label: recordings that train the classifier, and strokes that are rendered and classified.
+_RECORDINGS, _STROKES = 16, 4
+_PROCESSES = 2
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -39,13 +42,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "--model", type=Path, default=_ROOT / SHIPPED_MODEL, help="the .haptoflow file (default: the shipped one)"
     )
     parser.add_argument(
-        "--recordings-per-label", type=int, default=16, help="training recordings of the classifier (default: 16)"
-    )
-    parser.add_argument("--strokes-per-label", type=int, default=4, help="rendered and classified (default: 4)")
-    parser.add_argument(
         "--seed", type=int, default=1001, help="seed of all recordings; the model's training used others"
     )
-    parser.add_argument("--workers", type=int, default=2, help="processes that record (default: 2)")
     parser.add_argument("--out", type=Path, required=True, help="folder of the report (JSON, Markdown, picture)")
 
 
@@ -54,15 +52,15 @@ def run(options: argparse.Namespace) -> int:
     if options.recordings:
         return _run_own(options)
     materials = load_materials()
-    bar = tqdm(total=len(materials) * (options.recordings_per_label + options.strokes_per_label), unit="recording")
-    classifier = train_classifier(materials, options.recordings_per_label, options.seed, bar.update, options.workers)
+    bar = tqdm(total=len(materials) * (_RECORDINGS + _STROKES), unit="recording")
+    classifier = train_classifier(materials, _RECORDINGS, options.seed, bar.update, _PROCESSES)
     with tempfile.TemporaryDirectory() as folder:
         report: DiscriminationReport = discriminate(
             classifier,
             materials,
             engine=options.engine,
             model=options.model,
-            strokes_per_label=options.strokes_per_label,
+            strokes_per_label=_STROKES,
             seed=options.seed + 1,
             folder=Path(folder),
             advance=bar.update,

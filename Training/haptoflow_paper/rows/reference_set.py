@@ -21,7 +21,7 @@ from haptoflow_benchmark.waveform_metrics import power_spectrum
 from haptoflow_paper.rows.reference_conditions import Condition, conditions, is_on_other_label, motion_of
 from haptoflow_training import preprocessing
 from haptoflow_training.preprocessing.pipeline import PreparedRecording, preprocess_recording
-from haptoflow_training.preprocessing.settings import PreprocessingSettings
+from haptoflow_training.preprocessing.settings import SETTINGS
 from haptoflow_training.recordings import synthetic
 from haptoflow_training.recordings.synthetic import (
     FURTHER_SPECIMENS, HELD_OUT_SPECIMEN, Material, load_materials, record_condition
@@ -60,13 +60,13 @@ def _record(material: Material, motion: NDArray[np.float64], seed: int, specimen
         specimen=specimen,
         accelerometer_noise=False,
     )
-    return preprocess_recording(recording, PreprocessingSettings())
+    return preprocess_recording(recording)
 
 
 def record_pair(task: tuple[Condition, Material, Material]) -> ReferencePair:
     """The pair of a condition: its material and, for a change, the other one alternately."""
     condition, material, other = task
-    trim = PreprocessingSettings().trim_seconds
+    trim = SETTINGS.trim_seconds
     motion = motion_of(condition, material, trim)
     further = FURTHER_SPECIMENS[condition.seed % len(FURTHER_SPECIMENS)]
     takes = [

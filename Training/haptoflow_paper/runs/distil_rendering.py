@@ -26,7 +26,7 @@ from haptoflow_training.errors import InputError
 from haptoflow_training.export.model_file import read_model_file, write_model_file
 from haptoflow_training.recordings.native_recording import WaveVector, estimate_wave_vectors
 from haptoflow_training.recordings.open_recordings import GENERATED_FILE, GeneratedOrigin, origin_of, read_generated
-from haptoflow_training.recordings.material_recording import MaterialRecording
+from haptoflow_training.recordings.native_recording import MaterialRecording
 from haptoflow_training.recordings.recording import RecordingIdentity
 from haptoflow_training.stopping import end_if_stopped
 from haptoflow_training.waveform import SAMPLE_RATE_HZ, SEGMENT_SAMPLES
@@ -207,7 +207,7 @@ def _wave_vectors(rendering: Rendering, recordings: Path, label: int) -> tuple[W
     read = []
     for stroke in rendering.strokes_of_label(label):
         waveform, motion = read_generated(generated_path(recordings, stroke.identity))
-        read.append(MaterialRecording(stroke.identity.name, "", waveform, motion[:, :2], motion[:, 2], "", ""))
+        read.append(MaterialRecording(waveform, motion))
     return estimate_wave_vectors(read)
 
 

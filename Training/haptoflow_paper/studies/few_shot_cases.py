@@ -14,14 +14,14 @@ from haptoflow_paper.studies.unseen_materials import RIDE_SECONDS, make_rides, u
 from haptoflow_paper.report.temporal_metrics import rib_rates_hz
 from haptoflow_training.preprocessing.signals import zero_phase_high_pass
 from haptoflow_training.preprocessing.pipeline import preprocess_recording
-from haptoflow_training.preprocessing.settings import PreprocessingSettings
-from haptoflow_training.recordings.material_recording import MaterialRecording
+from haptoflow_training.preprocessing.settings import SETTINGS
+from haptoflow_training.recordings.native_recording import MaterialRecording
 from haptoflow_training.recordings.synthetic import Material, load_materials, record_condition
 from haptoflow_training.recordings.synthetic.surface import HELD_OUT_SPECIMEN, TRAINING_SPECIMENS
 from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
 ORDER = 20
-HIGH_PASS_HZ = PreprocessingSettings().high_pass_hz
+HIGH_PASS_HZ = SETTINGS.high_pass_hz
 _BLOCK_SAMPLES = 40
 _BINS = 513
 _COSINES = 10
@@ -158,12 +158,8 @@ def make_filtered_case(surface: FilteredSurface, seed: int, longest_seconds: flo
     (plain,) = study_materials(1, seed + number)
     case = make_case(plain, seed, longest_seconds)
     rides = tuple(
-        replace(
-            ride,
-            label=surface.label,
-            vibration_mps2=surface.wave(
-                np.column_stack([ride.velocity_mps, ride.force_newtons]), 1000 * seed + 100 * number + place
-            ),
+        ride._replace(
+            vibration_mps2=surface.wave(ride.motion, 1000 * seed + 100 * number + place),
         )
         for place, ride in enumerate(case.rides)
     )
@@ -185,15 +181,14 @@ def make_case(material: Material, seed: int, longest_seconds: float = SECONDS[-1
     """
     material = material.without_spread
     rides = make_rides(material, seed, max(2, round(longest_seconds / RIDE_SECONDS)))
-    settings = PreprocessingSettings()
     return FewShotCase(
         material,
         rides,
-        tuple(_condition(material, number, seed, settings) for number in range(len(_CONDITIONS))),
+        tuple(_condition(material, number, seed) for number in range(len(_CONDITIONS))),
     )
 
 
-def _condition(material: Material, number: int, seed: int, settings: PreprocessingSettings) -> FewShotCondition:
+def _condition(material: Material, number: int, seed: int) -> FewShotCondition:
     speed, force, direction = _CONDITIONS[number]
     if material.rulings:
         # Across the ribs, at most 35 degrees off.
@@ -207,11 +202,10 @@ def _condition(material: Material, number: int, seed: int, settings: Preprocessi
                 material,
                 velocity_mps=velocity,
                 force_newtons=force,
-                duration_seconds=_CONDITION_SECONDS + 2.0 * settings.trim_seconds,
+                duration_seconds=_CONDITION_SECONDS + 2.0 * SETTINGS.trim_seconds,
                 seed=seed + 900 + number,
                 specimen=specimen,
             ),
-            settings,
         )
         for specimen in (HELD_OUT_SPECIMEN, TRAINING_SPECIMENS[0])
     ]
@@ -228,12 +222,4 @@ def _condition(material: Material, number: int, seed: int, settings: Preprocessi
 
 def _cut(recording: MaterialRecording, seconds: float) -> MaterialRecording:
     count = round(SAMPLE_RATE_HZ * seconds)
-    return MaterialRecording(
-        recording.name,
-        recording.label,
-        recording.vibration_mps2[:count],
-        recording.velocity_mps[:count],
-        recording.force_newtons[:count],
-        recording.licence,
-        recording.source,
-    )
+    return MaterialRecording(recording.vibration_mps2[:count], recording.motion[:count])

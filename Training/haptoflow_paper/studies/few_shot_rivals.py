@@ -21,7 +21,7 @@ from haptoflow_training.export.level_table import MAXIMUM_SPEEDS, LevelTable
 from haptoflow_training.export.model_file import ModelFile
 from haptoflow_training.models.conditioning import REST_FORCE_NEWTONS, REST_SPEED_MPS
 from haptoflow_training.models.level_model import LEVEL_FLOOR_MPS2
-from haptoflow_training.recordings.material_recording import MaterialRecording
+from haptoflow_training.recordings.native_recording import MaterialRecording
 
 _Floats = NDArray[np.float32]
 
@@ -59,10 +59,9 @@ def windows_of(recordings: Sequence[MaterialRecording], samples: int, hop: int) 
     """Every stretch of `samples` that starts a multiple of `hop` after a recording's first sample."""
     waves, motions = [np.zeros((0, samples), dtype=np.float32)], [np.zeros((0, samples, 3), dtype=np.float32)]
     for recording in recordings:
-        motion = np.column_stack([recording.velocity_mps, recording.force_newtons]).astype(np.float32)
-        for start in range(0, len(motion) - samples + 1, hop):
+        for start in range(0, len(recording.motion) - samples + 1, hop):
             waves.append(recording.vibration_mps2[None, start : start + samples])
-            motions.append(motion[None, start : start + samples])
+            motions.append(recording.motion[None, start : start + samples])
     return Windows(np.concatenate(waves), np.concatenate(motions))
 
 

@@ -24,8 +24,8 @@ from haptoflow_paper.studies.few_shot_report import condition_figures
 from haptoflow_paper.studies.few_shot_rivals import LabelPrior, fit_autoregressive, fit_level, windows_of
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.model_file import ModelFile, read_model_file
-from haptoflow_training.export.learning import MaterialWords, joined, learn_material
-from haptoflow_training.recordings.material_recording import MaterialRecording
+from haptoflow_training.export.learning import joined, learn_material
+from haptoflow_training.recordings.native_recording import MaterialRecording
 from haptoflow_training.recordings.synthetic.materials import Material
 from haptoflow_training.training.found_wave_vectors import turned_vectors
 from haptoflow_training.waveform import SAMPLE_RATE_HZ
@@ -80,19 +80,18 @@ def _measured(plan: StudyPlan, model: ModelFile, case: FewShotCase) -> dict[str,
     default = model.header["default_tier"]
     for seconds in plan.seconds:
         recordings = case.recordings(seconds)
-        learnt = learn_material(
-            plan.model, joined(recordings), MaterialWords(case.material.label), seed=plan.seed,
-            seconds_limit=plan.seconds_limit,
-        )  # fmt: skip
-        spent[f"learn {seconds:g}"] = learnt.report["seconds"]
+        text, report = learn_material(
+            plan.model, joined(recordings), case.material.label, seed=plan.seed, seconds_limit=plan.seconds_limit
+        )
+        spent[f"learn {seconds:g}"] = report["seconds"]
         material = plan.work / f"{case.material.label}-{seconds:g}.haptomaterial"
-        write_whole(material, learnt.text.encode())
-        turn = learnt.report["turn_degrees"]
+        write_whole(material, text.encode())
+        turn = report["turn_degrees"]
         learnt_options = ("--material", str(material))
         rows[f"learn {seconds:g}"] = engine_figures(plan, case, turn, default, plan.model, learnt_options)
-        ribs[f"{seconds:g}"] = list(rib_counts(case.material, learnt.report["wave_vectors"], turn))
+        ribs[f"{seconds:g}"] = list(rib_counts(case.material, report["wave_vectors"], turn))
         if seconds == MAIN_SECONDS:
-            notes = {key: learnt.report[key] for key in ("start_label", "nearest_label", "wave_vectors")}
+            notes = {key: report[key] for key in ("start_label", "nearest_label", "wave_vectors")}
             notes["ribs_found"], notes["ribs_wrong"] = ribs[f"{seconds:g}"]
             for tier in model.header["tiers"]:
                 if tier["name"] != default:
@@ -175,8 +174,8 @@ def _trained(plan: StudyPlan, cases: Sequence[FewShotCase], seconds: float) -> d
     with tempfile.TemporaryDirectory() as temporary:
         folder = Path(temporary)
         for case in cases:
-            for recording in case.recordings(seconds):
-                _write(folder / "recordings", recording)
+            for number, recording in enumerate(case.recordings(seconds)):
+                _write(folder / "recordings", f"ride-{number + 1}", case.material.label, recording)
         (folder / "labels.toml").write_text("".join(_label(case.material.label) for case in cases), encoding="utf-8")
         model = _train(folder, plan)
         header = read_model_file(model).header
@@ -202,13 +201,13 @@ def _train(folder: Path, plan: StudyPlan) -> Path:
     return model
 
 
-def _write(folder: Path, recording: MaterialRecording) -> None:
+def _write(folder: Path, name: str, label: str, recording: MaterialRecording) -> None:
     folder.mkdir(exist_ok=True)
     count = len(recording.vibration_mps2)
-    columns = [np.arange(count) / SAMPLE_RATE_HZ, recording.vibration_mps2, recording.velocity_mps, recording.force_newtons]
-    path = folder / f"{recording.label}-{recording.name}.csv"
+    columns = [np.arange(count) / SAMPLE_RATE_HZ, recording.vibration_mps2, recording.motion]
+    path = folder / f"{label}-{name}.csv"
     np.savetxt(path, np.column_stack(columns), fmt="%.7g", delimiter=",", header=_HEADER, comments="")
-    path.with_suffix(".json").write_text(json.dumps({"label": recording.label, "licence": "MIT"}), encoding="utf-8")
+    path.with_suffix(".json").write_text(json.dumps({"label": label, "licence": "MIT"}), encoding="utf-8")
 
 
 def _label(name: str) -> str:

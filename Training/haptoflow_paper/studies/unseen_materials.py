@@ -13,12 +13,11 @@ from dataclasses import fields, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from haptoflow_training.preprocessing.pipeline import PreparedRecording, preprocess_recording
-from haptoflow_training.preprocessing.settings import PreprocessingSettings
-from haptoflow_training.recordings.native_recording import WaveVector
-from haptoflow_training.recordings.material_recording import MaterialRecording
+from haptoflow_training.preprocessing.pipeline import preprocess_recording
+from haptoflow_training.preprocessing.settings import SETTINGS
+from haptoflow_training.recordings.native_recording import MaterialRecording, WaveVector
 from haptoflow_training.recordings.recording import RecordingIdentity
-from haptoflow_training.recordings.synthetic import record_hand_condition
+from haptoflow_training.recordings.synthetic import record_condition_of
 from haptoflow_training.recordings.synthetic.materials import Calibrated, Material
 from haptoflow_training.recordings.synthetic.surface import TRAINING_SPECIMENS
 
@@ -98,32 +97,20 @@ def make_rides(
     material: Material, seed: int, count: int, *, guided_share: float = 1.0
 ) -> tuple[MaterialRecording, ...]:
     """`count` rides of 5 s in the recorder's frame, alternately slow and fast, light and firm."""
-    settings = PreprocessingSettings()
     rides = []
     for number in range(count):
         speed, force = _RIDES[number % len(_RIDES)]
-        ride = record_hand_condition(
+        ride = record_condition_of(
             material,
             RecordingIdentity(material.texture_id, None, speed, force, number),
             seed=seed,
-            duration_seconds=RIDE_SECONDS + 2.0 * settings.trim_seconds + 0.05,
+            duration_seconds=RIDE_SECONDS + 2.0 * SETTINGS.trim_seconds + 0.05,
             guided_share=guided_share,
             specimen=TRAINING_SPECIMENS[number % len(TRAINING_SPECIMENS)],
         )
-        rides.append(_as_recording(f"ride-{number + 1}", material.label, preprocess_recording(ride, settings)))
+        prepared = preprocess_recording(ride)
+        rides.append(MaterialRecording(prepared.waveform_mps2, prepared.motion))
     return tuple(rides)
-
-
-def _as_recording(name: str, label: str, prepared: PreparedRecording) -> MaterialRecording:
-    return MaterialRecording(
-        name,
-        label,
-        prepared.waveform_mps2,
-        prepared.motion[:, :2].copy(),
-        prepared.motion[:, 2].copy(),
-        "MIT",
-        "synthetic recorder",
-    )
 
 
 def relative_error(found: WaveVector | NDArray[np.float64], vector: NDArray[np.float64]) -> float:

@@ -16,7 +16,7 @@ from tqdm import tqdm
 
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.model_file import read_model_file, require_new_name, with_label, write_model_file
-from haptoflow_training.export.learning import DEFAULT_SECONDS_LIMIT, MaterialWords, joined, learn_material
+from haptoflow_training.export.learning import DEFAULT_SECONDS_LIMIT, joined, learn_material
 from haptoflow_training.recordings.dataset import UNKNOWN
 from haptoflow_training.recordings.material_recording import material_files, read_material_recordings
 from haptoflow_training.recordings.open_recordings import RecordingFile
@@ -91,20 +91,23 @@ def run(options: argparse.Namespace) -> int:
     licence, origin = _origin(options.recording, files)
     recording = open_own(options.recording[0]) if read else joined(read_material_recordings(files, _tell), origin)
     with tqdm(total=100, desc=name, unit="%", disable=None) as progress:
-        learnt = learn_material(
+        text, report = learn_material(
             options.model,
             recording,
-            MaterialWords(name, options.category, options.description, licence),
+            name,
+            category=options.category,
+            description=options.description,
+            licence=licence,
             seed=options.seed,
             seconds_limit=options.seconds_limit,
             wave_vectors_per_mm=wave_vectors,
             progress=lambda share, _: progress.update(round(100.0 * share) - progress.n) and None,
         )
     if out.suffix == SUFFIX:
-        write_whole(out, learnt.text.encode())
+        write_whole(out, text.encode())
     else:
-        write_model_file(out, with_label(model, json.loads(learnt.text)))
-    _report(out, name, learnt.report)
+        write_model_file(out, with_label(model, json.loads(text)))
+    _report(out, name, report)
     return 0
 
 
@@ -131,13 +134,9 @@ def _name(options: argparse.Namespace, files: Sequence[RecordingFile], of_one_fi
 def _default_out(options: argparse.Namespace) -> Path:
     """Named by words of the command line alone, because a name in a file must not choose a path."""
     words = options.recording[0].resolve().stem if options.name is None else options.name
-    return Path(f"{_file_name(words)}{SUFFIX}")
-
-
-def _file_name(name: str) -> str:
-    """A file name for the material: letters and digits of any script, dots and dashes; everything else becomes a
-    dash."""
-    return re.sub(r"[^\w.-]+", "-", name).strip("-.") or "material"
+    # Letters and digits of any script, dots and dashes; everything else becomes a dash.
+    name = re.sub(r"[^\w.-]+", "-", words).strip("-.") or "material"
+    return Path(f"{name}{SUFFIX}")
 
 
 def _wave_vectors(given: list[list[float]] | None) -> tuple[tuple[float, float], ...] | None:

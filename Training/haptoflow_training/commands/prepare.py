@@ -9,7 +9,6 @@ from pathlib import Path
 
 from haptoflow_training.errors import InputError
 from haptoflow_training.preprocessing.preparation import prepare_store
-from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.preprocessing.split import SPLITS
 from haptoflow_training.preprocessing.store import SegmentStore, store_lock
 from haptoflow_training.recordings.dataset import Dataset
@@ -29,8 +28,7 @@ names."""
 _EXAMPLES = """\
 examples:
   haptoflow-training prepare --recordings cluster-haptic-texture --out store
-  haptoflow-training prepare --recordings machine hand --out store --seed 7 --workers 2
-  haptoflow-training prepare --recordings machine --out store --hold-out-direction 135 --hold-out-speed 50"""
+  haptoflow-training prepare --recordings machine hand --out store --seed 7 --workers 2"""
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -42,9 +40,6 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     add("--out", metavar="STORE", type=Path, required=True, help="folder of the store")
     add("--seed", metavar="N", type=int, default=0, help="draws the split and the silence (default 0)")
     add("--workers", metavar="N", type=int, default=1, help="processes; the result is the same (default 1)")
-    held_out = {"type": int, "action": "append", "default": [], "help": "test only; may be repeated"}
-    add("--hold-out-direction", metavar="DEGREES", **held_out)
-    add("--hold-out-speed", metavar="MM/S", **held_out)
 
 
 def run(options: argparse.Namespace) -> int:
@@ -55,16 +50,12 @@ def run(options: argparse.Namespace) -> int:
         raise InputError(f"{', '.join(map(str, options.recordings))}: no recording with a label{first}")
     for line in (line for dataset in datasets for line in dataset.said):
         print(line)
-    settings = PreprocessingSettings(
-        held_out_directions=tuple(options.hold_out_direction), held_out_speeds_mmps=tuple(options.hold_out_speed)
-    )
     begun = time.perf_counter()
     with store_lock(options.out):
         store = prepare_store(
             entries,
             _labels(datasets, options.labels),
             options.out,
-            settings,
             options.seed,
             provenance={"recordings": [dataset.provenance for dataset in datasets]},
             workers=options.workers,

@@ -16,7 +16,7 @@ from tqdm import tqdm
 
 from haptoflow_training.errors import InputError
 from haptoflow_training.recordings.synthetic import (
-    TRAINING_SPECIMENS, hand_conditions, load_materials, record_hand_condition
+    TRAINING_SPECIMENS, hand_conditions, load_materials, record_condition_of
 )
 from haptoflow_training.recordings.synthetic.measurement import (
     TOLERANCE, Design, Deviation, Measurement, SpreadMeasurement, calibrate, measure, measure_spread
@@ -106,9 +106,9 @@ def simulated_seconds_per_second(material: Material) -> float:
     """Recorded seconds per processor second, for hand recordings from the slowest to the fastest speeds, with
     sensors."""
     identities = hand_conditions(material, seed=3, recordings=4)
-    record_hand_condition(material, identities[0], seed=3)
+    record_condition_of(material, identities[0], seed=3)
     start = time.process_time()
-    recorded = sum(record_hand_condition(material, each, seed=4).duration_seconds for each in identities)
+    recorded = sum(record_condition_of(material, each, seed=4).duration_seconds for each in identities)
     return recorded / (time.process_time() - start)
 
 

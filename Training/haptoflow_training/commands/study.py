@@ -19,7 +19,8 @@ from haptoflow_training.studies.plans import golden_text
 from haptoflow_training.studies.log_table import LATENCY, SIMILARITY, STUDIES
 from haptoflow_training.studies.session_file import merged_csv, read_faultless, read_folder
 from haptoflow_training.studies.simulation import (
-    MATERIALS, METHODS, PLANNED_DZ, planted, simulate_latency, simulate_similarity
+    MATERIALS, METHODS, PLANNED_DZ, latency_power, planned_signed_rank_power, planted, rating_power, simulate_latency,
+    simulate_similarity
 )
 from haptoflow_training.whole_file import write_whole
 
@@ -142,9 +143,10 @@ The report is one file with its figures inside. Logs with a problem are refused;
 
 
 def _analyse(options: argparse.Namespace) -> int:
-    from haptoflow_training.studies.analysis import analyse_latency
+    from haptoflow_training.studies.analysis import (
+        MINIMUM_PARTICIPANTS, analyse_latency, analyse_similarity, too_few_words
+    )
     from haptoflow_training.studies.report import Analysed, report, results
-    from haptoflow_training.studies.analysis import MINIMUM_PARTICIPANTS, analyse_similarity, too_few_words
 
     _require_range("--seed", options.seed, 0)
     for out in (options.out, options.results):
@@ -204,8 +206,6 @@ def _power(options: argparse.Namespace) -> int:
 
 
 def _rating_power(options: argparse.Namespace) -> int:
-    from haptoflow_training.studies.simulation import planned_signed_rank_power, rating_power
-
     with tqdm(total=options.simulations, unit="study", disable=None) as progress:
         found = rating_power(
             options.participants, options.methods, options.difference,
@@ -227,8 +227,6 @@ def _rating_power(options: argparse.Namespace) -> int:
 
 
 def _latency_power(options: argparse.Namespace) -> int:
-    from haptoflow_training.studies.simulation import latency_power
-
     with tqdm(total=options.simulations, unit="study", disable=None) as progress:
         found = latency_power(
             options.participants, simulations=options.simulations, seed=options.seed, advance=progress.update
@@ -273,7 +271,8 @@ def _budget(options: argparse.Namespace) -> int:
         chart = options.page.parent / "images" / "delay-budget.png"
     address = "" if chart is None else Path(os.path.relpath(chart, (options.page or chart).parent)).as_posix()
     words = page_words(bench, address, options.device_ms)
-    _write_measured(options.page, words)
+    if options.page is not None:
+        write_whole(options.page, with_measured_words(read_measured_page(options.page), words).encode())
     if chart is not None:
         write_chart(chart, bench, options.device_ms)
     print(words)
@@ -301,12 +300,6 @@ def _require_range(name: str, value: float, lowest: float, highest: float = math
     if not lowest <= value <= highest:
         expected = f"{lowest:g} or more" if math.isinf(highest) else f"{lowest:g} to {highest:g}"
         raise InputError(f"{name} {value:.10g}: expected {expected}")
-
-
-def _write_measured(page: Path | None, words: str) -> None:
-    """Replace the measured part of the page, if one is given."""
-    if page is not None:
-        write_whole(page, with_measured_words(read_measured_page(page), words).encode())
 
 
 _STEPS = {

@@ -36,19 +36,12 @@ _BASE_SHARE, _NETWORK_SHARE, _LEVELS_SHARE = 0.35, 0.57, 0.08
 _SECONDS_OF_A_LABELS_FIT = 2.0
 
 
-@dataclass(frozen=True)
-class Minutes:
-    """limit: the time limit of training. extent: how much is compared when levels are measured afterwards."""
-
-    limit: TimeLimit
-    extent: Extent
-
-
 def share_out(
     minutes: float, begun: float, config: TrainingConfig, source: Source, untrained: HaptoFlowModel, *, exports: bool
-) -> Minutes:
-    """Share out the minutes. What measuring levels and writing graphs takes is timed on the untrained network, because
-    training does not change it.
+) -> tuple[TimeLimit, Extent]:
+    """Share out the minutes: the time limit of training, and how much is compared when levels are measured afterwards.
+    What measuring levels and writing graphs takes is timed on the untrained network, because training does not change
+    it.
 
     begun: time.monotonic() when the command began. Training gets at least three tenths of the minutes, even if
     preparing the recordings took most of them.
@@ -68,7 +61,7 @@ def share_out(
             extent, seconds = affordable_extent(tier, source, _MAXIMUM_SHARE_AFTER * whole - after)
             after += seconds
     training = whole - (time.monotonic() - begun) - after
-    return Minutes(TimeLimit(max(training, _MINIMUM_SHARE_OF_TRAINING * whole), after), extent)
+    return TimeLimit(max(training, _MINIMUM_SHARE_OF_TRAINING * whole), after), extent
 
 
 def affordable_extent(tier: TrainedTier, source: Source, seconds: float) -> tuple[Extent, float]:
@@ -249,11 +242,10 @@ def _run(options: argparse.Namespace) -> int:
         trainer = trainer_class(config, source.store, options.out, processes, options.base, source.wave_vectors, start)
         extent = Extent()
         if options.minutes is not None:
-            shares: Minutes = share_out(
+            limit, extent = share_out(
                 options.minutes, begun, config, source, trainer.averaged_model, exports=options.export is not None
             )
-            trainer.limit_time(shares.limit)
-            extent = shares.extent
+            trainer.limit_time(limit)
         trainer.run()
         if processes.is_first and options.export is not None and config.recipe.embedding_steps:
             write_grown_model(options.out, source, start, options.export, options.out / "export.json")

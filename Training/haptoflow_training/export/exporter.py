@@ -183,11 +183,6 @@ def described_configuration(config: TrainingConfig) -> dict[str, Any]:
     return described
 
 
-def _subtract_level_error(tier: TrainedTier, offsets_db: Sequence[float]) -> None:
-    shift = torch.tensor(offsets_db) * (-math.log(10.0) / 20.0)
-    shift_level(tier.model.level, tier.model.embedding.weight, shift)
-
-
 def export_run(
     folder: Path,
     source: Source,
@@ -204,8 +199,9 @@ def export_run(
     store, infos = source.store, source.labels
     tiers = load_tiers([folder, *further_tiers])
     if levels.offsets_db is not None:
+        shift = torch.tensor(levels.offsets_db) * (-math.log(10.0) / 20.0)
         for tier in tiers:
-            _subtract_level_error(tier, levels.offsets_db)
+            shift_level(tier.model.level, tier.model.embedding.weight, shift)
     default = next(tier for tier in tiers if tier.folder == folder)
     config, model = default.config, default.model
     if [info.name for info in infos] != default.labels:

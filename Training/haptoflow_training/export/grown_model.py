@@ -16,7 +16,7 @@ from haptoflow_training.errors import InputError
 from haptoflow_training.export.exporter import described_configuration
 from haptoflow_training.recordings.landing import LabelInfo
 from haptoflow_training.export.model_file import ModelFile, model_space, read_model_file, with_label, write_model_file
-from haptoflow_training.export.learning import MaterialWords, joined, learn_material
+from haptoflow_training.export.learning import joined, learn_material
 from haptoflow_training.models.label_embedding import WAVE_NUMBERS
 from haptoflow_training.training.found_wave_vectors import stored_recordings
 from haptoflow_training.training.recordings_source import Source
@@ -48,14 +48,14 @@ def export_grown_model(
         write_model_file(file, placed)
         for number, info in enumerate(source.labels):
             try:
-                fitted = learn_material(
-                    file, joined(stored_recordings(source.store, number)),
-                    MaterialWords(info.name, category=info.category, licence=source.provenance.licence),
+                text, _ = learn_material(
+                    file, joined(stored_recordings(source.store, number)), info.name,
+                    category=info.category, licence=source.provenance.licence,
                     seed=config.seed, seconds_limit=_NO_LIMIT_SECONDS, label=info.name,
                 )  # fmt: skip
             except InputError as error:
                 raise InputError(f"label '{info.name}', the part of its recordings that is trained on: {error}") from error
-            grown = with_label(grown, {**json.loads(fitted.text), **_of_its_surface(info)})
+            grown = with_label(grown, {**json.loads(text), **_of_its_surface(info)})
             advance()
     run = json.loads((folder / "run.json").read_text(encoding="utf-8"))
     run.pop("configuration", None)

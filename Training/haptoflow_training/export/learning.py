@@ -6,15 +6,13 @@ import ctypes
 import json
 from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from haptoflow_training.native_library import NativeModel, native_library, native_runtime, options_of
-from haptoflow_training.recordings.material_recording import MaterialRecording
-from haptoflow_training.recordings.native_recording import as_native
+from haptoflow_training.recordings.native_recording import MaterialRecording, as_native
 
 DEFAULT_SECONDS_LIMIT = 20.0
 # Samples left out between two recordings, so that the step from one to the next is not learnt.
@@ -46,54 +44,40 @@ class _Options(ctypes.Structure):
     ]
 
 
-@dataclass(frozen=True)
-class MaterialWords:
-    """Texts of the material file. name: lower case, as a label's is."""
-
-    name: str
-    category: str = ""
-    description: str = ""
-    licence: str = ""
-
-
-@dataclass(frozen=True)
-class LearntMaterial:
-    """text: of the material file. report: as haptoflow_learning_results has it."""
-
-    text: str
-    report: dict[str, Any]
-
-
 def joined(recordings: Sequence[MaterialRecording], origin: str = "") -> AbstractContextManager[ctypes.c_void_p]:
     """The library's handle of recordings one after the other, with a gap between two. origin: as of `as_native`."""
-    waves, motions, forces = [], [], []
+    waves, motions = [], []
     for recording in recordings:
         if waves:
             waves.append(np.full(_GAP_SAMPLES, np.nan, dtype=np.float32))
             motions.append(np.repeat(motions[-1][-1:], _GAP_SAMPLES, axis=0))
-            forces.append(np.repeat(forces[-1][-1:], _GAP_SAMPLES))
         waves.append(recording.vibration_mps2)
-        motions.append(recording.velocity_mps)
-        forces.append(recording.force_newtons)
-    return as_native(np.concatenate(waves)[:, None], np.concatenate(motions), np.concatenate(forces), origin)
+        motions.append(recording.motion)
+    motion = np.concatenate(motions)
+    return as_native(np.concatenate(waves)[:, None], motion[:, :2], motion[:, 2], origin)
 
 
 def learn_material(
     model: Path,
     recording: AbstractContextManager[ctypes.c_void_p],
-    words: MaterialWords,
+    name: str,
     *,
+    category: str = "",
+    description: str = "",
+    licence: str = "",
     seed: int = 1,
     seconds_limit: float = DEFAULT_SECONDS_LIMIT,
     wave_vectors_per_mm: Sequence[tuple[float, float]] | None = None,
     label: str | None = None,
     progress: Callable[[float, str], None] = lambda share, doing: None,
-) -> LearntMaterial:
-    """Learn a material of a recording (`joined`, `open_own`) on the model's default tier. NativeError (an InputError) says why a recording is unusable.
+) -> tuple[str, dict[str, Any]]:
+    """Learn a material of a recording (`joined`, `open_own`) on the model's default tier: the text of its file, and the
+    report of haptoflow_learning_results. NativeError (an InputError) says why a recording is unusable.
 
-    seconds_limit: of processor time; a fit that it does not end gives the same bytes on every run. wave_vectors_per_mm:
-    None finds them, an empty sequence means that there are none. label: of the model, whose embedding and wave vectors the
-    material keeps, in the recording's own frame; only level and tone are fitted. progress: receives the completed share and the step.
+    name: lower case, as a label's is. seconds_limit: of processor time; a fit that it does not end gives the same bytes on
+    every run. wave_vectors_per_mm: None finds them, an empty sequence means that there are none. label: of the model, whose
+    embedding and wave vectors the material keeps, in the recording's own frame; only level and tone are fitted. progress:
+    receives the completed share and the step.
     """
     library = native_library()
     numbers = None
@@ -105,10 +89,10 @@ def learn_material(
             recording=samples,
             runtime=native_runtime(),
             model=opened.handle,
-            name=words.name.encode(),
-            category=words.category.encode(),
-            description=words.description.encode(),
-            licence=words.licence.encode(),
+            name=name.encode(),
+            category=category.encode(),
+            description=description.encode(),
+            licence=licence.encode(),
             seed=seed,
             seconds_limit=seconds_limit,
             progress=_Progress(lambda _, share, doing: progress(share, doing.decode())),
@@ -120,6 +104,6 @@ def learn_material(
         try:
             text, report = ctypes.c_char_p(), ctypes.c_char_p()
             library.call("haptoflow_learning_results", learning, ctypes.byref(text), ctypes.byref(report))
-            return LearntMaterial((text.value or b"").decode(), json.loads(report.value or b""))
+            return (text.value or b"").decode(), json.loads(report.value or b"")
         finally:
             library.call("haptoflow_learning_close", ctypes.byref(learning))

@@ -6,7 +6,7 @@ from __future__ import annotations
 import dataclasses
 import hashlib
 from dataclasses import dataclass
-from typing import Literal, TypeVar
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,8 +16,10 @@ from haptoflow_training.errors import InputError
 from haptoflow_training.preprocessing import signals
 from haptoflow_training.preprocessing.dft321 import dft321
 from haptoflow_training.preprocessing.plausibility import implausible
-from haptoflow_training.preprocessing.settings import PreprocessingSettings
-from haptoflow_training.recordings.native_recording import NO_NOISE, SensorNoise, remove_sensor_noise
+from haptoflow_training.preprocessing.settings import SETTINGS
+from haptoflow_training.recordings.native_recording import (
+    NO_NOISE, MaterialRecording, SensorNoise, remove_sensor_noise
+)
 from haptoflow_training.recordings.recording import Recording, STANDARD_GRAVITY_MPS2
 
 # A cubic spline through the samples needs this many.
@@ -91,16 +93,16 @@ class PreparedRecording:
         )
 
 
-def preprocess_recording(recording: Recording, settings: PreprocessingSettings) -> PreparedRecording:
+def preprocess_recording(recording: Recording) -> PreparedRecording:
     """Preprocess a recording without gaps. InputError names the recording and the sensor if it cannot be prepared."""
     _require_usable(recording)
     _require_plausible(recording)
-    _require_no_gap(recording, settings)
-    (prepared,) = _without_noise(recording, [_prepared(recording, settings)])
+    _require_no_gap(recording)
+    (prepared,) = _without_noise(recording, [_prepared(recording)])
     return prepared
 
 
-def preprocess_parts(recording: Recording, settings: PreprocessingSettings) -> list[PreparedRecording]:
+def preprocess_parts(recording: Recording) -> list[PreparedRecording]:
     """As `preprocess_recording`, for each stretch between gaps of the accelerometer, so that a gap costs only the
     samples near it. Stretches that are too short are left out; InputError if none is long enough."""
     _require_usable(recording)
@@ -109,14 +111,14 @@ def preprocess_parts(recording: Recording, settings: PreprocessingSettings) -> l
     _require_plausible(recording)
     prepared: list[_Untrimmed] = []
     problems: list[InputError] = []
-    for part in parts_between_gaps(recording, settings.longest_gap_seconds):
+    for part in parts_between_gaps(recording, SETTINGS.longest_gap_seconds):
         try:
-            prepared.append(_prepared(part, settings))
+            prepared.append(_prepared(part))
         except InputError as problem:
             problems.append(problem)
     if not prepared:
         # If there are gaps, they are the reason why every part is too short; report them.
-        _require_no_gap(recording, settings)
+        _require_no_gap(recording)
         raise problems[0]
     return _without_noise(recording, prepared)
 
@@ -131,59 +133,55 @@ def _generated(recording: Recording) -> PreparedRecording:
     )
 
 
-@dataclass(frozen=True)
-class _Untrimmed:
-    """A stretch with a little of what is trimmed at both ends, and the samples that are kept."""
-
-    whole: PreparedRecording
-    kept: slice
+# A stretch with a little of what is trimmed at both ends, and the samples that are kept.
+_Untrimmed = tuple[PreparedRecording, slice]
 
 
 def _without_noise(recording: Recording, stretches: list[_Untrimmed]) -> list[PreparedRecording]:
     """The noise is that of the sensor, so that all stretches of a recording show it together."""
     if not recording.has_sensor_noise:
-        return [each.whole.part(each.kept) for each in stretches]
+        return [whole.part(kept) for whole, kept in stretches]
     try:
         waves, noise = remove_sensor_noise(
-            [each.whole.waveform_mps2 for each in stretches], [each.whole.motion for each in stretches]
+            [MaterialRecording(whole.waveform_mps2, whole.motion) for whole, _ in stretches]
         )
     except InputError as error:
         raise InputError(f"recording {recording.identity.name}: {error}") from error
     return [
-        dataclasses.replace(each.whole, waveform_mps2=wave, noise=noise).part(each.kept)
-        for each, wave in zip(stretches, waves, strict=True)
+        dataclasses.replace(whole, waveform_mps2=wave, noise=noise).part(kept)
+        for (whole, kept), wave in zip(stretches, waves, strict=True)
     ]
 
 
-def _prepared(recording: Recording, settings: PreprocessingSettings) -> _Untrimmed:
+def _prepared(recording: Recording) -> _Untrimmed:
     start, stop = _common_span(recording)
     # The filters run over a little of what is trimmed, so that they do not ring at the cut.
-    trim = min(settings.trim_seconds, _MAXIMUM_TRIM_SHARE * (stop - start))
+    trim = min(SETTINGS.trim_seconds, _MAXIMUM_TRIM_SHARE * (stop - start))
     context = min(_CONTEXT_SECONDS, trim)
-    step = 1.0 / settings.sample_rate_hz
+    step = 1.0 / SETTINGS.sample_rate_hz
     kept = int((stop - start - 2 * trim) / step)
     lead = round(context / step)
-    if kept < settings.segment_samples:
+    if kept < SETTINGS.segment_samples:
         raise InputError(
             f"recording {recording.identity.name}: {max(kept, 0) * step:.2f} s are left after trimming "
             f"{trim:.2g} s from both ends; "
-            f"expected {settings.segment_samples * step:.2f} s at least"
+            f"expected {SETTINGS.segment_samples * step:.2f} s at least"
         )
     origin = start + trim - lead * step
     grid = origin + step * np.arange(lead + kept + lead)
     grid = grid[grid <= stop]
-    waveform = _waveform(recording, origin, len(grid), settings)
+    waveform = _waveform(recording, origin, len(grid))
     if recording.velocity_mps is None:
         velocity = signals.velocity_mps(
-            recording.position_time_seconds, recording.position_mm, grid, settings.velocity_window_seconds
+            recording.position_time_seconds, recording.position_mm, grid, SETTINGS.velocity_window_seconds
         )
     else:
         velocity = signals.smooth_velocity_mps(
-            recording.position_time_seconds, recording.velocity_mps, grid, settings.velocity_window_seconds
+            recording.position_time_seconds, recording.velocity_mps, grid, SETTINGS.velocity_window_seconds
         )
     position = signals.position_mm_on_grid(recording.position_time_seconds, recording.position_mm, grid)
     force = signals.force_newtons(
-        recording.force_time_seconds, recording.force_newtons, grid, settings.force_low_pass_hz
+        recording.force_time_seconds, recording.force_newtons, grid, SETTINGS.force_low_pass_hz
     )
     whole = PreparedRecording(
         waveform.astype(np.float32),
@@ -191,14 +189,12 @@ def _prepared(recording: Recording, settings: PreprocessingSettings) -> _Untrimm
         position.astype(np.float32),
         signals.wander_turns_on_grid(recording.wander, grid),
     )
-    return _Untrimmed(whole, slice(lead, lead + kept))
+    return whole, slice(lead, lead + kept)
 
 
-def _waveform(
-    recording: Recording, origin_seconds: float, count: int, settings: PreprocessingSettings
-) -> NDArray[np.float64]:
-    factor = settings.high_rate_hz // settings.sample_rate_hz
-    high_grid = origin_seconds + np.arange(count * factor) / settings.high_rate_hz
+def _waveform(recording: Recording, origin_seconds: float, count: int) -> NDArray[np.float64]:
+    factor = SETTINGS.high_rate_hz // SETTINGS.sample_rate_hz
+    high_grid = origin_seconds + np.arange(count * factor) / SETTINGS.high_rate_hz
     time = recording.acceleration_time_seconds
     margin = 16
     first = max(0, int(np.searchsorted(time, high_grid[0])) - margin)
@@ -209,11 +205,11 @@ def _waveform(
     # The time stamps are irregular, at more than six times the band: a cubic spline through them is band-limited
     # enough.
     uniform = CubicSpline(time[first:last], axes, axis=0)(clamped)
-    uniform = signals.zero_phase_high_pass(uniform, settings.high_pass_hz, settings.high_rate_hz)
+    uniform = signals.zero_phase_high_pass(uniform, SETTINGS.high_pass_hz, SETTINGS.high_rate_hz)
     one_axis = uniform.shape[1] == 1
-    combined = uniform[:, 0] if one_axis else dft321(uniform, settings.high_rate_hz, settings.dft321_frame_seconds)
-    combined = signals.zero_phase_low_pass(combined, settings.low_pass_hz, settings.high_rate_hz)
-    return signals.decimate(combined, settings.high_rate_hz, settings.sample_rate_hz)
+    combined = uniform[:, 0] if one_axis else dft321(uniform, SETTINGS.high_rate_hz, SETTINGS.dft321_frame_seconds)
+    combined = signals.zero_phase_low_pass(combined, SETTINGS.low_pass_hz, SETTINGS.high_rate_hz)
+    return signals.decimate(combined, SETTINGS.high_rate_hz, SETTINGS.sample_rate_hz)
 
 
 def _common_span(recording: Recording) -> tuple[float, float]:
@@ -239,13 +235,13 @@ def _require_plausible(recording: Recording) -> None:
         raise InputError(f"recording {recording.identity.name}: {problem}")
 
 
-def _require_no_gap(recording: Recording, settings: PreprocessingSettings) -> None:
+def _require_no_gap(recording: Recording) -> None:
     time = recording.acceleration_time_seconds
     steps = np.diff(time)
-    if float(steps.max()) > settings.longest_gap_seconds:
+    if float(steps.max()) > SETTINGS.longest_gap_seconds:
         raise InputError(
             f"recording {recording.identity.name}: acceleration misses {steps.max():.3f} s after "
-            f"{time[int(steps.argmax())]:.3f} s; expected no gap above {settings.longest_gap_seconds} s"
+            f"{time[int(steps.argmax())]:.3f} s; expected no gap above {SETTINGS.longest_gap_seconds} s"
         )
 
 
@@ -279,51 +275,39 @@ def _require_usable(recording: Recording) -> None:
 # Three states without vibration: `rest` touches without moving, at the recording's force; `contact` touches down or lifts
 # off without moving, its force rising from or falling to zero; `air` has neither velocity nor force.
 PaddingState = Literal["rest", "contact", "air"]
-_Float = TypeVar("_Float", np.float32, np.float64)
 PADDING_STATES: tuple[PaddingState, ...] = ("rest", "contact", "air")
 # Largest share of a recording's length at each end, so that silence does not outweigh the recording.
 _MAXIMUM_SHARE = 1.0 / 3.0
 
 
-@dataclass(frozen=True)
-class PaddedRecording:
-    """`prepared` with silence at its ends; padding_before and padding_after count samples of it."""
+def pad_recording(prepared: PreparedRecording, name: str, seed: int) -> tuple[PreparedRecording, int, int]:
+    """The recording with silence at its ends, and the samples of silence before and after it.
 
-    prepared: PreparedRecording
-    padding_before: int
-    padding_after: int
-
-
-def pad_recording(
-    prepared: PreparedRecording, name: str, settings: PreprocessingSettings, seed: int
-) -> PaddedRecording:
-    """Each end is padded with `padding_probability`; the draw depends on `seed` and `name` only, and the padding at
-    an end is at most a third of the recording's length."""
+    Each end is padded with `padding_probability`; the draw depends on `seed` and `name` only, and the padding at an end
+    is at most a third of the recording's length.
+    """
     digest = hashlib.blake2b(f"padding/{seed}/{name}".encode(), digest_size=8).digest()
     generator = np.random.default_rng(int.from_bytes(digest, "little"))
     longest = int(_MAXIMUM_SHARE * len(prepared.waveform_mps2))
-    before = _draw(generator, settings, longest)
-    after = _draw(generator, settings, longest)
+    before = _draw(generator, longest)
+    after = _draw(generator, longest)
     if before is not None:
-        prepared = _pad_front(prepared, *before, settings)
+        prepared = _pad_front(prepared, *before)
     if after is not None:
-        prepared = _reversed(_pad_front(_reversed(prepared), *after, settings))
-    return PaddedRecording(prepared, before[1] if before else 0, after[1] if after else 0)
+        backward = slice(None, None, -1)
+        prepared = _pad_front(prepared.part(backward), *after).part(backward)
+    return prepared, before[1] if before else 0, after[1] if after else 0
 
 
-def _draw(
-    generator: np.random.Generator, settings: PreprocessingSettings, longest: int
-) -> tuple[PaddingState, int] | None:
-    wanted = generator.random() < settings.padding_probability
+def _draw(generator: np.random.Generator, longest: int) -> tuple[PaddingState, int] | None:
+    wanted = generator.random() < SETTINGS.padding_probability
     state = PADDING_STATES[int(generator.integers(len(PADDING_STATES)))]
-    segments = int(generator.integers(1, settings.padding_segments_max + 1))
-    return (state, min(segments * settings.segment_samples, longest)) if wanted else None
+    segments = int(generator.integers(1, SETTINGS.padding_segments_max + 1))
+    return (state, min(segments * SETTINGS.segment_samples, longest)) if wanted else None
 
 
-def _pad_front(
-    prepared: PreparedRecording, state: PaddingState, samples: int, settings: PreprocessingSettings
-) -> PreparedRecording:
-    fade = min(round(settings.padding_fade_seconds * settings.sample_rate_hz), len(prepared.waveform_mps2))
+def _pad_front(prepared: PreparedRecording, state: PaddingState, samples: int) -> PreparedRecording:
+    fade = min(round(SETTINGS.padding_fade_seconds * SETTINGS.sample_rate_hz), len(prepared.waveform_mps2))
     gain = (0.5 - 0.5 * np.cos(np.pi * (np.arange(fade) + 0.5) / max(fade, 1))).astype(np.float32)
     waveform = prepared.waveform_mps2.copy()
     waveform[:fade] *= gain
@@ -340,17 +324,6 @@ def _pad_front(
     return PreparedRecording(
         np.concatenate([np.zeros(samples, dtype=np.float32), waveform]),
         np.concatenate([silence, motion]),
-        _held_before(prepared.position_mm, samples),
-        _held_before(prepared.wander_turns, samples),
-    )
-
-
-def _held_before(values: NDArray[_Float], samples: int) -> NDArray[_Float]:
-    return np.concatenate([np.repeat(values[:1], samples, axis=0), values])
-
-
-def _reversed(prepared: PreparedRecording) -> PreparedRecording:
-    waveform: NDArray[np.float32] = prepared.waveform_mps2[::-1]
-    return PreparedRecording(
-        waveform, prepared.motion[::-1], prepared.position_mm[::-1], prepared.wander_turns[::-1]
+        np.pad(prepared.position_mm, ((samples, 0), (0, 0)), mode="edge"),
+        np.pad(prepared.wander_turns, ((samples, 0), (0, 0)), mode="edge"),
     )

@@ -13,7 +13,6 @@ from collections import deque
 from collections.abc import Collection, Iterable, Iterator
 from concurrent.futures import Future, ProcessPoolExecutor
 from contextlib import ExitStack
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, BinaryIO, Protocol
 
@@ -23,19 +22,8 @@ from tqdm import tqdm
 
 from haptoflow_training.errors import InputError
 from haptoflow_training.preprocessing import store as store_module
-from haptoflow_training.preprocessing.pipeline import (
-    PaddedRecording, PreparedRecording, pad_recording, preprocess_parts
-)
-from haptoflow_training.preprocessing.settings import PreprocessingSettings
-from haptoflow_training.preprocessing.split import (
-    SPLITS,
-    Split,
-    cut,
-    labels_to_cut,
-    labels_without_a_split,
-    split_of,
-    time_parts,
-)
+from haptoflow_training.preprocessing.pipeline import PreparedRecording, pad_recording, preprocess_parts
+from haptoflow_training.preprocessing.split import SPLITS, Split, labels_without_a_split, split_of, time_parts
 from haptoflow_training.preprocessing.store import SegmentStore, SkippedRecording, StoredRecording
 from haptoflow_training.recordings.recording import Recording, RecordingIdentity
 from haptoflow_training.stopping import deferred, end_if_stopped
@@ -56,32 +44,16 @@ class LoadableRecording(Protocol):
     def load(self) -> Recording: ...
 
 
-@dataclass(frozen=True)
-class _Prepared:
-    identity: RecordingIdentity
-    label: str
-    padded: PaddedRecording | None
-    problem: str | None
-    peak_mps2: float = 0.0
-    # The index of a stretch between gaps, or of a part of a recording that is cut by time, with its split.
-    part: int = 0
-    split: Split | None = None
-    piece: int = 0
-    specimen: int | None = None
-    # Of the reader of the whole recording.
-    notes: tuple[str, ...] = ()
-
-    @property
-    def name(self) -> str:
-        name = self.identity.name if self.part == 0 else f"{self.identity.name} part {self.part + 1}"
-        return name if self.split is None else f"{name} {self.split} {self.piece + 1}"
+# A recording or a part of one, its place in the store not yet known, with its samples; or why there are none.
+_Prepared = tuple[StoredRecording, PreparedRecording] | SkippedRecording
+# The parts of one recording, and what its reader ignored or corrected.
+_Parts = tuple[list[_Prepared], tuple[str, ...]]
 
 
 def prepare_store(
     recordings: Iterable[Recording | LoadableRecording],
     labels: list[str],
     out: Path,
-    settings: PreprocessingSettings | None = None,
     seed: int = 0,
     *,
     provenance: dict[str, Any] | None = None,
@@ -99,15 +71,14 @@ def prepare_store(
     `out` is then unchanged. The result is the same for any number of `workers`. Two programs must not prepare one
     folder at a time: see store.py.
     """
-    settings = settings or PreprocessingSettings()
     out = Path(out).absolute()
     cut_labels: list[str] = []
     if is_cut:
         recordings = list(recordings)
-        cut_labels = labels_to_cut(((item.label, item.identity) for item in recordings), settings, seed)
+        cut_labels = labels_without_a_split((item.label, split_of(item.identity, seed)) for item in recordings)
     while True:
-        store = _prepared_store(recordings, labels, out, settings, seed, provenance or {}, workers, cut_labels)
-        lacking = labels_without_a_split(((one.label, one.split) for one in store.recordings), settings) if is_cut else []
+        store = _prepared_store(recordings, labels, out, seed, provenance or {}, workers, cut_labels)
+        lacking = labels_without_a_split((one.label, one.split) for one in store.recordings) if is_cut else []
         further = [label for label in lacking if label not in cut_labels]
         if not further:
             return store
@@ -118,7 +89,6 @@ def _prepared_store(
     recordings: Iterable[Recording | LoadableRecording],
     labels: list[str],
     out: Path,
-    settings: PreprocessingSettings,
     seed: int,
     provenance: dict[str, Any],
     workers: int,
@@ -130,10 +100,10 @@ def _prepared_store(
     try:
         shutil.rmtree(unfinished, ignore_errors=True)
         unfinished.mkdir(parents=True)
-        prepared = _prepare_each(recordings, labels, settings, seed, workers, cut_labels)
+        prepared = _prepare_each(recordings, labels, seed, workers, cut_labels)
         with deferred():
             bar = tqdm(prepared, unit=" recordings", desc="prepare")
-            stored, skipped, notes = _append_all(bar, labels, unfinished, settings, seed)
+            stored, skipped, notes = _append_all(bar, unfinished)
         peak_mps2 = _peak(stored, skipped)
         _rescale(unfinished / store_module.WAVEFORM_FILE, peak_mps2)
         store_module.write_header(
@@ -144,7 +114,6 @@ def _prepared_store(
             notes=notes,
             peak_mps2=peak_mps2,
             seed=seed,
-            settings=settings,
             provenance=provenance,
         )
         end_if_stopped()
@@ -162,20 +131,21 @@ def _prepared_store(
 def _prepare_each(
     recordings: Iterable[Recording | LoadableRecording],
     labels: list[str],
-    settings: PreprocessingSettings,
     seed: int,
     workers: int,
     cut_labels: Collection[str],
-) -> Iterator[list[_Prepared]]:
-    checked = _checked(recordings, labels)
+) -> Iterator[_Parts]:
+    tasks = (
+        (item, labels.index(item.label), seed, item.label in cut_labels) for item in _checked(recordings, labels)
+    )
     if workers <= 1:
-        yield from (_prepare_one(item, settings, seed, item.label in cut_labels) for item in checked)
+        yield from (_prepare_one(*task) for task in tasks)
         return
-    pending: deque[Future[list[_Prepared]]] = deque()
+    pending: deque[Future[_Parts]] = deque()
     with ProcessPoolExecutor(workers, initializer=_join_parent) as pool:
         try:
-            for item in checked:
-                pending.append(pool.submit(_prepare_one, item, settings, seed, item.label in cut_labels))
+            for task in tasks:
+                pending.append(pool.submit(_prepare_one, *task))
                 if len(pending) > 2 * workers:
                     yield pending.popleft().result()
             while pending:
@@ -216,48 +186,61 @@ def _checked(
         yield item
 
 
-def _prepare_one(
-    item: Recording | LoadableRecording, settings: PreprocessingSettings, seed: int, is_cut: bool
-) -> list[_Prepared]:
+def _prepare_one(item: Recording | LoadableRecording, label_index: int, seed: int, is_cut: bool) -> _Parts:
     """One prepared recording for each stretch between gaps, or for each of its parts, or the reason why there is
     none."""
     try:
         recording = item if isinstance(item, Recording) else item.load()
-        parts = preprocess_parts(recording, settings)
+        stretches = preprocess_parts(recording)
     except InputError as error:
-        return [_Prepared(item.identity, item.label, None, str(error))]
-    prepared: list[_Prepared] = []
+        return [SkippedRecording(item.identity.name, str(error), item.label)], ()
+    parts: list[tuple[str, Split, PreparedRecording]] = []
     pieces = dict.fromkeys(SPLITS, 0)
-    for number, part in enumerate(parts):
-        times = time_parts(len(part.waveform_mps2), settings) if is_cut else []
+    for number, stretch in enumerate(stretches):
+        name = item.identity.name if number == 0 else f"{item.identity.name} part {number + 1}"
+        times = time_parts(len(stretch.waveform_mps2)) if is_cut else []
         if not times:
-            prepared.append(_prepare_part(item, number, part, settings, seed))
-        for time in times:
-            piece = _prepare_part(item, number, cut(part, time), settings, seed, time.split, pieces[time.split])
-            pieces[time.split] += 1
-            prepared.append(piece)
-    return [dataclasses.replace(one, specimen=recording.specimen, notes=recording.notes) for one in prepared]
+            parts.append((name, split_of(item.identity, seed), stretch))
+        for split, samples in times:
+            pieces[split] += 1
+            parts.append((f"{name} {split} {pieces[split]}", split, stretch.part(samples)))
+    return [_prepare_part(recording, item, label_index, seed, *part) for part in parts], recording.notes
 
 
 def _prepare_part(
+    recording: Recording,
     item: Recording | LoadableRecording,
-    number: int,
-    part: PreparedRecording,
-    settings: PreprocessingSettings,
+    label_index: int,
     seed: int,
-    split: Split | None = None,
-    piece: int = 0,
+    name: str,
+    split: Split,
+    part: PreparedRecording,
 ) -> _Prepared:
     peak_mps2 = float(np.abs(part.waveform_mps2).max())
     if peak_mps2 == 0.0:
-        problem = "acceleration never changes; expected a vibration"
-        return _Prepared(item.identity, item.label, None, problem, part=number, split=split, piece=piece)
-    prepared = _Prepared(item.identity, item.label, None, None, peak_mps2, number, split, piece)
-    return dataclasses.replace(prepared, padded=pad_recording(part, prepared.name, settings, seed))
+        return SkippedRecording(name, "acceleration never changes; expected a vibration", item.label)
+    padded, padding_before, padding_after = pad_recording(part, name, seed)
+    conditions = dataclasses.asdict(item.identity)
+    del conditions["file_name"]
+    stored = StoredRecording(
+        name=name,
+        label=item.label,
+        label_index=label_index,
+        protocol=item.identity.protocol,
+        **conditions,
+        split=split,
+        start=0,
+        length=len(padded.waveform_mps2),
+        padding_before=padding_before,
+        padding_after=padding_after,
+        peak_mps2=peak_mps2,
+        specimen=recording.specimen,
+    )
+    return stored, padded
 
 
 def _append_all(
-    prepared: Iterable[list[_Prepared]], labels: list[str], folder: Path, settings: PreprocessingSettings, seed: int
+    prepared: Iterable[_Parts], folder: Path
 ) -> tuple[list[StoredRecording], list[SkippedRecording], list[str]]:
     stored: list[StoredRecording] = []
     skipped: list[SkippedRecording] = []
@@ -265,37 +248,19 @@ def _append_all(
     start = 0
     with ExitStack() as opened:
         files = [opened.enter_context((folder / name).open("wb")) for name in store_module.ARRAY_FILES]
-        for item in (part for parts in prepared for part in parts):
-            end_if_stopped()
-            notes.update(dict.fromkeys(item.notes))
-            if item.padded is None:
-                skipped.append(SkippedRecording(item.name, item.problem or "", item.label))
-                continue
-            whole = item.padded.prepared
-            length = len(whole.waveform_mps2)
-            arrays = (whole.waveform_mps2, whole.motion, whole.position_mm, _stored_wander(whole.wander_turns))
-            for file, values in zip(files, arrays, strict=True):
-                _append(file, values)
-            identity = item.identity
-            conditions = dataclasses.asdict(identity)
-            del conditions["file_name"]
-            stored.append(
-                StoredRecording(
-                    name=item.name,
-                    label=item.label,
-                    label_index=labels.index(item.label),
-                    protocol=identity.protocol,
-                    **conditions,
-                    split=item.split or split_of(identity, settings, seed),
-                    start=start,
-                    length=length,
-                    padding_before=item.padded.padding_before,
-                    padding_after=item.padded.padding_after,
-                    peak_mps2=item.peak_mps2,
-                    specimen=item.specimen,
-                )
-            )
-            start += length
+        for parts, said in prepared:
+            notes.update(dict.fromkeys(said))
+            for part in parts:
+                end_if_stopped()
+                if isinstance(part, SkippedRecording):
+                    skipped.append(part)
+                    continue
+                entry, whole = part
+                arrays = (whole.waveform_mps2, whole.motion, whole.position_mm, _stored_wander(whole.wander_turns))
+                for file, values in zip(files, arrays, strict=True):
+                    _append(file, values)
+                stored.append(dataclasses.replace(entry, start=start))
+                start += entry.length
     return stored, skipped, list(notes)
 
 

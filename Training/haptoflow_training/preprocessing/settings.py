@@ -1,15 +1,13 @@
-"""All parameters of the preprocessing; a store keeps those it was made with."""
+"""All parameters of the preprocessing; a store names those it was made with."""
 
 from __future__ import annotations
 
-import dataclasses
 from dataclasses import dataclass
-from typing import Any
 
 
 @dataclass(frozen=True)
 class PreprocessingSettings:
-    """The defaults follow the published system; both protocols use the same settings."""
+    """As in the published system; both protocols use the same."""
 
     trim_seconds: float = 0.3
     high_rate_hz: int = 8000
@@ -26,13 +24,6 @@ class PreprocessingSettings:
     padding_fade_seconds: float = 0.010
     train_share: float = 0.7
     validation_share: float = 0.1
-    held_out_directions: tuple[int, ...] = ()
-    held_out_speeds_mmps: tuple[int, ...] = ()
 
-    def to_json(self) -> dict[str, Any]:
-        values = dataclasses.asdict(self).items()
-        return {key: list(value) if isinstance(value, tuple) else value for key, value in values}
 
-    @classmethod
-    def from_json(cls, values: dict[str, Any]) -> PreprocessingSettings:
-        return cls(**{key: tuple(value) if isinstance(value, list) else value for key, value in values.items()})
+SETTINGS = PreprocessingSettings()

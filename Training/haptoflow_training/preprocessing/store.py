@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from haptoflow_training.errors import InputError
-from haptoflow_training.preprocessing.settings import PreprocessingSettings
+from haptoflow_training.preprocessing.settings import SETTINGS
 from haptoflow_training.preprocessing.split import Split
 from haptoflow_training.recordings.recording import Protocol
 
@@ -100,7 +100,6 @@ class SegmentStore:
     peak_mps2: float
     sample_rate_hz: int
     seed: int
-    settings: PreprocessingSettings
     provenance: dict[str, Any]
     ribs_followed: bool = False
     notes: list[str] = field(default_factory=list)
@@ -130,7 +129,6 @@ class SegmentStore:
                 peak_mps2=float(header["normalisation"]["peak_mps2"]),
                 sample_rate_hz=int(header["sample_rate_hz"]),
                 seed=int(header["seed"]),
-                settings=PreprocessingSettings.from_json(header["settings"]),
                 provenance=header["provenance"],
                 notes=list(header.get("notes", ())),
             )
@@ -147,17 +145,16 @@ def write_header(
     notes: list[str],
     peak_mps2: float,
     seed: int,
-    settings: PreprocessingSettings,
     provenance: dict[str, Any],
 ) -> None:
     """Write the header, which marks the store in `root` as complete."""
     header = {
         "version": STORE_VERSION,
-        "sample_rate_hz": settings.sample_rate_hz,
+        "sample_rate_hz": SETTINGS.sample_rate_hz,
         "normalisation": {"unit": "m/s^2", "peak_mps2": peak_mps2},
         "labels": labels,
         "seed": seed,
-        "settings": settings.to_json(),
+        "settings": dataclasses.asdict(SETTINGS),
         "provenance": provenance,
         "notes": notes,
         "skipped": [dataclasses.asdict(entry) for entry in skipped],

@@ -14,7 +14,7 @@ from haptoflow_training.errors import InputError
 from haptoflow_training.recordings.cluster_dataset_files import DatasetFileError, read_sensor
 from haptoflow_training.recordings.dataset import UNKNOWN, Dataset, is_published
 from haptoflow_training.recordings.dataset_layout import (
-    ACCELERATION, AUDIO_ENDINGS, AUDIO_FOLDERS, FORCE, POSITION, PROVENANCE_FILE, PUBLISHED_LICENCE,
+    ACCELERATION, AUDIO_ENDINGS, AUDIO_FOLDERS, PROVENANCE_FILE, PUBLISHED_LICENCE,
     PUBLISHED_SOURCE, SENSOR_FOLDER, SENSOR_KINDS, TEXTURE_LIST_FILE, ending_of, is_published_list, published_group,
     published_name
 )
@@ -66,30 +66,22 @@ _ENDINGS = (".csv", ".parquet")
 
 @dataclass(frozen=True)
 class RecordingFiles:
-    """One recording on disk; `load` reads its three sensor files. Can be passed to another process."""
+    """One recording on disk; `load` reads its three sensor files. Can be passed to another process. paths: of
+    acceleration, force and position."""
 
     identity: RecordingIdentity
     label: str
-    acceleration_path: Path
-    force_path: Path
-    position_path: Path
+    paths: tuple[Path, Path, Path]
     licence: str
     source: str
 
-    @property
-    def paths(self) -> tuple[Path, ...]:
-        """Every file that the recording is made from."""
-        return self.acceleration_path, self.force_path, self.position_path
-
     def path_of(self, sensor: str) -> Path:
         """The file of acceleration, force or position."""
-        return dict(zip(("acceleration", "force", "position"), self.paths, strict=True))[sensor]
+        return self.paths[("acceleration", "force", "position").index(sensor)]
 
     def load(self) -> Recording:
         """Read the recording. DatasetFileError (an InputError) names a file that does not follow the layout."""
-        acceleration = read_sensor(self.acceleration_path, ACCELERATION)
-        force = read_sensor(self.force_path, FORCE)
-        position = read_sensor(self.position_path, POSITION)
+        acceleration, force, position = map(read_sensor, self.paths, SENSOR_KINDS)
         # The sensor rests before and after each pass, so that its noise shows.
         return Recording(self.identity, self.label, *acceleration, *force, *position, has_sensor_noise=True)
 
@@ -132,8 +124,8 @@ def open_dataset(root: Path | str, labels: LabelMap | None = None) -> Dataset:
             continue
         name = textures[identity.texture_id]
         label = name if labels is None else _label(labels, identity.texture_id, name, bool(provenance.get("synthetic")))
-        paths = (found[kind.folder][identity] for kind in SENSOR_KINDS)
-        files = RecordingFiles(identity, label or name, *paths, licence, source)
+        acceleration, force, position = (found[kind.folder][identity] for kind in SENSOR_KINDS)
+        files = RecordingFiles(identity, label or name, (acceleration, force, position), licence, source)
         (unlabelled if label is None else complete).append(files)
     nameless = dict.fromkeys(textures[entry.identity.texture_id] for entry in unlabelled)
     reason = f"no label names their textures ({', '.join(nameless)})"

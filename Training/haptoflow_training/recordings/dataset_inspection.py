@@ -14,7 +14,6 @@ from haptoflow_training.errors import InputError
 from haptoflow_training.preprocessing.pipeline import preprocess_parts
 from haptoflow_training.preprocessing.plausibility import implausible
 from haptoflow_training.recordings.native_recording import SensorNoise
-from haptoflow_training.preprocessing.settings import PreprocessingSettings
 from haptoflow_training.recordings.cluster_dataset_files import DatasetFileError
 from haptoflow_training.recordings.dataset import Dataset
 from haptoflow_training.recordings.open_recordings import RecordingFile
@@ -137,7 +136,7 @@ def inspect_dataset(dataset: Dataset, recordings: Iterable[RecordingFile] | None
 def _noise_of(recording: Recording) -> list[SensorNoise]:
     """What training will remove; nothing for a recording that it will leave out."""
     try:
-        return [preprocess_parts(recording, PreprocessingSettings())[0].noise]
+        return [preprocess_parts(recording)[0].noise]
     except InputError:
         return []
 

@@ -3,37 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from pathlib import Path
-
-import numpy as np
-from numpy.typing import NDArray
 
 from haptoflow_training.errors import InputError
 from haptoflow_training.preprocessing.pipeline import preprocess_parts
-from haptoflow_training.preprocessing.settings import PreprocessingSettings
+from haptoflow_training.recordings.native_recording import MaterialRecording
 from haptoflow_training.recordings.open_recordings import RecordingFile, open_recordings
-
-
-@dataclass(frozen=True)
-class MaterialRecording:
-    """One stretch without gaps, filtered and trimmed as for training.
-
-    name: of the file, with its part if gaps divide it. label: empty if not stated. vibration_mps2: [n] at 2 kHz, m/s^2.
-    velocity_mps: [n, 2]. force_newtons: [n]. licence, source: `unknown` if not stated.
-    """
-
-    name: str
-    label: str
-    vibration_mps2: NDArray[np.float32]
-    velocity_mps: NDArray[np.float32]
-    force_newtons: NDArray[np.float32]
-    licence: str
-    source: str
-
-    @property
-    def seconds(self) -> float:
-        return len(self.vibration_mps2) / 2000.0
 
 
 def material_files(paths: Sequence[Path | str], tell: Callable[[str], None]) -> list[RecordingFile]:
@@ -59,12 +34,11 @@ def material_files(paths: Sequence[Path | str], tell: Callable[[str], None]) -> 
 def read_material_recordings(files: Sequence[RecordingFile], tell: Callable[[str], None]) -> list[MaterialRecording]:
     """The samples of recordings, prepared as for training. tell: called with a line for each one that cannot be used,
     and with what the reader ignored or corrected. InputError if none can be used."""
-    settings = PreprocessingSettings()
     recordings: list[MaterialRecording] = []
     for entry in files:
         try:
             read = entry.load()
-            parts = preprocess_parts(read, settings)
+            parts = preprocess_parts(read)
         except InputError as error:
             if len(files) == 1:
                 raise
@@ -72,14 +46,7 @@ def read_material_recordings(files: Sequence[RecordingFile], tell: Callable[[str
             continue
         for note in read.notes:
             tell(note)
-        for number, part in enumerate(parts):
-            name = entry.identity.name if number == 0 else f"{entry.identity.name} part {number + 1}"
-            recordings.append(
-                MaterialRecording(
-                    name, entry.label, part.waveform_mps2, part.motion[:, :2].copy(), part.motion[:, 2].copy(),
-                    entry.licence, entry.source,
-                )  # fmt: skip
-            )
+        recordings += [MaterialRecording(part.waveform_mps2, part.motion) for part in parts]
     if not recordings:
         raise InputError("no recording could be used")
     return recordings

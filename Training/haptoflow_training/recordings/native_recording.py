@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,9 +16,6 @@ from numpy.typing import NDArray
 from haptoflow_training.native_library import NativeError, native_library, options_of
 from haptoflow_training.recordings.cluster_dataset_files import DatasetFileError
 from haptoflow_training.waveform import SAMPLE_RATE_HZ
-
-if TYPE_CHECKING:
-    from haptoflow_training.recordings.material_recording import MaterialRecording
 
 _EXPECTED = "; expected "
 
@@ -234,24 +231,36 @@ class SensorNoise:
 NO_NOISE = SensorNoise("none", 0.0)
 
 
-def remove_sensor_noise(
-    waveforms_mps2: Sequence[NDArray[np.float32]], motions: Sequence[NDArray[np.float32]]
-) -> tuple[list[NDArray[np.float32]], SensorNoise]:
-    """The stretches of one recording without noise, and the noise of all. waveforms_mps2: each [n] at 2 kHz. motions: each
-    [n, 3]: vx, vy in m/s, force in N. InputError if there is nothing but noise, or if the library is missing."""
-    # A sample that is not finite separates two stretches.
+class MaterialRecording(NamedTuple):
+    """One stretch without gaps, filtered and trimmed as for training. vibration_mps2: [n] at 2 kHz, m/s^2. motion:
+    [n, 3]: vx, vy in m/s, force in N."""
+
+    vibration_mps2: NDArray[np.float32]
+    motion: NDArray[np.float32]
+
+
+def _with_gaps(stretches: Sequence[MaterialRecording]) -> tuple[NDArray[np.float32], ...]:
+    """Wave, velocity and force of all stretches; a sample that is not finite follows each and separates it from the
+    next."""
     gap, still = np.full(1, np.nan, np.float32), np.zeros((1, 3), np.float32)
-    wave = np.concatenate([piece for each in waveforms_mps2 for piece in (each, gap)])
-    motion = np.concatenate([piece for each in motions for piece in (each, still)])
-    velocity, force = (np.ascontiguousarray(values, np.float32) for values in (motion[:, :2], motion[:, 2]))
+    wave = np.concatenate([piece for each in stretches for piece in (each.vibration_mps2, gap)])
+    motion = np.concatenate([piece for each in stretches for piece in (each.motion, still)])
+    return tuple(np.ascontiguousarray(values, np.float32) for values in (wave, motion[:, :2], motion[:, 2]))
+
+
+def remove_sensor_noise(
+    stretches: Sequence[MaterialRecording],
+) -> tuple[list[NDArray[np.float32]], SensorNoise]:
+    """The waveforms of the stretches of one recording without noise, and the noise of all. InputError if there is
+    nothing but noise, or if the library is missing."""
+    wave, velocity, force = _with_gaps(stretches)
     source, rms_mps2 = ctypes.c_int32(), ctypes.c_double()
     native_library().call(
         "haptoflow_recording_remove_noise", wave.ctypes.data_as(_POINTER), velocity.ctypes.data_as(_POINTER),
         force.ctypes.data_as(_POINTER), ctypes.c_uint64(len(wave)), ctypes.byref(source), ctypes.byref(rms_mps2),
     )  # fmt: skip
-    ends = np.cumsum([len(each) + 1 for each in waveforms_mps2])
-    stretches = [wave[end - 1 - len(each) : end - 1] for each, end in zip(waveforms_mps2, ends, strict=True)]
-    return stretches, SensorNoise(_SOURCES[source.value], rms_mps2.value)
+    parts = np.split(wave, np.cumsum([len(each.vibration_mps2) + 1 for each in stretches[:-1]]))
+    return [part[:-1] for part in parts], SensorNoise(_SOURCES[source.value], rms_mps2.value)
 
 
 # In cycles per millimetre.
@@ -261,11 +270,9 @@ WaveVector = tuple[float, float]
 def estimate_wave_vectors(recordings: Sequence[MaterialRecording]) -> tuple[WaveVector, ...]:
     """Up to two vectors, the clearest first, 0.4 to 8 mm apart; none if the recordings show no ribs or cannot show them.
     InputError if the library is missing."""
-    # A sample that is not finite separates two recordings.
-    gap, still = np.full(1, np.nan, np.float32), np.zeros((1, 2), np.float32)
-    wave = np.concatenate([piece for each in recordings for piece in (each.vibration_mps2, gap)] or [gap])
-    velocity = np.concatenate([piece for each in recordings for piece in (each.velocity_mps, still)] or [still])
-    wave, velocity = (np.ascontiguousarray(values, dtype=np.float32) for values in (wave, velocity))
+    if not recordings:
+        return ()
+    wave, velocity, _ = _with_gaps(recordings)
     found = (ctypes.c_double * 4)()
     native_library().call(
         "haptoflow_find_wave_vectors", wave.ctypes.data_as(_POINTER), velocity.ctypes.data_as(_POINTER),

@@ -80,11 +80,6 @@ def described_file(path: Path, name: str) -> OwnRecordingFile:
     return OwnRecordingFile(path, identity, read.label, licence, source, read.motion_path, read.notes)
 
 
-def is_motion_file(path: Path) -> bool:
-    """Whether the file's name marks it as the motion of another recording (NAME.motion.csv)."""
-    return path.stem.lower().endswith(_MOTION_MARK)
-
-
 def _readable(path: Path) -> tuple[Path, dict[str, bytes]]:
     """The library reads text: a Parquet table becomes CSV here, and the files beside it go along."""
     if ending_of(path) != ".parquet":
@@ -195,7 +190,9 @@ def _name(path: Path) -> str:
 
 
 def _is_motion(path: Path, named: set[Path]) -> bool:
-    return is_motion_file(path) or path.resolve() in named
+    """Whether the file is the motion of another recording: by its name (NAME.motion.csv), or because a sidecar names
+    it."""
+    return path.stem.lower().endswith(_MOTION_MARK) or path.resolve() in named
 
 
 def _left_out(root: Path, unlabelled: list[OwnRecordingFile]) -> str:

@@ -115,18 +115,14 @@ def analyse_similarity(sessions: Sequence[Session]) -> SimilarityResult:
                 raise InputError(f"{session.path}: {row['method']} on {row['material']} is rated twice; expected once")
             ratings[cell] = row["rating"]
     _refuse_gaps(ratings, materials, methods, sessions)
-    bound = bound_of(sessions)
+    # What the settings fixed before the first answer; the smallest if sessions differ.
+    bound = min(session_bound(session) or EQUIVALENCE_POINTS for session in sessions)
     by_material = {name: analysed(of_material, bound) for name, of_material in zip(materials, ratings, strict=True)}
     return SimilarityResult(materials, methods, ratings, by_material, bound)
 
 
 def too_few_words(participants: int) -> str:
     return f"{participants_words(participants)} of the similarity study; its tests need {MINIMUM_PARTICIPANTS}"
-
-
-def bound_of(sessions: Sequence[Session]) -> float:
-    """The bound of equivalence that the settings fixed before the first answer; the smallest if sessions differ."""
-    return min(session_bound(session) or EQUIVALENCE_POINTS for session in sessions)
 
 
 def _names(sessions: Sequence[Session], key: str) -> list[str]:

@@ -21,14 +21,6 @@ PAPER_ARCHITECTURE = "the paper's architecture"
 
 
 @dataclass(frozen=True)
-class Spread:
-    """In ms: the median and the 99th percentile."""
-
-    p50: float
-    p99: float
-
-
-@dataclass(frozen=True)
 class Block:
     """How a sound card requests samples: `burst` blocks of `frames` at once."""
 
@@ -44,14 +36,15 @@ class Block:
 
 @dataclass(frozen=True)
 class BenchFigures:
-    """inference_ms: by quality, at the pace of use. onset_ms, stop_ms: from a published contact state to the sound."""
+    """99th percentiles in ms. inference_ms: by quality, at the pace of use. onset_ms, stop_ms: from a published contact
+    state to the sound."""
 
     words: str
     model_sha256: str
     rate_hz: float
-    inference_ms: Mapping[str, Spread]
-    onset_ms: Mapping[Block, Spread]
-    stop_ms: Mapping[Block, Spread]
+    inference_ms: Mapping[str, float]
+    onset_ms: Mapping[Block, float]
+    stop_ms: Mapping[Block, float]
 
 
 def read_bench(path: Path) -> BenchFigures:
@@ -70,9 +63,9 @@ def read_bench(path: Path) -> BenchFigures:
 
 def _from_json(report: Mapping[str, Any]) -> BenchFigures:
     machine = report["machine"]
-    inference = {name: _spread(one["paced"]) for name, one in report["inference_ms"].items()}
+    inference = {name: float(one["paced"]["p99"]) for name, one in report["inference_ms"].items()}
     if "paper_architecture_ms" in report:
-        inference[PAPER_ARCHITECTURE] = _spread(report["paper_architecture_ms"]["paced"])
+        inference[PAPER_ARCHITECTURE] = float(report["paper_architecture_ms"]["paced"]["p99"])
     return BenchFigures(
         f"{report['date']}, {machine['processor']}, {machine['cores']} cores",
         report["model"]["sha256"],
@@ -83,12 +76,8 @@ def _from_json(report: Mapping[str, Any]) -> BenchFigures:
     )
 
 
-def _spread(figures: Mapping[str, Any]) -> Spread:
-    return Spread(float(figures["p50"]), float(figures["p99"]))
-
-
-def _rows(rows: Sequence[Mapping[str, Any]]) -> dict[Block, Spread]:
-    return {Block(int(row["block_frames"]), int(row["burst_blocks"])): _spread(row) for row in rows}
+def _rows(rows: Sequence[Mapping[str, Any]]) -> dict[Block, float]:
+    return {Block(int(row["block_frames"]), int(row["burst_blocks"])): float(row["p99"]) for row in rows}
 
 
 def _from_page(text: str) -> BenchFigures:
@@ -100,7 +89,7 @@ def _from_page(text: str) -> BenchFigures:
     if not (date and machine and model and rate):
         raise ValueError("no published tables")
     rows = _table(text, "inference, one segment on one thread, ms")
-    inference = {cells[0]: Spread(float(cells[-4]), float(cells[-3])) for cells in rows}
+    inference = {cells[0]: float(cells[-3]) for cells in rows}
     return BenchFigures(
         f"{date[1]}, {machine[1]}",
         model[1],
@@ -123,11 +112,11 @@ def _table(text: str, title: str) -> list[list[str]]:
     return rows
 
 
-def _blocks(rows: Sequence[Sequence[str]]) -> dict[Block, Spread]:
+def _blocks(rows: Sequence[Sequence[str]]) -> dict[Block, float]:
     found = {}
     for cells in rows:
         burst, _, frames = cells[0].rpartition(" x ")
-        found[Block(int(frames), int(burst or 1))] = Spread(float(cells[2]), float(cells[3]))
+        found[Block(int(frames), int(burst or 1))] = float(cells[3])
     return found
 
 
@@ -160,8 +149,8 @@ def budgets(bench: BenchFigures, refresh_hz: float, block: Block, device_ms: flo
     """The delay budget of each quality, by name, for the worst case: an event waits for a whole pose interval and a
     whole audio block."""
     return {
-        quality: Budget(1000.0 / refresh_hz, spread.p99, block.milliseconds(bench.rate_hz), device_ms)
-        for quality, spread in bench.inference_ms.items()
+        quality: Budget(1000.0 / refresh_hz, inference_ms, block.milliseconds(bench.rate_hz), device_ms)
+        for quality, inference_ms in bench.inference_ms.items()
     }
 
 
@@ -221,9 +210,9 @@ def _measured_table(bench: BenchFigures, device_ms: float | None) -> str:
     rows = []
     for block in sorted(bench.onset_ms, key=lambda each: each.frames * each.burst):
         cells = [str(block)]
-        for spread, condition in ((bench.onset_ms[block], TURN_ON), (bench.stop_ms[block], TURN_OFF)):
-            budget = Budget(interval, 0.0, spread.p99, device_ms)
-            cells += [f"{spread.p99:.1f}", f"{budget.known_ms:.1f}", _left(budget, condition)]
+        for measured_ms, condition in ((bench.onset_ms[block], TURN_ON), (bench.stop_ms[block], TURN_OFF)):
+            budget = Budget(interval, 0.0, measured_ms, device_ms)
+            cells += [f"{measured_ms:.1f}", f"{budget.known_ms:.1f}", _left(budget, condition)]
         rows.append(cells)
     return table(headings, rows)
 

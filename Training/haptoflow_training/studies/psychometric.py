@@ -25,27 +25,15 @@ class Interval:
         return self.low <= value <= self.high
 
 
-def participant_weights(participants: int, resamples: int, seed: int) -> np.ndarray:
-    """How often each participant (column) is drawn in each resample (row), with replacement."""
-    random = np.random.default_rng(seed)
-    return random.multinomial(participants, np.full(participants, 1.0 / participants), resamples).astype(float)
-
-
 def expanded_interval(values: np.ndarray, participants: int) -> Interval:
     """Expanded percentile interval of resampled values, 95 %; nan values are left out.
 
     Hesterberg (2015), What teachers should know about the bootstrap: percentiles of a resampled statistic are too
     narrow by sqrt((n - 1) / n) and use normal instead of Student's t tails; the levels are moved outwards for both.
     """
-    percentile_levels = expanded_levels(participants)
-    low, high = np.quantile(values[~np.isnan(values)], percentile_levels)
-    return Interval(float(low), float(high))
-
-
-def expanded_levels(participants: int) -> tuple[float, float]:
-    """The two levels of the expanded interval, in place of 0.025 and 0.975."""
     outer = np.sqrt(participants / (participants - 1)) * t.ppf(0.5 + CONFIDENCE / 2.0, participants - 1)
-    return float(norm.cdf(-outer)), float(norm.cdf(outer))
+    low, high = np.quantile(values[~np.isnan(values)], norm.cdf([-outer, outer]))
+    return Interval(float(low), float(high))
 
 
 def jackknife_error(without_one: np.ndarray) -> float | None:
@@ -185,7 +173,9 @@ def fit(answers: Answers, *, resamples: int = RESAMPLES, seed: int = 0) -> Fit:
         words = f"{count} participants are too few to resample, which takes {MINIMUM_PARTICIPANTS}"
         return Fit(curve, interval_statement=words, notes=notes)
     counted = _counted(answers)
-    k, x0 = _curves(counted, participant_weights(count, resamples, seed))
+    # How often each participant (column) is drawn in each resample (row), with replacement.
+    drawn = np.random.default_rng(seed).multinomial(count, np.full(count, 1.0 / count), resamples)
+    k, x0 = _curves(counted, drawn.astype(float))
     without = float(np.isnan(k).mean())
     if without > _MAXIMUM_SHARE_WITHOUT_CURVE:
         words = f"{100 * without:.0f} % of the resamples have no curve, because yes and no hardly overlap"
@@ -197,7 +187,7 @@ def fit(answers: Answers, *, resamples: int = RESAMPLES, seed: int = 0) -> Fit:
         return Fit(curve, interval_statement=words, notes=notes)
     if without > 0.0:
         notes += (f"{100 * without:.2g} % of the resamples have no curve and were left out of the intervals",)
-    k_without_one, x0_without_one = leave_one_out(answers)
+    k_without_one, x0_without_one = _curves(counted, 1.0 - np.eye(count))
     return Fit(
         curve,
         threshold_interval=threshold_interval,
@@ -207,11 +197,6 @@ def fit(answers: Answers, *, resamples: int = RESAMPLES, seed: int = 0) -> Fit:
         notes=notes,
         resampled_x0=x0,
     )
-
-
-def leave_one_out(answers: Answers) -> tuple[np.ndarray, np.ndarray]:
-    """k and x0 without each participant in turn; nan if the others have no curve."""
-    return _curves(_counted(answers), 1.0 - np.eye(answers.participants))
 
 
 def threshold_difference(first: Fit, second: Fit, participants: int) -> Interval | None:

@@ -13,7 +13,7 @@ applied as follows:
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
 from itertools import combinations
@@ -43,18 +43,7 @@ def factors(methods: int) -> list[int]:
     return [max(count for count in counts if count <= pairs - rejected) for rejected in range(pairs)]
 
 
-def adjusted(p_values: Sequence[float], methods: int) -> list[float]:
-    """Adjusted p-values in the given order: at most 1, and monotonic in the p-values.
-
-    ValueError if their number is not that of the pairs.
-    """
-    by_rank = factors(methods)
-    if len(p_values) != len(by_rank):
-        raise ValueError(f"{len(p_values)} p-values; {methods} methods have {len(by_rank)} pairs")
-    return stepped_down(p_values, by_rank)
-
-
-def stepped_down(p_values: Sequence[float], factors_by_rank: Sequence[int]) -> list[float]:
+def adjusted(p_values: Sequence[float], factors_by_rank: Sequence[int]) -> list[float]:
     """The p-values, in the given order, times the factor of their rank; at most 1, and monotonic in the p-values."""
     order = np.argsort(p_values, kind="stable")
     result = np.empty(len(p_values))
@@ -162,14 +151,13 @@ def _counted_p(differences: np.ndarray, alternative: str) -> float:
     return float(min(1.0, test.pvalue))
 
 
-def equivalence(first: np.ndarray, second: np.ndarray, bound: float) -> float:
+def equivalence(differences: np.ndarray, bound: float) -> float:
     """The larger p-value of two one-sided Wilcoxon tests against differences of `bound` points of rating.
 
     Schuirmann (1987), A comparison of the two one-sided tests procedure and the power approach, J. Pharmacokinetics and
     Biopharmaceutics 15, 657-680. The bound is chosen before the ratings are known: one that is estimated from them
     grows with their scatter, so that careless ratings would look equal.
     """
-    differences = first - second
     above = signed_rank_p(differences + bound, "greater")
     below = signed_rank_p(differences - bound, "less")
     # Differences that all lie at a bound are no evidence against it.
@@ -183,14 +171,7 @@ def holm(p_values: Sequence[float]) -> list[float]:
     Shaffer's smaller factors are for hypotheses of equality, of which one implies others; two pairs that are equivalent
     do not make the third one so.
     """
-    return stepped_down(p_values, range(len(p_values), 0, -1))
-
-
-def equivalences(ratings: np.ndarray, bound: float) -> list[tuple[float, float]]:
-    """p of equivalence for each pair of columns, and the same after Holm's correction."""
-    pairs = combinations(range(ratings.shape[1]), 2)
-    found = [equivalence(ratings[:, first], ratings[:, second], bound) for first, second in pairs]
-    return list(zip(found, holm(found), strict=True))
+    return adjusted(p_values, range(len(p_values), 0, -1))
 
 
 def rank_biserial(differences: np.ndarray) -> float | None:
@@ -235,44 +216,29 @@ def analysed(ratings: np.ndarray, bound: float = EQUIVALENCE_POINTS) -> RatingRe
         statement = "every participant rated all methods alike"
     elif found.p >= SIGNIFICANCE:
         statement = "the methods' ratings do not differ significantly, so that no pair is tested for a difference"
-    follows_up = methods == 2 or not statement
     names = list(combinations(range(methods), 2))
-    raw = {pair: signed_rank_p(ratings[:, pair[0]] - ratings[:, pair[1]]) for pair in names}
-    corrected = _corrected(raw, methods) if follows_up else dict.fromkeys(names)
-    pairs = [(pair, *ps) for pair, ps in zip(names, equivalences(ratings, bound), strict=True)]
-    return RatingResult(
-        tuple(normality_p(column) for column in ratings.T),
-        found,
-        statement,
-        tuple(_pair(ratings, pair, raw[pair], corrected[pair], bound, p, p_holm) for pair, p, p_holm in pairs),
+    differences = [ratings[:, first] - ratings[:, second] for first, second in names]
+    raw = [signed_rank_p(each) for each in differences]
+    shaffer: Sequence[float | None] = [None] * len(names)
+    if methods == 2 or not statement:
+        # Pairs without any difference count as p = 1 in the correction, and get no p-value.
+        corrected = adjusted([1.0 if p is None else p for p in raw], factors(methods))
+        shaffer = [None if p is None else value for p, value in zip(raw, corrected, strict=True)]
+    equivalent = [equivalence(each, bound) for each in differences]
+    pairs = (
+        Pair(
+            *pair,
+            mean_difference=float(each.mean()),
+            p=p,
+            p_shaffer=p_shaffer,
+            rank_biserial=rank_biserial(each),
+            cohen_dz=cohen_dz(each),
+            bound=bound,
+            p_equivalence=p_equivalence,
+            p_holm=p_holm,
+        )
+        for pair, each, p, p_shaffer, p_equivalence, p_holm in zip(
+            names, differences, raw, shaffer, equivalent, holm(equivalent), strict=True
+        )
     )
-
-
-def _corrected(raw: Mapping[tuple[int, int], float | None], methods: int) -> dict[tuple[int, int], float | None]:
-    """The pairs with corrected p-values. Pairs without any difference count as p = 1 in the correction, and get no
-    p-value."""
-    values = adjusted([1.0 if p is None else p for p in raw.values()], methods)
-    return {pair: None if raw[pair] is None else value for pair, value in zip(raw, values, strict=True)}
-
-
-def _pair(
-    ratings: np.ndarray,
-    pair: tuple[int, int],
-    p: float | None,
-    p_shaffer: float | None,
-    bound: float,
-    p_equivalence: float,
-    p_holm: float,
-) -> Pair:
-    differences = ratings[:, pair[0]] - ratings[:, pair[1]]
-    return Pair(
-        *pair,
-        mean_difference=float(differences.mean()),
-        p=p,
-        p_shaffer=p_shaffer,
-        rank_biserial=rank_biserial(differences),
-        cohen_dz=cohen_dz(differences),
-        bound=bound,
-        p_equivalence=p_equivalence,
-        p_holm=p_holm,
-    )
+    return RatingResult(tuple(normality_p(column) for column in ratings.T), found, statement, tuple(pairs))

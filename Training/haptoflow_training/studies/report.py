@@ -168,7 +168,7 @@ def _difference_words(difference: float, interval: Interval | None) -> str:
 def _similarity(result: SimilarityResult, is_simulated: bool) -> list[str]:
     parts = [
         heading("Similarity"),
-        paragraph(f"{participants_words(result.participants)}. {similarity(result.bound)}"),
+        paragraph(f"{participants_words(result.participants)}. {SIMILARITY.format(bound=result.bound)}"),
         picture(similarity_figure(result, is_simulated=is_simulated), _marked(SIMILARITY_CAPTION, is_simulated)),
         table(MATERIAL_HEADINGS, [_material_row(result, name) for name in result.materials]),
         listing(EFFECT_SIZES),
@@ -327,20 +327,13 @@ LATENCY_CAPTION = (
     "lines about 50 % the intervals of the thresholds. A tick is a single answer: yes above, no below. The two "
     "conditions are drawn a little aside, so that neither hides the other."
 )
-_SIMILARITY = (
+SIMILARITY = (
     "Each participant rated from 1 to 7 how similar each method's virtual material feels to the real one. For each "
     "material, Friedman's test asks whether the methods differ at all; where p < 0.05, every pair is compared by "
     "Wilcoxon's signed-rank test with Shaffer's static correction over the material's pairs. Two one-sided Wilcoxon "
     "tests ask of every pair whether its difference lies within {bound:g} points of rating, with Holm's correction "
     "over the material's pairs. Practice is left out."
 )
-
-
-def similarity(bound: float) -> str:
-    """bound: of equivalence, in points of rating."""
-    return _SIMILARITY.format(bound=bound)
-
-
 SIMILARITY_CAPTION = (
     "Similarity ratings: a dot is one participant's rating, a dash the mean, bars its interval of 95 % (Student's t; "
     "each participant rated every method, so that intervals that overlap say little about a difference). Brackets: "

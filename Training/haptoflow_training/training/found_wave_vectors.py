@@ -18,9 +18,8 @@ from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d
 
 from haptoflow_training.preprocessing.store import STORE_FILE, SegmentStore
-from haptoflow_training.recordings.native_recording import WaveVector, estimate_wave_vectors
+from haptoflow_training.recordings.native_recording import MaterialRecording, WaveVector, estimate_wave_vectors
 from haptoflow_training.recordings.landing import LabelInfo
-from haptoflow_training.recordings.material_recording import MaterialRecording
 from haptoflow_training.waveform import SAMPLE_RATE_HZ
 
 # Smaller wave numbers are rounding errors.
@@ -85,15 +84,7 @@ def stored_recordings(store: SegmentStore, row: int) -> list[MaterialRecording]:
     """The training recordings of one label, without the silence added by preparation."""
     own = [one for one in store.recordings if one.label_index == row and one.split == "train"]
     return [
-        MaterialRecording(
-            one.name,
-            one.label,
-            store.waveform[one.recorded_samples] * store.peak_mps2,
-            store.motion[one.recorded_samples, :2],
-            store.motion[one.recorded_samples, 2],
-            "",
-            "",
-        )
+        MaterialRecording(store.waveform[one.recorded_samples] * store.peak_mps2, store.motion[one.recorded_samples])
         for one in own
     ]
 

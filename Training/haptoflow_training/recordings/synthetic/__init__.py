@@ -2,8 +2,7 @@
 
 from haptoflow_training.recordings.synthetic.materials import Material, load_materials
 from haptoflow_training.recordings.synthetic.recorder import (
-    hand_conditions, machine_conditions, record_condition, record_condition_of, record_hand_condition,
-    record_machine_condition
+    hand_conditions, machine_conditions, record_condition, record_condition_of
 )
 from haptoflow_training.recordings.synthetic.surface import (
     FURTHER_SPECIMENS, HELD_OUT_SPECIMEN, TRAINING_SPECIMENS, training_specimen
@@ -19,7 +18,5 @@ __all__ = [
     "machine_conditions",
     "record_condition",
     "record_condition_of",
-    "record_hand_condition",
-    "record_machine_condition",
     "training_specimen",
 ]

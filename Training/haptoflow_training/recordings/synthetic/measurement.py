@@ -13,7 +13,7 @@ from scipy.signal import sosfreqz, welch
 from scipy.stats import skew
 
 from haptoflow_training.preprocessing.pipeline import preprocess_recording
-from haptoflow_training.preprocessing.settings import PreprocessingSettings
+from haptoflow_training.preprocessing.settings import SETTINGS
 from haptoflow_training.recordings.synthetic.contact import SIMULATION_RATE_HZ, absorption, contact_from_acceleration
 from haptoflow_training.recordings.synthetic.materials import Calibrated, Material, Targets
 from haptoflow_training.recordings.synthetic.recorder import record_condition
@@ -184,14 +184,14 @@ def recorded_waveforms(
                 seed=seed + 10 * number + 100 * repeat,
                 specimen=specimens[number % len(specimens)],
             )
-            prepared = preprocess_recording(recording, PreprocessingSettings())
+            prepared = preprocess_recording(recording)
             waveforms.append(prepared.waveform_mps2.astype(np.float64))
     return waveforms
 
 
 def mean_spectrum(waveforms: Sequence[NDArray[np.float64]]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Frequencies [n] in Hz and the mean density [n] in (m/s^2)^2/Hz."""
-    rate = PreprocessingSettings().sample_rate_hz
+    rate = SETTINGS.sample_rate_hz
     size = int(rate / _RESOLUTION_HZ)
     spectra = [welch(waveform, rate, nperseg=size)[1] for waveform in waveforms]
     return np.fft.rfftfreq(size, 1.0 / rate), np.mean(spectra, axis=0)

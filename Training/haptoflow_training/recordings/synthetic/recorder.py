@@ -30,29 +30,27 @@ _POSITION_HZ, _POSITION_STEP_MM = 100.0, 0.01
 _WANDER_EVERY = 4
 
 
-def sense(
+def record_ride(
+    material: Material,
     identity: RecordingIdentity,
-    label: str,
+    ride: Ride,
     rng: np.random.Generator,
     *,
-    rate_hz: float,
-    acceleration_mps2: NDArray[np.float64],
-    force_newtons: NDArray[np.float64],
-    position_mm: NDArray[np.float64],
-    wander_turns: NDArray[np.float64],
+    specimen: int,
     accelerometer_noise: bool = True,
     motion_noise: bool = True,
-    specimen: int | None = None,
 ) -> Recording:
-    """A Recording of the simulated quantities on a uniform clock: acceleration [n, 3], force [n], position [n, 2].
-    wander_turns [n, 3] is no sensor's and stays exact.
+    """The sensors' readings of one ride over one specimen of a material.
 
     Without `accelerometer_noise`, the acceleration has neither noise nor quantisation; without `motion_noise`, force and
-    position have neither, nor offsets. Clocks and ranges stay, and so does everything about the other sensors.
+    position have neither, nor offsets. Clocks and ranges stay, and so does everything about the other sensors. Wander
+    is no sensor's and stays exact.
     """
+    rate_hz, force_newtons = SIMULATION_RATE_HZ, ride.force_newtons
+    texture = tool_vibration(material, ride.path, force_newtons, specimen=specimen)
     duration = len(force_newtons) / rate_hz
     stamps = _irregular_stamps(rng, duration - 2.0 / rate_hz)
-    mounted = sosfilt(peak(*_MOUNT_RESONANCE, rate_hz), acceleration_mps2, axis=0)
+    mounted = sosfilt(peak(*_MOUNT_RESONANCE, rate_hz), texture.acceleration_mps2 + ride.carrier_mps2, axis=0)
     sensed = np.empty((len(stamps), 3))
     cells = (stamps * rate_hz)[None, :]
     for axis in range(3):
@@ -69,12 +67,13 @@ def sense(
         sensed = np.round(sensed / _STEP_G) * _STEP_G
 
     position_time = np.arange(int(duration * _POSITION_HZ)) / _POSITION_HZ
-    position = position_mm[np.minimum(np.round(position_time * rate_hz).astype(int), len(position_mm) - 1)]
+    last = len(ride.path.position_mm) - 1
+    position = ride.path.position_mm[np.minimum(np.round(position_time * rate_hz).astype(int), last)]
     if motion_noise:
         position = np.round(position / _POSITION_STEP_MM) * _POSITION_STEP_MM
-    wander = Wander(np.arange(0, len(force_newtons), _WANDER_EVERY) / rate_hz, wander_turns[::_WANDER_EVERY])
+    wander = Wander(np.arange(0, len(force_newtons), _WANDER_EVERY) / rate_hz, texture.wander_turns[::_WANDER_EVERY])
     return Recording(
-        identity, label, stamps, sensed, force_time, force, position_time, position, specimen, wander=wander
+        identity, material.label, stamps, sensed, force_time, force, position_time, position, specimen, wander=wander
     )  # fmt: skip
 
 
@@ -107,33 +106,6 @@ def _load_cell(
     return time, (np.round(held / _LOAD_CELL_STEP_NEWTONS) * _LOAD_CELL_STEP_NEWTONS)[update]
 
 
-def record_ride(
-    material: Material,
-    identity: RecordingIdentity,
-    ride: Ride,
-    rng: np.random.Generator,
-    *,
-    specimen: int,
-    accelerometer_noise: bool = True,
-    motion_noise: bool = True,
-) -> Recording:
-    """The sensors' readings of one ride over one specimen of a material; noise as of `sense`."""
-    texture = tool_vibration(material, ride.path, ride.force_newtons, specimen=specimen)
-    return sense(
-        identity,
-        material.label,
-        rng,
-        rate_hz=SIMULATION_RATE_HZ,
-        acceleration_mps2=texture.acceleration_mps2 + ride.carrier_mps2,
-        force_newtons=ride.force_newtons,
-        position_mm=ride.path.position_mm,
-        wander_turns=texture.wander_turns,
-        accelerometer_noise=accelerometer_noise,
-        motion_noise=motion_noise,
-        specimen=specimen,
-    )
-
-
 def record_condition(
     material: Material,
     *,
@@ -150,7 +122,7 @@ def record_condition(
     velocity_mps: (vx, vy), each a number or an array spread evenly over the duration, m/s, up to 1.5 in magnitude.
     force_newtons: a number or such an array, 0-5 N. seed: of the place on the surface and the sensor noise. specimen:
     the piece of the material, 0 or more; by default the typical one, which no training protocol records. Noise as of
-    `sense`. Deterministic by its arguments.
+    `record_ride`. Deterministic by its arguments.
     """
     count = int(round(duration_seconds * SIMULATION_RATE_HZ))
     velocity_mmps = 1e3 * np.stack([_spread(component, count) for component in velocity_mps], axis=1)
@@ -221,59 +193,6 @@ def hand_conditions(material: Material, *, seed: int, recordings: int) -> list[R
     return identities
 
 
-def record_machine_condition(
-    material: Material,
-    identity: RecordingIdentity,
-    *,
-    seed: int,
-    specimen: int | None = None,
-    accelerometer_noise: bool = True,
-) -> Recording:
-    """One machine pass. specimen: None selects the one that the training protocol records under this identity."""
-    rng = _generator(seed, identity)
-    ride = machine_ride(identity, rng)
-    chosen = training_specimen(identity) if specimen is None else specimen
-    return record_ride(material, identity, ride, rng, specimen=chosen, accelerometer_noise=accelerometer_noise)
-
-
-def machine_ride(identity: RecordingIdentity, rng: np.random.Generator) -> Ride:
-    """The machine pass with the direction, speed and force in `identity`; ValueError if that is a hand recording."""
-    if identity.direction_degrees is None:
-        raise ValueError(f"{identity.name} is not a machine recording")
-    return machine_pass(
-        rng,
-        direction_degrees=float(identity.direction_degrees),
-        speed_mmps=float(identity.speed_mmps),
-        force_newtons=1e-3 * identity.force_millinewtons,
-    )
-
-
-def record_hand_condition(
-    material: Material,
-    identity: RecordingIdentity,
-    *,
-    seed: int,
-    duration_seconds: float = 8.0,
-    guided_share: float = 0.0,
-    specimen: int | None = None,
-    accelerometer_noise: bool = True,
-) -> Recording:
-    """One hand stroke: free, or guided for a `guided_share` of all, spread evenly over the repeats.
-
-    specimen: None selects the one that the training protocol records under this identity.
-    """
-    rng = _generator(seed, identity)
-    guided = int((identity.repeat + 1) * guided_share) > int(identity.repeat * guided_share)
-    ride = (guided_ride if guided else hand_ride)(
-        rng,
-        duration_seconds=duration_seconds,
-        median_speed_mmps=float(identity.speed_mmps),
-        median_force_newtons=1e-3 * identity.force_millinewtons,
-    )
-    chosen = training_specimen(identity) if specimen is None else specimen
-    return record_ride(material, identity, ride, rng, specimen=chosen, accelerometer_noise=accelerometer_noise)
-
-
 def record_condition_of(
     material: Material,
     identity: RecordingIdentity,
@@ -281,15 +200,33 @@ def record_condition_of(
     seed: int,
     duration_seconds: float = 8.0,
     guided_share: float = 0.0,
+    specimen: int | None = None,
     accelerometer_noise: bool = True,
 ) -> Recording:
-    """The training protocols' recording of an identity; duration_seconds and guided_share: of a hand recording."""
-    if identity.protocol == "machine":
-        return record_machine_condition(material, identity, seed=seed, accelerometer_noise=accelerometer_noise)
-    return record_hand_condition(
-        material, identity, seed=seed, duration_seconds=duration_seconds, guided_share=guided_share,
-        accelerometer_noise=accelerometer_noise,
-    )  # fmt: skip
+    """The recording of an identity: a machine pass, or a hand stroke of `duration_seconds`, free, or guided for a
+    `guided_share` of all, spread evenly over the repeats.
+
+    specimen: None selects the one that the training protocol records under this identity.
+    """
+    rng = _generator(seed, identity)
+    force_newtons = 1e-3 * identity.force_millinewtons
+    if identity.direction_degrees is not None:
+        ride = machine_pass(
+            rng,
+            direction_degrees=float(identity.direction_degrees),
+            speed_mmps=float(identity.speed_mmps),
+            force_newtons=force_newtons,
+        )
+    else:
+        guided = int((identity.repeat + 1) * guided_share) > int(identity.repeat * guided_share)
+        ride = (guided_ride if guided else hand_ride)(
+            rng,
+            duration_seconds=duration_seconds,
+            median_speed_mmps=float(identity.speed_mmps),
+            median_force_newtons=force_newtons,
+        )
+    chosen = training_specimen(identity) if specimen is None else specimen
+    return record_ride(material, identity, ride, rng, specimen=chosen, accelerometer_noise=accelerometer_noise)
 
 
 def _generator(seed: int, identity: RecordingIdentity) -> np.random.Generator:
