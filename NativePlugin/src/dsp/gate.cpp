@@ -18,6 +18,29 @@ std::uint32_t rampSamplesOf(double sampleRateHz, double rampSeconds) {
     return std::max(1U, static_cast<std::uint32_t>(std::llround(requireSampleRate(sampleRateHz) * rampSeconds)));
 }
 
+constexpr double openSeconds = 0.002;
+
+std::uint64_t wholeSamples(double seconds, double sampleRateHz) {
+    // The small addition keeps rounding from turning 0.005 s at 2,000 Hz into 9 samples.
+    return std::max<std::uint64_t>(1, static_cast<std::uint64_t>(seconds * sampleRateHz + 1e-6));
+}
+
+/// Half a period of a raised cosine, from 0 to 1. The error of linear interpolation between its points is
+/// (pi / 1024)^2 / 16, below 1e-6.
+using Curve = std::array<float, 1025>;
+
+const Curve& raisedCosine() {
+    static const Curve curve = [] {
+        Curve points{};
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const double progress = static_cast<double>(i) / static_cast<double>(points.size() - 1);
+            points[i] = static_cast<float>(0.5 - 0.5 * std::cos(std::numbers::pi * progress));
+        }
+        return points;
+    }();
+    return curve;
+}
+
 }  // namespace
 
 LevelSmoother::LevelSmoother(double sampleRateHz, double rampSeconds, float initialGain)
@@ -47,33 +70,6 @@ void LevelSmoother::process(std::span<float> samples) noexcept {
         sample *= next();
     }
 }
-
-namespace {
-
-constexpr double openSeconds = 0.002;
-
-std::uint64_t wholeSamples(double seconds, double sampleRateHz) {
-    // The small addition keeps rounding from turning 0.005 s at 2,000 Hz into 9 samples.
-    return std::max<std::uint64_t>(1, static_cast<std::uint64_t>(seconds * sampleRateHz + 1e-6));
-}
-
-/// Half a period of a raised cosine, from 0 to 1. The error of linear interpolation between its points is
-/// (pi / 1024)^2 / 16, below 1e-6.
-using Curve = std::array<float, 1025>;
-
-const Curve& raisedCosine() {
-    static const Curve curve = [] {
-        Curve points{};
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            const double progress = static_cast<double>(i) / static_cast<double>(points.size() - 1);
-            points[i] = static_cast<float>(0.5 - 0.5 * std::cos(std::numbers::pi * progress));
-        }
-        return points;
-    }();
-    return curve;
-}
-
-}  // namespace
 
 Gate::Gate(double sampleRateHz, double closeSeconds)
     : curve_(raisedCosine()),

@@ -11,6 +11,11 @@ namespace {
 
 constexpr double cutoffHz = 7.0;
 
+/// The largest float below a ceiling of 0 to 1; 0 for a ceiling of 0.
+float largestBelow(float ceiling) noexcept {
+    return std::nextafter(ceiling, 0.0F);
+}
+
 }  // namespace
 
 // The bilinear transform of s^2 / (s^2 + sqrt(2) s + 1), with the cutoff prewarped.
@@ -32,15 +37,6 @@ void HighPass::process(std::span<float> samples) noexcept {
         sample = static_cast<float>(out);
     }
 }
-
-namespace {
-
-/// The largest float below a ceiling of 0 to 1; 0 for a ceiling of 0.
-float largestBelow(float ceiling) noexcept {
-    return std::nextafter(ceiling, 0.0F);
-}
-
-}  // namespace
 
 SoftLimiter::SoftLimiter(float fullScaleMps2) : fullScaleMps2_(fullScaleMps2), largestOutput_(largestBelow(1.0F)) {
     if (!(std::isfinite(fullScaleMps2) && fullScaleMps2 > 0.0F)) {

@@ -6,13 +6,47 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <numbers>
-#include <vector>
 
 namespace haptoflow::dsp {
 namespace {
 
 constexpr std::size_t cepstrumLength = 256;
+
+using Complex = std::complex<double>;
+
+// With this grid the error of cubic interpolation is below -110 dB.
+constexpr std::size_t gridPerInputSample = 32;
+constexpr std::size_t halfLength = 27;
+constexpr double attenuationDecibels = 84.0;
+// 18 times the kernel's length, so that cepstral aliasing stays below the stopband.
+constexpr std::size_t transformLength = std::size_t{1} << 15;
+// Keeps the logarithm finite at the zeros of the stopband.
+constexpr double magnitudeFloor = 1e-6;
+
+std::vector<Complex> linearPhasePrototype() {
+    const double beta = kaiserBeta(attenuationDecibels);
+    const auto half = static_cast<double>(halfLength);
+    std::vector<Complex> prototype(transformLength);
+    for (std::size_t i = 0; i <= 2 * halfLength * gridPerInputSample; ++i) {
+        const double t = static_cast<double>(i) / static_cast<double>(gridPerInputSample) - half;
+        prototype[i] = normalisedSinc(t) * kaiserWindow(t / half, beta);
+    }
+    return prototype;
+}
+
+constexpr ToneKernel unitImpulse = [] {
+    ToneKernel kernel{};
+    kernel[0] = 1.0F;
+    return kernel;
+}();
+
+const ToneKernel& orUnitImpulse(const ToneKernel* kernel) noexcept {
+    return kernel == nullptr ? unitImpulse : *kernel;
+}
+
+float remainingShare(std::size_t fadeLeft) noexcept {
+    return static_cast<float>(fadeLeft) / static_cast<float>(ToneFilter::fadeSamples);
+}
 
 }  // namespace
 
@@ -41,32 +75,6 @@ ToneKernel toneKernel(const ToneCepstrum& cepstrum) noexcept {
     }
     return kernel;
 }
-
-namespace {
-
-using Complex = std::complex<double>;
-
-// With this grid the error of cubic interpolation is below -110 dB.
-constexpr std::size_t gridPerInputSample = 32;
-constexpr std::size_t halfLength = 27;
-constexpr double attenuationDecibels = 84.0;
-// 18 times the kernel's length, so that cepstral aliasing stays below the stopband.
-constexpr std::size_t transformLength = std::size_t{1} << 15;
-// Keeps the logarithm finite at the zeros of the stopband.
-constexpr double magnitudeFloor = 1e-6;
-
-std::vector<Complex> linearPhasePrototype() {
-    const double beta = kaiserBeta(attenuationDecibels);
-    const auto half = static_cast<double>(halfLength);
-    std::vector<Complex> prototype(transformLength);
-    for (std::size_t i = 0; i <= 2 * halfLength * gridPerInputSample; ++i) {
-        const double t = static_cast<double>(i) / static_cast<double>(gridPerInputSample) - half;
-        prototype[i] = normalisedSinc(t) * kaiserWindow(t / half, beta);
-    }
-    return prototype;
-}
-
-}  // namespace
 
 const MinimumPhaseKernel& MinimumPhaseKernel::shared() {
     static const MinimumPhaseKernel kernel;
@@ -129,24 +137,6 @@ double MinimumPhaseKernel::groupDelay(double cyclesPerInputSample) const noexcep
     }
     return (delayed / response).real();
 }
-
-namespace {
-
-constexpr ToneKernel unitImpulse = [] {
-    ToneKernel kernel{};
-    kernel[0] = 1.0F;
-    return kernel;
-}();
-
-const ToneKernel& orUnitImpulse(const ToneKernel* kernel) noexcept {
-    return kernel == nullptr ? unitImpulse : *kernel;
-}
-
-float remainingShare(std::size_t fadeLeft) noexcept {
-    return static_cast<float>(fadeLeft) / static_cast<float>(ToneFilter::fadeSamples);
-}
-
-}  // namespace
 
 bool ToneFilter::isTarget(const ToneKernel* kernel) const noexcept {
     return hasTone_ == (kernel != nullptr) && (kernel == nullptr || to_ == *kernel);

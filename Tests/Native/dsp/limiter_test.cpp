@@ -1,6 +1,7 @@
 #include "dsp/limiter.hpp"
 
 #include "dsp/denormals.hpp"
+#include "support/wave_measures.hpp"
 #include "test_signals.hpp"
 
 #include <gtest/gtest.h>
@@ -8,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
+#include <span>
 #include <stdexcept>
 #include <vector>
 
@@ -126,17 +127,10 @@ TEST(LimiterTest, AFullScaleThatIsNotPositiveIsRejected) {
 
 double gainDbAt(double frequencyHz) {
     HighPass filter;
-    std::vector<float> wave(8000);
-    for (std::size_t i = 0; i < wave.size(); ++i) {
-        wave[i] = static_cast<float>(
-            std::sin(2.0 * std::numbers::pi * frequencyHz * static_cast<double>(i) / waveformRateHz));
-    }
+    std::vector<float> wave = haptoflow::testing::sinusoid(8000, frequencyHz);
+    const double before = haptoflow::testing::levelDecibels(std::span(wave).last(4000));
     filter.process(wave);
-    double squares = 0.0;
-    for (std::size_t i = 4000; i < wave.size(); ++i) {
-        squares += static_cast<double>(wave[i]) * static_cast<double>(wave[i]);
-    }
-    return 10.0 * std::log10(squares / 2000.0);
+    return haptoflow::testing::levelDecibels(std::span(wave).last(4000)) - before;
 }
 
 TEST(HighPassTest, TheRecordingsBandIsKeptAndWhatLiesBelowIsRemoved) {

@@ -6,16 +6,19 @@
 #include <complex>
 #include <limits>
 #include <numbers>
+#include <span>
+#include <vector>
 
+#include "support/wave_measures.hpp"
 #include "test_signals.hpp"
 
 namespace haptoflow::dsp {
 namespace {
 
+using haptoflow::testing::levelDecibels;
+using haptoflow::testing::sinusoid;
 using testing::decibels;
 using testing::lineSpectrum;
-using testing::rootMeanSquare;
-using testing::tone;
 using testing::Uniform;
 using testing::whiteNoise;
 using testing::wholeHertzNoise;
@@ -56,24 +59,6 @@ TEST(RateWarpTest, AtRatioOneTheOutputEqualsTheInputWithoutDelay) {
     EXPECT_EQ(player.position, output.size()) << "no sample is read ahead";
 }
 
-TEST(RateWarpTest, WhenTheRatioLeavesOneNoSampleIsRepeatedOrSkipped) {
-    // With a straight line as input, the output must equal the read position within the kernel's ripple.
-    Player player{};
-    for (int i = 0; i < 4000; ++i) {
-        player.waveform.push_back(static_cast<float>(i));
-    }
-    (void)player.play(100);
-    for (const double ratio : {1.001, 1.0, 4.0, 1.0, 1.3, 1.0}) {
-        player.warp.setTargetRatio(ratio);
-        for (int i = 0; i < 200; ++i) {
-            const double position = player.warp.readPosition();
-            ASSERT_NEAR(player.play(1).front(), position, 0.01 * std::max(1.0, position)) << "on the way to " << ratio;
-        }
-    }
-    ASSERT_TRUE(player.warp.isTransparent());
-    EXPECT_DOUBLE_EQ(player.warp.readPosition(), static_cast<double>(player.position)) << "the delay is 0 again";
-}
-
 TEST(RateWarpTest, APrimedWarpContinuesAsIfItHadPlayedThePast) {
     const std::vector<float> waveform = whiteNoise(2000, 1.0, 81);
     Player played{.waveform = waveform};
@@ -93,7 +78,7 @@ TEST(RateWarpTest, ATonesFrequencyIsMultipliedByTheRatioAndItsAmplitudeIsKept) {
     for (const double ratio : {1.2, 1.5, 2.0, 2.5, 3.3, 4.0}) {
         for (const std::size_t outputHz : {30U, 200U, 400U, 600U}) {
             const double inputHz = static_cast<double>(outputHz) / ratio;
-            Player player{.waveform = tone(20000, inputHz, 1.0, rateHz)};
+            Player player{.waveform = sinusoid(20000, inputHz)};
             settle(player, ratio);
             const auto lines = lineSpectrum(player.play(2000), 0, 2000);
             EXPECT_NEAR(decibels(std::abs(lines[outputHz])), 0.0, 0.1) << inputHz << " Hz at ratio " << ratio;
@@ -112,18 +97,18 @@ TEST(RateWarpTest, FrequenciesThatWouldAliasAreRemoved) {
         Player player{.waveform = wholeHertzNoise(10, static_cast<int>(lowestHz) + 1, 999, 2000, 74)};
         settle(player, ratio);
         const std::vector<float> output = player.play(2000);
-        const double passed = rootMeanSquare(player.waveform, 0, 2000);
-        EXPECT_LT(decibels(rootMeanSquare(output, 0, output.size()) / passed), -60.0) << "ratio " << ratio;
+        const double inputDb = levelDecibels(std::span(player.waveform).first(2000));
+        EXPECT_LT(levelDecibels(output) - inputDb, -60.0) << "ratio " << ratio;
     }
 }
 
 TEST(RateWarpTest, EveryOutputIsTheWaveformAtASmoothlyMovingReadPosition) {
     constexpr double frequency = 100.0;
-    Player player{.waveform = tone(40000, frequency, 1.0, rateHz)};
+    Player player{.waveform = sinusoid(40000, frequency)};
     (void)player.play(50);
     double position = player.warp.readPosition();
     double step = 1.0;
-    for (const double ratio : {4.0, 1.0, 1.004, 1.0, 2.2, 1.0}) {
+    for (const double ratio : {4.0, 1.0, 1.001, 1.0, 2.2, 1.0}) {
         player.warp.setTargetRatio(ratio);
         for (int i = 0; i < 400; ++i) {
             const float output = player.play(1).front();
@@ -140,6 +125,7 @@ TEST(RateWarpTest, EveryOutputIsTheWaveformAtASmoothlyMovingReadPosition) {
         EXPECT_NEAR(step, ratio, 1e-6);
     }
     EXPECT_TRUE(player.warp.isTransparent());
+    EXPECT_DOUBLE_EQ(position, static_cast<double>(player.position)) << "the delay is 0 again";
 }
 
 TEST(RateWarpTest, TheBlockLengthsDoNotChangeTheOutput) {

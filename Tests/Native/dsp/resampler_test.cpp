@@ -120,33 +120,17 @@ std::complex<double> kernelPhase(double frequencyHz) {
     return sum / std::abs(sum);
 }
 
-class ResamplerSpectrumTest : public ::testing::TestWithParam<std::size_t> {};
-
-TEST_P(ResamplerSpectrumTest, PassbandIsFlatWithinATenthOfADecibelAndImagesLieBelowMinus80Decibels) {
-    const std::size_t rate = GetParam();
-    const std::vector<float> input = wholeHertzNoise(3, 1, 999, inputRateHz, 11);
-    const auto lines = lineSpectrum(resample(input, static_cast<double>(rate), 2 * rate), rate, rate);
-
-    double lowest = 1e9;
-    double highest = 0.0;
-    for (std::size_t k = 1; k <= 900; ++k) {
-        lowest = std::min(lowest, std::abs(lines[k]));
-        highest = std::max(highest, std::abs(lines[k]));
-    }
-    double image = 0.0;
-    for (std::size_t k = 1100; k < lines.size(); ++k) {
-        image = std::max(image, std::abs(lines[k]));
-    }
-    RecordProperty("ripple_db", std::to_string(decibels(highest / lowest)));
-    RecordProperty("image_db", std::to_string(decibels(image)));
-    EXPECT_GT(decibels(lowest), -0.05);
-    EXPECT_LT(decibels(highest), 0.05);
-    EXPECT_LT(decibels(image), -80.0);
+double largestImage(const std::vector<std::complex<double>>& lines) {
+    const auto largest = std::max_element(lines.begin() + 1100, lines.end(),
+                                          [](const auto& a, const auto& b) { return std::abs(a) < std::abs(b); });
+    return std::abs(*largest);
 }
 
-TEST_P(ResamplerSpectrumTest, EveryLineIsThatOfTheInputToMinus80DecibelsAfterPhaseCorrection) {
+class ResamplerSpectrumTest : public ::testing::TestWithParam<std::size_t> {};
+
+TEST_P(ResamplerSpectrumTest, EveryLineIsThatOfTheInputAndImagesLieBelowMinus80DecibelsAfterPhaseCorrection) {
     const std::size_t rate = GetParam();
-    const std::vector<float> input = wholeHertzNoise(5, 1, 900, inputRateHz, 12);
+    const std::vector<float> input = wholeHertzNoise(5, 1, 999, inputRateHz, 12);
     const auto ours = lineSpectrum(resample(input, static_cast<double>(rate), 3 * rate), 2 * rate, rate);
     // A perfect resampler keeps the lines of noise with a period of one second.
     const auto reference = lineSpectrum(input, 2 * inputRateHz, inputRateHz);
@@ -154,9 +138,10 @@ TEST_P(ResamplerSpectrumTest, EveryLineIsThatOfTheInputToMinus80DecibelsAfterPha
     double worst = 0.0;
     for (std::size_t k = 1; k <= 900; ++k) {
         worst = std::max(worst, std::abs(ours[k] - reference[k] * kernelPhase(static_cast<double>(k))));
+        EXPECT_NEAR(decibels(std::abs(ours[k])), 0.0, 0.05) << k << " Hz";
     }
-    RecordProperty("worst_db", std::to_string(decibels(worst)));
     EXPECT_LT(decibels(worst), -80.0);
+    EXPECT_LT(decibels(largestImage(ours)), -80.0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Rates, ResamplerSpectrumTest,
@@ -167,11 +152,7 @@ TEST(ResamplerSpectrumTest, ImagesStayBelowMinus80DecibelsAtARateWithMorePhasesT
     constexpr std::size_t rate = 35721;  // shares no factor with 2,000: 35,721 distinct phases
     const std::vector<float> input = wholeHertzNoise(3, 1, 999, inputRateHz, 13);
     const auto lines = lineSpectrum(resample(input, rate, 2 * rate), rate, rate);
-    double image = 0.0;
-    for (std::size_t k = 1100; k < lines.size(); ++k) {
-        image = std::max(image, std::abs(lines[k]));
-    }
-    EXPECT_LT(decibels(image), -80.0);
+    EXPECT_LT(decibels(largestImage(lines)), -80.0);
     for (std::size_t k = 1; k <= 900; ++k) {
         ASSERT_NEAR(decibels(std::abs(lines[k])), 0.0, 0.05) << k << " Hz";
     }

@@ -17,15 +17,6 @@ std::vector<float> whiteNoise(std::size_t count, double amplitude, std::uint32_t
     return samples;
 }
 
-std::vector<float> tone(std::size_t count, double frequencyHz, double amplitude, double sampleRateHz) {
-    std::vector<float> samples(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        const double cycles = frequencyHz * static_cast<double>(i) / sampleRateHz;
-        samples[i] = static_cast<float>(amplitude * std::sin(2.0 * std::numbers::pi * cycles));
-    }
-    return samples;
-}
-
 std::vector<float> wholeHertzNoise(std::size_t seconds, int lowestHz, int highestHz, std::size_t sampleRateHz,
                                    std::uint32_t seed) {
     Uniform uniform(seed);
@@ -61,14 +52,6 @@ std::vector<std::complex<double>> lineSpectrum(const std::vector<float>& samples
 
 double decibels(double amplitudeRatio) {
     return 20.0 * std::log10(amplitudeRatio);
-}
-
-double rootMeanSquare(const std::vector<float>& samples, std::size_t first, std::size_t count) {
-    double sum = 0.0;
-    for (std::size_t i = first; i < first + count; ++i) {
-        sum += static_cast<double>(samples.at(i)) * static_cast<double>(samples.at(i));
-    }
-    return std::sqrt(sum / static_cast<double>(count));
 }
 
 }  // namespace haptoflow::dsp::testing

@@ -25,9 +25,6 @@ private:
 /// White noise, uniform in +-amplitude.
 std::vector<float> whiteNoise(std::size_t count, double amplitude, std::uint32_t seed);
 
-/// amplitude sin(2 pi frequency n / rate).
-std::vector<float> tone(std::size_t count, double frequencyHz, double amplitude, double sampleRateHz);
-
 /// Noise with a period of one second: a unit sinusoid with random phase at every whole hertz from `lowestHz` to
 /// `highestHz`. The spectrum of one period is exact without a window.
 std::vector<float> wholeHertzNoise(std::size_t seconds, int lowestHz, int highestHz, std::size_t sampleRateHz,
@@ -38,6 +35,5 @@ std::vector<float> wholeHertzNoise(std::size_t seconds, int lowestHz, int highes
 std::vector<std::complex<double>> lineSpectrum(const std::vector<float>& samples, std::size_t first, std::size_t count);
 
 double decibels(double amplitudeRatio);
-double rootMeanSquare(const std::vector<float>& samples, std::size_t first, std::size_t count);
 
 }  // namespace haptoflow::dsp::testing

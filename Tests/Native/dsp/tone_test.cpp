@@ -1,6 +1,7 @@
 #include "dsp/fourier_transform.hpp"
 
 #include "dsp/tone_filter.hpp"
+#include "support/wave_measures.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,43 +17,24 @@
 namespace haptoflow::dsp {
 namespace {
 
-constexpr double waveHz = 2000.0;
-
-double responseDb(const ToneKernel& kernel, double frequencyHz) {
-    std::complex<double> sum = 0.0;
-    for (std::size_t tap = 0; tap < kernel.size(); ++tap) {
-        sum += static_cast<double>(kernel[tap]) *
-               std::polar(1.0, -2.0 * std::numbers::pi * frequencyHz * static_cast<double>(tap) / waveHz);
-    }
-    return 20.0 * std::log10(std::abs(sum));
-}
+using haptoflow::testing::gainDecibels;
+using haptoflow::testing::sinusoid;
 
 /// Gain that rises from -8 dB at 50 Hz to 8 dB at 800 Hz, linearly over the logarithm of frequency.
 double rising(double frequencyHz) {
     return -8.0 + 16.0 * std::log(std::clamp(frequencyHz, 50.0, 800.0) / 50.0) / std::log(16.0);
 }
 
-std::vector<float> tone(double frequencyHz, std::size_t count) {
-    std::vector<float> samples(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        samples[i] =
-            static_cast<float>(std::sin(2.0 * std::numbers::pi * frequencyHz * static_cast<double>(i) / waveHz));
-    }
-    return samples;
-}
-
-std::array<float, ToneFilter::memorySamples> silence() {
-    return {};
-}
+constexpr std::array<float, ToneFilter::memorySamples> silence{};
+const ToneKernel kernel = toneKernel(toneCepstrum(rising));
 
 TEST(ToneCepstrumTest, AGainOfZeroDecibelsGivesTheUnitImpulse) {
-    const ToneKernel kernel = toneKernel(toneCepstrum([](double) { return 0.0; }));
-    EXPECT_NEAR(kernel[0], 1.0F, 1e-6F);
-    EXPECT_TRUE(std::all_of(kernel.begin() + 1, kernel.end(), [](float tap) { return std::abs(tap) < 1e-6F; }));
+    const ToneKernel flat = toneKernel(toneCepstrum([](double) { return 0.0; }));
+    EXPECT_NEAR(flat[0], 1.0F, 1e-6F);
+    EXPECT_TRUE(std::all_of(flat.begin() + 1, flat.end(), [](float tap) { return std::abs(tap) < 1e-6F; }));
 }
 
 TEST(ToneCepstrumTest, TheKernelIsMinimumPhase) {
-    const ToneKernel kernel = toneKernel(toneCepstrum(rising));
     // Of all filters with one magnitude, the minimum-phase filter has the largest first tap. Its logarithm is the mean
     // of the logarithmic gain over frequency.
     double mean = 0.0;
@@ -67,44 +49,39 @@ TEST(ToneCepstrumTest, AddingCepstraAddsGainsInDecibels) {
     const ToneCepstrum second = toneCepstrum([](double frequencyHz) { return frequencyHz < 200.0 ? 3.0 : -2.0; });
     ToneCepstrum sum{};
     std::ranges::transform(first, second, sum.begin(), [](double a, double b) { return a + 0.5 * b; });
-    const ToneKernel kernel = toneKernel(sum);
-    EXPECT_NEAR(responseDb(kernel, 100.0), rising(100.0) + 1.5, 0.5);
-    EXPECT_NEAR(responseDb(kernel, 600.0), rising(600.0) - 1.0, 0.5);
+    EXPECT_NEAR(gainDecibels(toneKernel(sum), 100.0), rising(100.0) + 1.5, 0.5);
+    EXPECT_NEAR(gainDecibels(toneKernel(sum), 600.0), rising(600.0) - 1.0, 0.5);
 }
 
 TEST(ToneFilterTest, WithoutAToneTheFilterIsInactiveAndChangesNothing) {
     ToneFilter filter;
-    std::vector<float> samples = tone(100.0, 500);
+    std::vector<float> samples = sinusoid(500, 100.0);
     const std::vector<float> before = samples;
     filter.reset(nullptr);
-    filter.setTone(nullptr, silence());
+    filter.setTone(nullptr, silence);
     filter.process(samples);
     EXPECT_EQ(samples, before);
     EXPECT_FALSE(filter.isActive());
 }
 
 TEST(ToneFilterTest, ASinusoidGetsTheTonesGainAtItsFrequency) {
-    const ToneKernel kernel = toneKernel(toneCepstrum(rising));
     for (const double frequencyHz : {60.0, 150.0, 400.0, 800.0}) {
         ToneFilter filter;
         filter.reset(&kernel);
-        std::vector<float> samples = tone(frequencyHz, 2000);
+        std::vector<float> samples = sinusoid(2000, frequencyHz);
         filter.process(samples);
-        double squares = 0.0;
-        for (std::size_t i = 1000; i < 2000; ++i) {
-            squares += static_cast<double>(samples[i]) * static_cast<double>(samples[i]);
-        }
-        EXPECT_NEAR(10.0 * std::log10(squares / 500.0), rising(frequencyHz), 0.4) << frequencyHz;
+        // A sinusoid of amplitude 1 has -3 dB.
+        const double levelDb = haptoflow::testing::levelDecibels(std::span(samples).last(1000));
+        EXPECT_NEAR(levelDb + 10.0 * std::log10(2.0), rising(frequencyHz), 0.4) << frequencyHz;
     }
 }
 
 TEST(ToneFilterTest, TheBlockLengthsDoNotChangeTheFilteredSignal) {
-    const ToneKernel kernel = toneKernel(toneCepstrum(rising));
     ToneFilter whole;
     ToneFilter parts;
     whole.reset(&kernel);
     parts.reset(&kernel);
-    std::vector<float> expected = tone(130.0, 400);
+    std::vector<float> expected = sinusoid(400, 130.0);
     std::vector<float> found = expected;
     whole.process(expected);
     for (std::size_t first = 0, length = 1; first < found.size(); first += length, length = length % 7 + 1) {
@@ -114,12 +91,11 @@ TEST(ToneFilterTest, TheBlockLengthsDoNotChangeTheFilteredSignal) {
 }
 
 TEST(ToneFilterTest, AToneThatIsSwitchedOffFadesAndTheFilterBecomesInactive) {
-    const ToneKernel kernel = toneKernel(toneCepstrum(rising));
     ToneFilter filter;
     filter.reset(&kernel);
-    std::vector<float> samples = tone(100.0, 200);
+    std::vector<float> samples = sinusoid(200, 100.0);
     filter.process(samples);
-    filter.setTone(nullptr, silence());
+    filter.setTone(nullptr, silence);
     EXPECT_TRUE(filter.isActive());
     std::vector<float> rest(ToneFilter::fadeSamples + 1, 1.0F);
     filter.process(rest);
@@ -128,10 +104,9 @@ TEST(ToneFilterTest, AToneThatIsSwitchedOffFadesAndTheFilterBecomesInactive) {
 }
 
 TEST(ToneFilterTest, AToneThatIsSwitchedOnContinuesFromThePlayedSamples) {
-    const ToneKernel kernel = toneKernel(toneCepstrum(rising));
     ToneFilter always;
     always.reset(&kernel);
-    std::vector<float> expected = tone(100.0, 400);
+    std::vector<float> expected = sinusoid(400, 100.0);
     const std::vector<float> input = expected;
     always.process(expected);
     ToneFilter later;

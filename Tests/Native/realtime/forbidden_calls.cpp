@@ -13,9 +13,9 @@
 
 #include <array>
 #include <atomic>
+#include <cerrno>
 #include <csignal>
 #include <cstddef>
-#include <cstdlib>
 
 // glibc's internal names of its allocator. The interposed functions call them directly, because looking up the
 // originals with the loader would allocate.
@@ -41,9 +41,12 @@ void note(const char* name) noexcept {
     }
 }
 
-template <typename Function>
-Function next(const char* name) noexcept {
-    return reinterpret_cast<Function>(dlsym(RTLD_NEXT, name));
+/// Notes a call and forwards it to the C library's function of this name, which `Own` stands before.
+template <auto Own, typename... Arguments>
+int forward(const char* name, Arguments... arguments) {
+    note(name);
+    static const auto original = reinterpret_cast<int (*)(Arguments...)>(dlsym(RTLD_NEXT, name));
+    return original(arguments...);
 }
 
 }  // namespace
@@ -66,7 +69,7 @@ const char* lastForbiddenCall() noexcept {
 
 }  // namespace haptoflow::realtime
 
-using haptoflow::realtime::next;
+using haptoflow::realtime::forward;
 using haptoflow::realtime::note;
 
 extern "C" {
@@ -108,69 +111,47 @@ void* memalign(std::size_t alignment, std::size_t size) {
 }
 
 int pthread_mutex_lock(pthread_mutex_t* mutex) noexcept {
-    note("pthread_mutex_lock");
-    static const auto original = next<int (*)(pthread_mutex_t*)>("pthread_mutex_lock");
-    return original(mutex);
+    return forward<pthread_mutex_lock>("pthread_mutex_lock", mutex);
 }
 
 int pthread_mutex_trylock(pthread_mutex_t* mutex) noexcept {
-    note("pthread_mutex_trylock");
-    static const auto original = next<int (*)(pthread_mutex_t*)>("pthread_mutex_trylock");
-    return original(mutex);
+    return forward<pthread_mutex_trylock>("pthread_mutex_trylock", mutex);
 }
 
 int pthread_rwlock_rdlock(pthread_rwlock_t* lock) noexcept {
-    note("pthread_rwlock_rdlock");
-    static const auto original = next<int (*)(pthread_rwlock_t*)>("pthread_rwlock_rdlock");
-    return original(lock);
+    return forward<pthread_rwlock_rdlock>("pthread_rwlock_rdlock", lock);
 }
 
 int pthread_rwlock_wrlock(pthread_rwlock_t* lock) noexcept {
-    note("pthread_rwlock_wrlock");
-    static const auto original = next<int (*)(pthread_rwlock_t*)>("pthread_rwlock_wrlock");
-    return original(lock);
+    return forward<pthread_rwlock_wrlock>("pthread_rwlock_wrlock", lock);
 }
 
 int pthread_once(pthread_once_t* control, void (*routine)()) {
-    note("pthread_once");
-    static const auto original = next<int (*)(pthread_once_t*, void (*)())>("pthread_once");
-    return original(control, routine);
+    return forward<pthread_once>("pthread_once", control, routine);
 }
 
 int pthread_cond_wait(pthread_cond_t* condition, pthread_mutex_t* mutex) {
-    note("pthread_cond_wait");
-    static const auto original = next<int (*)(pthread_cond_t*, pthread_mutex_t*)>("pthread_cond_wait");
-    return original(condition, mutex);
+    return forward<pthread_cond_wait>("pthread_cond_wait", condition, mutex);
 }
 
 int pthread_cond_broadcast(pthread_cond_t* condition) noexcept {
-    note("pthread_cond_broadcast");
-    static const auto original = next<int (*)(pthread_cond_t*)>("pthread_cond_broadcast");
-    return original(condition);
+    return forward<pthread_cond_broadcast>("pthread_cond_broadcast", condition);
 }
 
 int pthread_cond_signal(pthread_cond_t* condition) noexcept {
-    note("pthread_cond_signal");
-    static const auto original = next<int (*)(pthread_cond_t*)>("pthread_cond_signal");
-    return original(condition);
+    return forward<pthread_cond_signal>("pthread_cond_signal", condition);
 }
 
 int sem_post(sem_t* semaphore) noexcept {
-    note("sem_post");
-    static const auto original = next<int (*)(sem_t*)>("sem_post");
-    return original(semaphore);
+    return forward<sem_post>("sem_post", semaphore);
 }
 
 int sem_wait(sem_t* semaphore) {
-    note("sem_wait");
-    static const auto original = next<int (*)(sem_t*)>("sem_wait");
-    return original(semaphore);
+    return forward<sem_wait>("sem_wait", semaphore);
 }
 
 int sem_trywait(sem_t* semaphore) noexcept {
-    note("sem_trywait");
-    static const auto original = next<int (*)(sem_t*)>("sem_trywait");
-    return original(semaphore);
+    return forward<sem_trywait>("sem_trywait", semaphore);
 }
 
 }  // extern "C"

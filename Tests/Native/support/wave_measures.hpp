@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <cstddef>
 #include <numbers>
 #include <span>
+#include <vector>
 
 namespace haptoflow::testing {
 
@@ -32,13 +35,47 @@ inline float largestStep(std::span<const float> samples) {
     return samples.empty() ? 0.0F : largestStepFrom(samples.front(), samples);
 }
 
-/// Mean square in decibels.
-inline double levelDecibels(std::span<const float> samples) {
+inline double sumOfSquares(std::span<const float> samples) {
     double squares = 0.0;
     for (const float sample : samples) {
         squares += static_cast<double>(sample) * static_cast<double>(sample);
     }
-    return 10.0 * std::log10(squares / static_cast<double>(samples.size()));
+    return squares;
+}
+
+/// Mean square in decibels.
+inline double levelDecibels(std::span<const float> samples) {
+    return 10.0 * std::log10(sumOfSquares(samples) / static_cast<double>(samples.size()));
+}
+
+/// The normalised product of two waves of one length; no mean is taken off.
+inline double correlation(std::span<const float> left, std::span<const float> right) {
+    double product = 0.0;
+    for (std::size_t i = 0; i < left.size(); ++i) {
+        product += static_cast<double>(left[i]) * static_cast<double>(right[i]);
+    }
+    return product / std::sqrt(sumOfSquares(left) * sumOfSquares(right));
+}
+
+/// A sinusoid of amplitude 1.
+inline std::vector<float> sinusoid(std::size_t count, double frequencyHz, double rateHz = 2000.0) {
+    std::vector<float> samples(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        samples[i] =
+            static_cast<float>(std::sin(2.0 * std::numbers::pi * frequencyHz * static_cast<double>(i) / rateHz));
+    }
+    return samples;
+}
+
+/// Gain in decibels of a filter with these taps at 2 kHz.
+template <typename Taps>
+double gainDecibels(const Taps& taps, double frequencyHz) {
+    std::complex<double> sum = 0.0;
+    for (std::size_t tap = 0; tap < taps.size(); ++tap) {
+        sum += static_cast<double>(taps[tap]) *
+               std::polar(1.0, -2.0 * std::numbers::pi * frequencyHz * static_cast<double>(tap) / 2000.0);
+    }
+    return 20.0 * std::log10(std::abs(sum));
 }
 
 /// The largest possible step between neighbouring samples of a voice's wave with magnitude 1. Segments, splices and
