@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <cstddef>
 #include <numbers>
 #include <span>
+#include <vector>
 
 namespace haptoflow::testing {
 
@@ -39,6 +42,30 @@ inline double levelDecibels(std::span<const float> samples) {
         squares += static_cast<double>(sample) * static_cast<double>(sample);
     }
     return 10.0 * std::log10(squares / static_cast<double>(samples.size()));
+}
+
+inline double rms(std::span<const float> samples) {
+    return std::pow(10.0, levelDecibels(samples) / 20.0);
+}
+
+/// amplitude sin(2 pi frequency t).
+inline std::vector<float> sine(double frequencyHz, double amplitude, double seconds, double rateHz) {
+    std::vector<float> wave(static_cast<std::size_t>(seconds * rateHz));
+    for (std::size_t i = 0; i < wave.size(); ++i) {
+        const double cycles = frequencyHz * static_cast<double>(i) / rateHz;
+        wave[i] = static_cast<float>(amplitude * std::sin(2.0 * std::numbers::pi * cycles));
+    }
+    return wave;
+}
+
+/// The amplitude at a frequency, of which the samples hold a whole number of periods.
+inline double amplitudeAt(std::span<const float> samples, double frequencyHz, double rateHz) {
+    std::complex<double> sum = 0.0;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        const double cycles = frequencyHz * static_cast<double>(i) / rateHz;
+        sum += static_cast<double>(samples[i]) * std::polar(1.0, -2.0 * std::numbers::pi * cycles);
+    }
+    return 2.0 * std::abs(sum) / static_cast<double>(samples.size());
 }
 
 /// The largest possible step between neighbouring samples of a voice's wave with magnitude 1. Segments, splices and
