@@ -35,9 +35,10 @@ ReadClip roundTrip(const HapticClip& clip, ClipFormat format) {
     return readClip(writeClip(clip, {.format = format, .date = "2026-01-02"}).text);
 }
 
-class EveryFormat : public testing::TestWithParam<ClipFormat> {};
+class EveryFormat : public ::testing::TestWithParam<ClipFormat> {};
 
-INSTANTIATE_TEST_SUITE_P(Formats, EveryFormat, testing::Values(ClipFormat::haptic, ClipFormat::ahap, ClipFormat::hjif),
+INSTANTIATE_TEST_SUITE_P(Formats, EveryFormat,
+                         ::testing::Values(ClipFormat::haptic, ClipFormat::ahap, ClipFormat::hjif),
                          [](const auto& each) { return std::string(endingOf(each.param)); });
 
 TEST_P(EveryFormat, ReadsBackWhatItWrote) {

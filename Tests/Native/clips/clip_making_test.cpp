@@ -12,13 +12,7 @@
 namespace haptoflow::clips {
 namespace {
 
-double rmsOf(std::span<const float> wave) {
-    double energy = 0.0;
-    for (const float sample : wave) {
-        energy += static_cast<double>(sample) * static_cast<double>(sample);
-    }
-    return std::sqrt(energy / static_cast<double>(wave.size()));
-}
+using haptoflow::testing::rms;
 
 double shareOf(double amplitudeMps2) {
     return static_cast<double>(
@@ -68,7 +62,7 @@ TEST(ClipMakingTest, WhatAClipPlaysIsAsStrongAsTheWave) {
     const std::vector<float> played = waveOf(clipOf(wave), testRateHz);
     ASSERT_EQ(played.size(), wave.size());
     const auto half = std::span(wave).subspan(400, 3000);
-    EXPECT_NEAR(20.0 * std::log10(rmsOf(std::span(played).subspan(400, 3000)) / rmsOf(half)), 0.0, 0.5);
+    EXPECT_NEAR(20.0 * std::log10(rms(std::span(played).subspan(400, 3000)) / rms(half)), 0.0, 0.5);
 }
 
 TEST(ClipMakingTest, ALoopedWaveGivesAClipThatGoesOnAtItsBeginning) {
@@ -119,8 +113,8 @@ TEST(LoopTest, TheCrossfadeKeepsTheLevelWhateverTheCorrelation) {
         double rest = 0.0;
         for (unsigned seed = 1; seed <= 200; ++seed) {
             const std::vector<float> loop = loopOf(make(seed), 4000, 4400, 200);
-            crossfade += std::pow(rmsOf(std::span(loop).first(200)), 2.0);
-            rest += std::pow(rmsOf(std::span(loop).subspan(1000, 2000)), 2.0);
+            crossfade += std::pow(rms(std::span(loop).first(200)), 2.0);
+            rest += std::pow(rms(std::span(loop).subspan(1000, 2000)), 2.0);
         }
         return 10.0 * std::log10(crossfade / rest);
     };

@@ -1,7 +1,9 @@
 #pragma once
 
 #include "clips/haptic_clip.hpp"
+#include "support/wave_measures.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -13,21 +15,14 @@ namespace haptoflow::clips {
 inline constexpr double testRateHz = 2000.0;
 
 inline std::vector<float> sine(double frequencyHz, double amplitude, double seconds) {
-    std::vector<float> wave(static_cast<std::size_t>(seconds * testRateHz));
-    for (std::size_t i = 0; i < wave.size(); ++i) {
-        wave[i] = static_cast<float>(
-            amplitude * std::sin(2.0 * std::numbers::pi * frequencyHz * static_cast<double>(i) / testRateHz));
-    }
-    return wave;
+    return haptoflow::testing::sine(frequencyHz, amplitude, seconds, testRateHz);
 }
 
 inline std::vector<float> noise(double amplitude, double seconds, unsigned seed = 1) {
     std::mt19937 engine(seed);
     std::normal_distribution<float> normal(0.0F, static_cast<float>(amplitude));
     std::vector<float> wave(static_cast<std::size_t>(seconds * testRateHz));
-    for (float& sample : wave) {
-        sample = normal(engine);
-    }
+    std::ranges::generate(wave, [&] { return normal(engine); });
     return wave;
 }
 

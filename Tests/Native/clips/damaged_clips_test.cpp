@@ -2,6 +2,7 @@
 #include "clips/clip_making.hpp"
 #include "clips/clip_signals.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,6 +11,8 @@
 
 namespace haptoflow::clips {
 namespace {
+
+using ::testing::HasSubstr;
 
 std::string messageOf(const std::string& text) {
     try {
@@ -31,16 +34,15 @@ struct Refusal {
     std::string says;
 };
 
-class DamagedClip : public testing::TestWithParam<Refusal> {};
+class DamagedClip : public ::testing::TestWithParam<Refusal> {};
 
 TEST_P(DamagedClip, IsRefusedWithASentenceThatNamesThePlace) {
-    const std::string message = messageOf(GetParam().text);
-    EXPECT_NE(message.find(GetParam().says), std::string::npos) << message;
+    EXPECT_THAT(messageOf(GetParam().text), HasSubstr(GetParam().says));
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Refusals, DamagedClip,
-    testing::Values(
+    ::testing::Values(
         Refusal{"NoJson", "RIFF", "not valid JSON"}, Refusal{"NoClip", "{}", "none of the keys"},
         Refusal{"NoObject", "[1]", "none of the keys"},
         Refusal{"NewerVersion", R"({"version":{"major":2},"signals":{}})", "\"version.major\": expected 1"},
@@ -84,35 +86,39 @@ TEST(CrowdedClip, IsRefusedBeforeItTakesLong) {
     const std::string curve =
         R"({"ParameterCurve":{"ParameterID":"HapticIntensityControl","Time":0,"ParameterCurveControlPoints":[
         {"Time":0,"ParameterValue":0},{"Time":600,"ParameterValue":1}]}})";
-    EXPECT_NE(messageOf(R"({"Pattern":[)" + curve + ',' + repeated(longEvent, 20) + "]}").find("too many events"),
-              std::string::npos);
+    EXPECT_THAT(messageOf(R"({"Pattern":[)" + curve + ',' + repeated(longEvent, 20) + "]}"),
+                HasSubstr("too many events"));
     const std::string tap = R"({"Event":{"EventType":"HapticTransient","Time":1}})";
-    EXPECT_NE(messageOf(R"({"Pattern":[)" + repeated(tap, 30'000) + "]}").find("more than 20000 transients"),
-              std::string::npos);
+    EXPECT_THAT(messageOf(R"({"Pattern":[)" + repeated(tap, 30'000) + "]}"), HasSubstr("more than 20000 transients"));
     std::string effects;
     for (int i = 0; i < 8'000; ++i) {
         effects += (i > 0 ? "," : "") + (R"({"effect_type":"Basis","position":)" + std::to_string(i)) +
                    R"(,"keyframes":[{"relative_position":0,"amplitude_modulation":1},{"relative_position":30000,)"
                    R"("amplitude_modulation":0}]})";
     }
-    EXPECT_NE(
+    EXPECT_THAT(
         messageOf(R"({"perceptions":[{"perception_modality":"Vibrotactile","effect_library":[],"channels":[{"gain":1,)"
                   R"("bands":[{"band_type":"VectorialWave","effects":[)" +
-                  effects + "]}]}]}]}")
-            .find("at the same time"),
-        std::string::npos);
+                  effects + "]}]}]}]}"),
+        HasSubstr("at the same time"));
 }
 
-class EveryDamagedFormat : public testing::TestWithParam<ClipFormat> {};
+class EveryDamagedFormat : public ::testing::TestWithParam<ClipFormat> {
+protected:
+    EveryDamagedFormat() {
+        std::vector<float> wave = noise(2.0, 0.2);
+        addTap(wave, 0.1, 40.0);
+        text = writeClip(clipOf(wave), {.format = GetParam()}).text;
+    }
+
+    std::string text;
+};
 
 INSTANTIATE_TEST_SUITE_P(Formats, EveryDamagedFormat,
-                         testing::Values(ClipFormat::haptic, ClipFormat::ahap, ClipFormat::hjif),
+                         ::testing::Values(ClipFormat::haptic, ClipFormat::ahap, ClipFormat::hjif),
                          [](const auto& each) { return std::string(endingOf(each.param)); });
 
 TEST_P(EveryDamagedFormat, CutAnywhereItIsRefused) {
-    std::vector<float> wave = noise(2.0, 0.2);
-    addTap(wave, 0.1, 40.0);
-    const std::string text = writeClip(clipOf(wave), {.format = GetParam()}).text;
     // The last two letters are the closing brace and the line feed.
     for (std::size_t length = 0; length + 2 < text.size(); length += 1 + length / 40) {
         EXPECT_FALSE(messageOf(text.substr(0, length)).empty()) << length;
@@ -120,9 +126,6 @@ TEST_P(EveryDamagedFormat, CutAnywhereItIsRefused) {
 }
 
 TEST_P(EveryDamagedFormat, WithAnyLettersExchangedItIsReadToAClipWithinItsBoundsOrRefused) {
-    std::vector<float> wave = noise(2.0, 0.2);
-    addTap(wave, 0.1, 40.0);
-    const std::string text = writeClip(clipOf(wave), {.format = GetParam()}).text;
     std::mt19937 engine(11);
     std::size_t read = 0;
     for (int round = 0; round < 4000; ++round) {

@@ -150,13 +150,11 @@ TEST(NoiseRemoval, WithoutRestTheNoiseIsFoundInTheQuietPart) {
 }
 
 TEST(NoiseRemoval, ARecordingOfNothingButHissIsRefused) {
-    {
-        const std::vector<double> speedsMps = staircase(speeds, 2.0);
-        NoisyTexture texture(
-            speedsMps, [](double) { return 0.0; }, hiss(speedsMps.size(), noiseMps2, 0.9, 8));
-        EXPECT_THAT([&] { (void)remove(texture); }, ::testing::ThrowsMessage<RecordingUnusable>(HasSubstr(
-                                                        "no stronger where the tip slides than where it rests (0.0")));
-    }
+    const std::vector<double> speedsMps = staircase(speeds, 2.0);
+    NoisyTexture texture(
+        speedsMps, [](double) { return 0.0; }, hiss(speedsMps.size(), noiseMps2, 0.9, 8));
+    EXPECT_THAT([&] { (void)remove(texture); }, ::testing::ThrowsMessage<RecordingUnusable>(HasSubstr(
+                                                    "no stronger where the tip slides than where it rests (0.0")));
 }
 
 TEST(NoiseRemoval, AttacksKeepTheirPeakAndTheirTime) {
@@ -235,17 +233,6 @@ TEST(ShortTimeSpectrumTest, WhatIsNotScaledComesBack) {
             EXPECT_NEAR(back[i], wave[i], 1e-6F);
         }
     }
-}
-
-TEST(ShortTimeSpectrumTest, TheMeanSquareIsThatOfTheWave) {
-    const std::vector<double> noise = hiss(20'000, noiseMps2, 0.5, 14);
-    const std::vector<float> wave(noise.begin(), noise.end());
-    const SpectrumCells power = ShortTimeSpectrum(wave).power();
-    std::vector<double> mean(ShortTimeSpectrum::bins);
-    for (std::size_t cell = 0; cell < power.size(); ++cell) {
-        mean[cell % mean.size()] += power[cell] * static_cast<double>(mean.size()) / static_cast<double>(power.size());
-    }
-    EXPECT_NEAR(decibels(ShortTimeSpectrum::meanSquare(mean), meanSquareOf(wave)), 0.0, 0.1);
 }
 
 }  // namespace

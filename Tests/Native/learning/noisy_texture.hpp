@@ -1,5 +1,7 @@
 #pragma once
 
+#include "support/wave_measures.hpp"
+
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -72,11 +74,7 @@ struct NoisyTexture {
 };
 
 inline double meanSquareOf(std::span<const float> wave) {
-    double sum = 0.0;
-    for (const float value : wave) {
-        sum += static_cast<double>(value) * value;
-    }
-    return sum / static_cast<double>(wave.size());
+    return std::pow(10.0, haptoflow::testing::levelDecibels(wave) / 10.0);
 }
 
 inline double decibels(double power, double reference) {

@@ -3,6 +3,7 @@
 #include "learning/sliding.hpp"
 #include "recordings/dft321.hpp"
 #include "recordings/prepared_recording.hpp"
+#include "support/wave_measures.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -127,23 +128,13 @@ TEST(RecordingCheckTest, SizesAndRatesThatDoNotFitAreInvalidArguments) {
     EXPECT_THROW(recordings::checkRecording(recording), std::invalid_argument);
 }
 
-using testing::MadeRecording;
-
 std::vector<float> tone(double hertz, double rateHz, double seconds) {
-    std::vector<float> wave(static_cast<std::size_t>(rateHz * seconds));
-    for (std::size_t i = 0; i < wave.size(); ++i) {
-        wave[i] = static_cast<float>(std::sin(2.0 * std::numbers::pi * hertz * static_cast<double>(i) / rateHz));
-    }
-    return wave;
+    return haptoflow::testing::sine(hertz, 1.0, seconds, rateHz);
 }
 
 double rmsInside(std::span<const float> wave) {
-    double sum = 0.0;
-    const std::size_t margin = 400;
-    for (std::size_t i = margin; i + margin < wave.size(); ++i) {
-        sum += static_cast<double>(wave[i]) * wave[i];
-    }
-    return std::sqrt(sum / static_cast<double>(wave.size() - 2 * margin));
+    constexpr std::size_t margin = 400;
+    return haptoflow::testing::rms(wave.subspan(margin, wave.size() - 2 * margin));
 }
 
 recordings::PreparedRecording prepared(const std::vector<float>& wave, double rateHz) {

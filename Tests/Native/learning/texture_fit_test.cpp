@@ -2,6 +2,7 @@
 
 #include "learning/made_recording.hpp"
 #include "learning/tone_fit.hpp"
+#include "support/wave_measures.hpp"
 
 #include <gtest/gtest.h>
 
@@ -99,24 +100,23 @@ double livelySpectrum(double speed, double force, double hertz) {
 }
 
 double rmsErrorDb(const model::ToneTable& tone) {
-    double squares = 0.0;
-    double count = 0.0;
+    std::vector<float> errors;
     for (const double speed : {0.03, 0.06, 0.13}) {
         for (const double force : {0.5, 0.9, 1.6}) {
+            const auto error = [&](double hertz) {
+                return tone.gainDb(speed, force, hertz) - livelySpectrum(speed, force, hertz);
+            };
             for (double hertz = 30.0; hertz < 600.0; hertz *= 1.3) {
                 // Both are compared without their mean, which is the level law's.
-                const double error = tone.gainDb(speed, force, hertz) - livelySpectrum(speed, force, hertz) -
-                                     (tone.gainDb(speed, force, 100.0) - livelySpectrum(speed, force, 100.0));
-                squares += error * error;
-                count += 1.0;
+                errors.push_back(static_cast<float>(error(hertz) - error(100.0)));
             }
         }
     }
-    return std::sqrt(squares / count);
+    return haptoflow::testing::rms(errors);
 }
 
 model::ToneTable fitted(const std::vector<SpectrumFrame>& recorded, const std::vector<SpectrumFrame>& generated,
-                        double bandwidthHz) {
+                        double bandwidthHz = 950.0) {
     return fitTone(recorded, generated, std::nullopt, bandwidthHz);
 }
 
@@ -129,8 +129,8 @@ SpeedBins threeBins() {
 
 TEST(ToneFitTest, ASpectrumThatChangesWithSpeedAndForceIsFollowedMoreCloselyTheMoreIsRecorded) {
     const auto generated = framesOf(500, flat, 7);
-    const double few = rmsErrorDb(fitTone(framesOf(80, livelySpectrum), generated, std::nullopt, 950.0));
-    const double many = rmsErrorDb(fitTone(framesOf(900, livelySpectrum), generated, std::nullopt, 950.0));
+    const double few = rmsErrorDb(fitted(framesOf(80, livelySpectrum), generated));
+    const double many = rmsErrorDb(fitted(framesOf(900, livelySpectrum), generated));
     EXPECT_LT(few, 2.5);
     EXPECT_LT(many, 1.2);
     EXPECT_LT(many, few);
@@ -138,16 +138,12 @@ TEST(ToneFitTest, ASpectrumThatChangesWithSpeedAndForceIsFollowedMoreCloselyTheM
 
 TEST(ToneFitTest, ChanceInTheFramesIsNotTakenForATone) {
     for (unsigned seed = 1; seed <= 5; ++seed) {
-        const model::ToneTable tone = fitted(framesOf(60, flat, seed), framesOf(500, flat, 100 + seed), 950.0);
-        double squares = 0.0;
-        double count = 0.0;
+        const model::ToneTable tone = fitted(framesOf(60, flat, seed), framesOf(500, flat, 100 + seed));
+        std::vector<float> gains;
         for (const std::vector<double>& row : tone.gainsDb) {
-            for (const double gain : row) {
-                squares += gain * gain;
-                count += 1.0;
-            }
+            gains.insert(gains.end(), row.begin(), row.end());
         }
-        EXPECT_LT(std::sqrt(squares / count), 1.0) << "seed " << seed;
+        EXPECT_LT(haptoflow::testing::rms(gains), 1.0) << "seed " << seed;
     }
 }
 
@@ -155,7 +151,7 @@ TEST(ToneFitTest, ANetworkThatIsTooQuietAtEverySpeedIsRaised) {
     const auto quiet = framesOf(
         500, [](double speed, double, double) { return -6.0 - 20.0 * speed; }, 3);
     const auto recorded = framesOf(300, flat, 4);
-    const model::ToneTable tone = fitTone(recorded, quiet, std::nullopt, 950.0);
+    const model::ToneTable tone = fitted(recorded, quiet);
     EXPECT_NEAR(tone.gainDb(0.025, 0.9, 200.0), 6.5, 0.7);
     EXPECT_NEAR(tone.gainDb(0.15, 0.9, 200.0), 9.0, 0.7);
     EXPECT_LT(std::abs(toneErrors(threeBins(), recorded, quiet, tone).levelErrorDb), 0.7);
@@ -177,7 +173,7 @@ TEST(ToneFitTest, ARecordingAtOneForceGivesAToneWithoutForces) {
     std::ranges::for_each(recorded, [](SpectrumFrame& frame) { frame.forceNewtons = 1.0; });
     auto generated = framesOf(200, flat, 9);
     std::ranges::for_each(generated, [](SpectrumFrame& frame) { frame.forceNewtons = 1.0; });
-    const model::ToneTable tone = fitTone(recorded, generated, std::nullopt, 950.0);
+    const model::ToneTable tone = fitted(recorded, generated);
     ASSERT_EQ(tone.forcesNewtons.size(), 1U);
     EXPECT_NEAR(tone.forcesNewtons[0], 1.0, 1e-9);
     EXPECT_EQ(tone.gainsDb.size(), tone.speedsMps.size());
@@ -186,13 +182,13 @@ TEST(ToneFitTest, ARecordingAtOneForceGivesAToneWithoutForces) {
 TEST(ToneFitTest, GainsStayWithinTheFilesLimitsAndTooFewFramesGiveNoTone) {
     const auto generated = framesOf(200, flat, 2);
     const auto split = framesOf(200, [](double, double, double hertz) { return hertz < 300.0 ? 90.0 : -90.0; });
-    const model::ToneTable tone = fitTone(split, generated, std::nullopt, 950.0);
+    const model::ToneTable tone = fitted(split, generated);
     EXPECT_LE(tone.frequenciesHz.size(), model::ToneTable::maximumFrequencies);
     for (const std::vector<double>& row : tone.gainsDb) {
         EXPECT_LE(*std::ranges::max_element(row), 30.0);
         EXPECT_GE(*std::ranges::min_element(row), -30.0);
     }
-    EXPECT_TRUE(fitTone(framesOf(3, flat), generated, std::nullopt, 950.0).speedsMps.empty());
+    EXPECT_TRUE(fitted(framesOf(3, flat), generated).speedsMps.empty());
 }
 
 TEST(ToneFitTest, TheLastGainIsUsedBeyondTheRecordingsBand) {
