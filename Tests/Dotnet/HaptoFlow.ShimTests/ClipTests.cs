@@ -53,22 +53,6 @@ namespace HaptoFlow.ShimTests
         }
 
         [Test]
-        public void AReplacedClipNeitherClicksNorLastsOn()
-        {
-            Begin();
-            HapticClip loud = Hum(5.0);
-            HapticClip quiet = Hum(5.0, 2f);
-            for (int round = 0; round < 20; ++round)
-            {
-                Assert.That(stylus.Play(round % 2 == 0 ? loud : quiet, 1f, true), Is.True);
-                World.Frames(1 + round % 3);
-            }
-            World.Frames(10);
-            Assert.That(PeakOf(20), Is.LessThan(Audible));
-            Assert.That(tap.BrokenSamples, Is.Zero);
-        }
-
-        [Test]
         public void ADestroyedClipPlaysToItsEndAndIsNotPlayedAgain()
         {
             Begin();

@@ -135,20 +135,6 @@ namespace HaptoFlow.ShimTests
             Assert.That(Log.Count("no longer felt", LogType.Warning), Is.EqualTo(1));
         }
 
-        [Test]
-        public void TwoStylusesOnOneOutputAreLimitedAsASumAndNotClipped()
-        {
-            HaptoFlowSettings.Active.FullScaleMps2 = 1f;
-            Sounding(out _, out _);
-            float alone = AudioDevice.Peak(0, 0);
-            Circling();
-            World.Frames(60);
-            AudioDevice.Forget();
-            World.Frames(60);
-            int clipped = AudioDevice.Samples().Count(sample => Math.Abs(sample) >= 1f);
-            Assert.That((alone > 0.8f, clipped), Is.EqualTo((true, 0)));
-        }
-
         /// <summary>The audio thread of a device: it calls the filter at the pace of blocks, whatever the main thread
         /// does.</summary>
         [Test]
