@@ -17,7 +17,7 @@ namespace HaptoFlow.RepositoryTests
         private static readonly Lazy<JsonValue> File = new Lazy<JsonValue>(() =>
             JsonValue.Parse(System.IO.File.ReadAllText(RepositoryFiles.In("Tests", "Golden", "contact", "contact-states.json"))));
 
-        // In Unity the physics engine finds the closest point of a mesh. All meshes of the file but the torus are boxes.
+        // In Unity the physics engine finds the closest point of a mesh. All meshes of the file but a torus are boxes.
         private static IEnumerable<string> CaseNames() => File.Value["cases"].AsArray()
             .Select(testCase => testCase["name"].AsText()).Where(name => !name.Contains("torus"));
 
@@ -301,8 +301,9 @@ namespace HaptoFlow.RepositoryTests
                 time += Math.Pow(10.0, -4.0 + 3.0 * random.NextDouble());
                 if (random.Next(3) != 0)
                 {
-                    place += new Double3(random.NextDouble() - 0.5, random.NextDouble() - 0.5, random.NextDouble() - 0.5) *
-                        Math.Pow(10.0, -8.5 + 8.0 * random.NextDouble());
+                    double metres = Math.Pow(10.0, -8.5 + 8.0 * random.NextDouble());
+                    double Part() => metres * (random.NextDouble() - 0.5);
+                    place += new Double3(Part(), Part(), Part());
                 }
                 path.Add(time, place, place);
                 TipVelocity velocity = relative.Of(path);
@@ -323,6 +324,21 @@ namespace HaptoFlow.RepositoryTests
                 path.Add(frame / 90.0, place, place);
             }
             Assert.That(relative.Of(path).NowMps.X, Is.EqualTo(20.0).Within(1e-9));
+        }
+
+        [Test]
+        public void NoFrameAllocates()
+        {
+            var path = new TipPath(new TrackerNoise());
+            long before = 0L;
+            for (int frame = 0; frame < 2000; ++frame)
+            {
+                before = frame == 1000 ? GC.GetAllocatedBytesForCurrentThread() : before;
+                var place = new Double3(0.01 * Math.Sin(0.2 * frame), 0.0, 0.0);
+                path.Add(frame / 500.0, place, place);
+                relative.Of(path);
+            }
+            Assert.That(GC.GetAllocatedBytesForCurrentThread() - before, Is.Zero);
         }
     }
 }

@@ -74,6 +74,14 @@ namespace HaptoFlow.RepositoryTests
         }
 
         [Test]
+        public void AGeneratorIsOfTheDefaultTierOrOfOneThatIsThere()
+        {
+            new HapticGenerator(runtime, model).Dispose();
+            Assert.That(Assert.Throws<HaptoFlowException>(() => new HapticGenerator(runtime, model, "superb"))!.Message,
+                Does.Contain("superb"));
+        }
+
+        [Test]
         public void AClosedVoiceRendersSilenceAndRefusesStates()
         {
             using HapticEngine engine = EngineWithoutWorker();
@@ -296,6 +304,10 @@ namespace HaptoFlow.RepositoryTests
             Assert.That(ribs.Number, Is.Zero);
             Assert.That(Level(number, (10.0, 0.0), 0.5f), Is.Zero);
         }
+
+        [Test]
+        public void AMapWithoutColumnsIsRefused() => Assert.Throws<HaptoFlowException>(
+            () => new HapticReliefMap(new float[4], 0, Size, 0.001f, 0f, true));
 
         /// <summary>A sine of 2 mm along the columns.</summary>
         private static HapticReliefMap Ribs() => new HapticReliefMap(
