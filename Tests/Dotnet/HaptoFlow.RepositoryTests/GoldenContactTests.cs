@@ -283,6 +283,58 @@ namespace HaptoFlow.RepositoryTests
             row[start].AsNumber(), row[start + 1].AsNumber(), row[start + 2].AsNumber(), row[start + 3].AsNumber());
     }
 
+    /// <summary>Faces that turn on right behind an edge, or little: no box, ball or rod of the golden scenes has them.
+    /// </summary>
+    public sealed class ContactTransitionsTests
+    {
+        private const double TipRadiusMetres = 0.002;
+
+        private readonly ContactTransitions transitions = new ContactTransitions();
+        private readonly ContactBody body = new ContactBody(Double3.Right, 0.0);
+
+        [SetUp]
+        public void Forget() => transitions.Forget();
+
+        [Test]
+        public void BehindAnEdgeATurningFaceMovesTheReferenceAndASlideOffIsNoOtherEdge()
+        {
+            double SlideOffAt(double x, double y, double degrees) => transitions.SlideOff(
+                At(x, y, degrees), new Double3(x + TipRadiusMetres, y, 0.0), TipRadiusMetres, 0.0, 0.05);
+
+            Assert.That(EdgeAt(0.0, 0.0, 0.0), Is.Zero);
+            Assert.That(EdgeAt(0.001, -0.001, 90.0), Is.EqualTo(TipRadiusMetres));
+            Assert.That(SlideOffAt(0.001, -0.001, 150.0), Is.Zero, "the edge was felt");
+            Assert.That(EdgeAt(0.001, -0.0035, 110.0), Is.Zero);
+            Assert.That(SlideOffAt(0.001, -0.0035, 170.0), Is.EqualTo(TipRadiusMetres), "the face behind it ends");
+        }
+
+        [Test]
+        public void AFaceThatTurnsLittleMovesTheReferenceAtOnceIfItIsRoundAndElseInTheThirdFrame()
+        {
+            EdgeAt(0.0, 0.0, 0.0);
+            foreach (bool stays in new[] { true, true, false })
+            {
+                Assert.That(EdgeAt(0.007, 0.0, 20.0), Is.Zero);
+                Assert.That(transitions.IsElsewhere(At(0.007, 0.0, 20.0), 0.0), Is.EqualTo(stays));
+            }
+            // On a rod of 20 mm.
+            Assert.That(EdgeAt(0.013016, -0.003473, 40.0), Is.Zero);
+            Assert.That(transitions.IsElsewhere(At(0.013016, -0.003473, 40.0), 0.0), Is.False);
+        }
+
+        private double EdgeAt(double x, double y, double degrees) =>
+            transitions.Advance(At(x, y, degrees), TipRadiusMetres, 0.0, 0.0).EdgeHeightMetres;
+
+        /// <param name="degrees">From the vertical to the normal.</param>
+        private ContactCandidate At(double x, double y, double degrees)
+        {
+            double angle = degrees * Math.PI / 180.0;
+            var normal = new Double3(Math.Sin(angle), Math.Cos(angle), 0.0);
+            return new ContactCandidate(body, new RigidPose(Double3.Zero, Rotation.Identity),
+                new SurfacePoint(new Double3(x, y, 0.0), normal, 0.0));
+        }
+    }
+
     /// <summary>What C# adds to the tip's velocity. The golden contact states hold the arithmetic to the native one, whose
     /// tests say what it does.</summary>
     public sealed class VelocityTests

@@ -91,6 +91,7 @@ namespace HaptoFlow.RepositoryTests
             Assert.That(voice.Render(block, 1, 0, 48000.0), Is.False);
             Assert.That(block, Is.All.Zero);
             Assert.Throws<HaptoFlowException>(() => voice.Publish(Sliding(1)));
+            Assert.Throws<HaptoFlowException>(() => voice.SignalStatistics());
         }
 
         [Test]
