@@ -202,8 +202,9 @@ namespace HaptoFlow.EditorTests
             Menus[sample]();
             GameObject[] made = default(UnityEngine.SceneManagement.Scene).GetRootGameObjects();
             string path = SampleFiles.Scene(sample);
-            Assert.That(Regex.Matches(File.ReadAllText(path), @"  model: {fileID: \d+, guid: (\w+)")
-                .Select(match => match.Groups[1].Value), Is.EqualTo(All<BuiltScene>().Select(each => GuidOf(each.Model!))));
+            IEnumerable<string> models = Regex.Matches(File.ReadAllText(path), @"  model: {fileID: \d+, guid: (\w+)")
+                .Select(match => match.Groups[1].Value);
+            Assert.That(All<BuiltScene>().Select(each => GuidOf(each.Model!)), Is.EqualTo(models));
             Assert.That(ProjectScene.Load(path).Roots.Select(SceneText.Of), Is.EqualTo(made.Select(SceneText.Of)));
             var file = new PrefabFile(path);
             PrefabObject render = file.Objects.Single(each => each.Type == "RenderSettings");

@@ -283,11 +283,7 @@ namespace HaptoFlow.EditorTests
             Assert.That((relief.Offset.x, relief.Offset.y), Is.EqualTo((0.25f, 0.75f)), "in lengths of the map");
             Assert.That((relief.Tiling, relief.Repeats), Is.EqualTo((new Vector2(1f, 1f), true)));
             Assert.That(relief.DepthMillimetres, Is.EqualTo(4f).Within(0.1f));
-            for (int column = 0; column < 64; ++column)
-            {
-                Assert.That(relief.HeightAt(column, 1),
-                    Is.EqualTo(0.5 + 0.5 * Math.Sin(2.0 * Math.PI * column / 64.0)).Within(0.02), $"column {column}");
-            }
+            ReliefBakeTests.ExpectSine(relief);
             layer.normalScale = 0.5f;
             TerrainRelief.Take(relief, layer);
             Assert.That(relief.DepthMillimetres, Is.EqualTo(2f).Within(0.05f));
@@ -356,12 +352,8 @@ namespace HaptoFlow.EditorTests
         /// <summary>A layer of 2 x 4 m with one wave of 2 mm along it.</summary>
         internal static TerrainLayer Layer(string name)
         {
-            var map = new Texture2D(64, 2, TextureFormat.RGBA32, false) { name = "Dunes" };
-            map.SetPixels(Enumerable.Range(0, 128).Select(texel =>
-            {
-                double slope = 0.002 * 2.0 * Math.PI / 2.0 * Math.Cos(2.0 * Math.PI * (texel % 64) / 64.0);
-                return new Color((float)(0.5 - 0.5 * slope / Math.Sqrt(1.0 + slope * slope)), 0.5f, 1f, 1f);
-            }).ToArray());
+            Texture2D map = ReliefBakeTests.Normals(64, 0.002, false, 2.0);
+            map.name = "Dunes";
             return new TerrainLayer { name = name, normalMapTexture = map, tileSize = new Vector2(2f, 4f) };
         }
 

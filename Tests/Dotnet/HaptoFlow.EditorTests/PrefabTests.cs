@@ -27,7 +27,8 @@ namespace HaptoFlow.EditorTests
                 "XR Pen Right" => XrPen.Create(null, PenHand.Right).gameObject,
                 _ => XrPen.Create(null, PenHand.Left).gameObject,
             };
-            string path = RepositoryFiles.In("Packages", "com.haptoflow.runtime", "Runtime", "Prefabs", name + ".prefab");
+            string path = RepositoryFiles.In(
+                "Packages", "com.haptoflow.runtime", "Runtime", "Prefabs", name + ".prefab");
             GameObject written = ProjectScene.Load(path).Roots.Single();
             Assert.That(SceneText.Of(written), Is.EqualTo(SceneText.Of(made)));
             // Unity's capsule mesh, one of its default resources.
@@ -37,7 +38,7 @@ namespace HaptoFlow.EditorTests
         }
     }
 
-    /// <summary>The values of an object and of those below it that a scene or a prefab stores, but for assets.</summary>
+    /// <summary>What a scene or a prefab stores of an object and of those below it, but for assets.</summary>
     internal static class SceneText
     {
         // Unity adds a component that another one requires before that one; a file may have any order.

@@ -79,11 +79,7 @@ namespace HaptoFlow.EditorTests
             Assert.That(ReliefBake.Take(wall), Is.Null);
             HapticRelief relief = wall.Relief!;
             Assert.That(relief.DepthMillimetres, Is.EqualTo(2f).Within(0.05f));
-            for (int column = 0; column < 64; ++column)
-            {
-                Assert.That(relief.HeightAt(column, 1),
-                    Is.EqualTo(0.5 + 0.5 * Math.Sin(2.0 * Math.PI * column / 64.0)).Within(0.02), $"column {column}");
-            }
+            ExpectSine(relief);
         }
 
         [Test]
@@ -232,6 +228,16 @@ namespace HaptoFlow.EditorTests
             }
         }
 
+        /// <summary>The heights of the map that <see cref="Normals"/> makes with 64 columns.</summary>
+        internal static void ExpectSine(HapticRelief relief)
+        {
+            for (int column = 0; column < 64; ++column)
+            {
+                Assert.That(relief.HeightAt(column, 1),
+                    Is.EqualTo(0.5 + 0.5 * Math.Sin(2.0 * Math.PI * column / 64.0)).Within(0.02), $"column {column}");
+            }
+        }
+
         private static Texture2D Grey(int width, int height, params float[] values)
         {
             var map = new Texture2D(width, height, TextureFormat.RGBA32, false) { name = "Relief" };
@@ -239,14 +245,14 @@ namespace HaptoFlow.EditorTests
             return map;
         }
 
-        /// <summary>The normals of one sine along the columns over the wall's 0.4 m.</summary>
+        /// <summary>The normals of one sine along the columns, over the wall's 0.4 m or another length.</summary>
         /// <param name="isCompressed">True for x in alpha and red full, as Unity compresses normal maps.</param>
-        private static Texture2D Normals(int width, double amplitude, bool isCompressed)
+        internal static Texture2D Normals(int width, double amplitude, bool isCompressed, double metres = 0.4)
         {
             var map = new Texture2D(width, 2, TextureFormat.RGBA32, false) { name = "Normals" };
             map.SetPixels(Enumerable.Range(0, 2 * width).Select(texel =>
             {
-                double slope = amplitude * 2.0 * Math.PI / 0.4 * Math.Cos(2.0 * Math.PI * (texel % width) / width);
+                double slope = amplitude * 2.0 * Math.PI / metres * Math.Cos(2.0 * Math.PI * (texel % width) / width);
                 float x = (float)(0.5 - 0.5 * slope / Math.Sqrt(1.0 + slope * slope));
                 return isCompressed ? new Color(1f, 0.5f, 0.5f, x) : new Color(x, 0.5f, 1f, 1f);
             }).ToArray());

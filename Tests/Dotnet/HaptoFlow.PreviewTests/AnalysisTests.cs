@@ -137,7 +137,7 @@ namespace HaptoFlow.PreviewTests
             Assert.That((Tag(), file.ReadInt32(), Tag()), Is.EqualTo(("RIFF", file.BaseStream.Length - 8, "WAVE")));
             Assert.That((Tag(), file.ReadInt32()), Is.EqualTo(("fmt ", 18)));
             Assert.That((file.ReadInt16(), file.ReadInt16()), Is.EqualTo((3, 1)), "numbers, one channel");
-            Assert.That((file.ReadInt32(), file.ReadInt32()), Is.EqualTo((48000, 192000)), "samples and bytes a second");
+            Assert.That((file.ReadInt32(), file.ReadInt32()), Is.EqualTo((48000, 192000)), "a second");
             Assert.That((file.ReadInt16(), file.ReadInt16(), file.ReadInt16()), Is.EqualTo((4, 32, 0)));
             Assert.That((Tag(), file.ReadInt32(), file.ReadInt32()), Is.EqualTo(("fact", 4, count)));
             Assert.That((Tag(), file.ReadInt32()), Is.EqualTo(("data", 4 * count)));

@@ -147,7 +147,8 @@ namespace HaptoFlow.PreviewTests
         {
             Palette palette = dark ? Palette.Dark : Palette.Light;
             using SkiaCanvas canvas = Stroke(palette, PresetStrokes.Make((StrokePreset)preset, Usual));
-            LegibleTexts.Save($"stroke-{((StrokePreset)preset).ToString().ToLowerInvariant()}-{(dark ? "dark" : "light")}", canvas);
+            string name = ((StrokePreset)preset).ToString().ToLowerInvariant();
+            LegibleTexts.Save($"stroke-{name}-{(dark ? "dark" : "light")}", canvas);
             Box motion = PreviewLayout.Motion(canvas.Whole);
             Assert.That(canvas.Count(motion, palette.Speed), Is.GreaterThan(60));
             Assert.That(canvas.Count(motion, palette.Force), Is.GreaterThan(60));

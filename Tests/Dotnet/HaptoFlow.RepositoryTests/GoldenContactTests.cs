@@ -17,7 +17,7 @@ namespace HaptoFlow.RepositoryTests
         private static readonly Lazy<JsonValue> File = new Lazy<JsonValue>(() =>
             JsonValue.Parse(System.IO.File.ReadAllText(RepositoryFiles.In("Tests", "Golden", "contact", "contact-states.json"))));
 
-        // In Unity the physics engine finds the closest point of a mesh. All meshes of the file but the torus are boxes.
+        // In Unity the physics engine finds the closest point of a mesh. All meshes of the file but a torus are boxes.
         private static IEnumerable<string> CaseNames() => File.Value["cases"].AsArray()
             .Select(testCase => testCase["name"].AsText()).Where(name => !name.Contains("torus"));
 
@@ -283,6 +283,58 @@ namespace HaptoFlow.RepositoryTests
             row[start].AsNumber(), row[start + 1].AsNumber(), row[start + 2].AsNumber(), row[start + 3].AsNumber());
     }
 
+    /// <summary>Faces that turn on right behind an edge, or little: no box, ball or rod of the golden scenes has them.
+    /// </summary>
+    public sealed class ContactTransitionsTests
+    {
+        private const double TipRadiusMetres = 0.002;
+
+        private readonly ContactTransitions transitions = new ContactTransitions();
+        private readonly ContactBody body = new ContactBody(Double3.Right, 0.0);
+
+        [SetUp]
+        public void Forget() => transitions.Forget();
+
+        [Test]
+        public void BehindAnEdgeATurningFaceMovesTheReferenceAndASlideOffIsNoOtherEdge()
+        {
+            double SlideOffAt(double x, double y, double degrees) => transitions.SlideOff(
+                At(x, y, degrees), new Double3(x + TipRadiusMetres, y, 0.0), TipRadiusMetres, 0.0, 0.05);
+
+            Assert.That(EdgeAt(0.0, 0.0, 0.0), Is.Zero);
+            Assert.That(EdgeAt(0.001, -0.001, 90.0), Is.EqualTo(TipRadiusMetres));
+            Assert.That(SlideOffAt(0.001, -0.001, 150.0), Is.Zero, "the edge was felt");
+            Assert.That(EdgeAt(0.001, -0.0035, 110.0), Is.Zero);
+            Assert.That(SlideOffAt(0.001, -0.0035, 170.0), Is.EqualTo(TipRadiusMetres), "the face behind it ends");
+        }
+
+        [Test]
+        public void AFaceThatTurnsLittleMovesTheReferenceAtOnceIfItIsRoundAndElseInTheThirdFrame()
+        {
+            EdgeAt(0.0, 0.0, 0.0);
+            foreach (bool stays in new[] { true, true, false })
+            {
+                Assert.That(EdgeAt(0.007, 0.0, 20.0), Is.Zero);
+                Assert.That(transitions.IsElsewhere(At(0.007, 0.0, 20.0), 0.0), Is.EqualTo(stays));
+            }
+            // On a rod of 20 mm.
+            Assert.That(EdgeAt(0.013016, -0.003473, 40.0), Is.Zero);
+            Assert.That(transitions.IsElsewhere(At(0.013016, -0.003473, 40.0), 0.0), Is.False);
+        }
+
+        private double EdgeAt(double x, double y, double degrees) =>
+            transitions.Advance(At(x, y, degrees), TipRadiusMetres, 0.0, 0.0).EdgeHeightMetres;
+
+        /// <param name="degrees">From the vertical to the normal.</param>
+        private ContactCandidate At(double x, double y, double degrees)
+        {
+            double angle = degrees * Math.PI / 180.0;
+            var normal = new Double3(Math.Sin(angle), Math.Cos(angle), 0.0);
+            return new ContactCandidate(body, new RigidPose(Double3.Zero, Rotation.Identity),
+                new SurfacePoint(new Double3(x, y, 0.0), normal, 0.0));
+        }
+    }
+
     /// <summary>What C# adds to the tip's velocity. The golden contact states hold the arithmetic to the native one, whose
     /// tests say what it does.</summary>
     public sealed class VelocityTests
@@ -301,8 +353,9 @@ namespace HaptoFlow.RepositoryTests
                 time += Math.Pow(10.0, -4.0 + 3.0 * random.NextDouble());
                 if (random.Next(3) != 0)
                 {
-                    place += new Double3(random.NextDouble() - 0.5, random.NextDouble() - 0.5, random.NextDouble() - 0.5) *
-                        Math.Pow(10.0, -8.5 + 8.0 * random.NextDouble());
+                    double metres = Math.Pow(10.0, -8.5 + 8.0 * random.NextDouble());
+                    double Part() => metres * (random.NextDouble() - 0.5);
+                    place += new Double3(Part(), Part(), Part());
                 }
                 path.Add(time, place, place);
                 TipVelocity velocity = relative.Of(path);
@@ -323,6 +376,21 @@ namespace HaptoFlow.RepositoryTests
                 path.Add(frame / 90.0, place, place);
             }
             Assert.That(relative.Of(path).NowMps.X, Is.EqualTo(20.0).Within(1e-9));
+        }
+
+        [Test]
+        public void NoFrameAllocates()
+        {
+            var path = new TipPath(new TrackerNoise());
+            long before = 0L;
+            for (int frame = 0; frame < 2000; ++frame)
+            {
+                before = frame == 1000 ? GC.GetAllocatedBytesForCurrentThread() : before;
+                var place = new Double3(0.01 * Math.Sin(0.2 * frame), 0.0, 0.0);
+                path.Add(frame / 500.0, place, place);
+                relative.Of(path);
+            }
+            Assert.That(GC.GetAllocatedBytesForCurrentThread() - before, Is.Zero);
         }
     }
 }

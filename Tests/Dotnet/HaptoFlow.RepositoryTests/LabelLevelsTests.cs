@@ -33,11 +33,15 @@ namespace HaptoFlow.RepositoryTests
         public void EveryLabelIsFeltTheMiddleOneWellAndTheStrongestFitsAtAnyFrameRate(
             [ValueSource(nameof(Forms))] HapticForm form, [Values(72.0, 120.0)] double frameHz)
         {
-            List<Level> levels = Levels(form, frameHz);
+            (string Label, double Median, double Ninetieth)[] levels = model.Labels.Select(label =>
+            {
+                double[] played = Play(form, WaveOf(label.Name, frameHz), frameHz, 1f);
+                return (label.Name, Median(played), Percentile(played, 0.9));
+            }).ToArray();
             double[] medians = levels.Select(each => each.Median).OrderBy(each => each).ToArray();
             string all = string.Join(", ", levels.Select(each => $"{each.Label} {each.Median:0.000}/{each.Ninetieth:0.00}"));
             TestContext.Out.WriteLine(all);
-            Assert.That(levels.Count, Is.EqualTo(20));
+            Assert.That(levels, Has.Length.EqualTo(20));
             Assert.That(medians[0], Is.GreaterThanOrEqualTo(0.08), all);
             Assert.That(0.5 * (medians[9] + medians[10]), Is.EqualTo(0.35).Within(0.04), all);
             Assert.That(levels.Max(each => each.Ninetieth), Is.LessThan(1.0), all);
@@ -52,11 +56,6 @@ namespace HaptoFlow.RepositoryTests
             Assert.That(Median(Play(form, wave, 72.0, gain: 0.5f)), Is.EqualTo(0.5 * whole).Within(0.03 * whole));
             Assert.That(Play(form, wave, 72.0, gain: 0f), Is.Empty);
         }
-
-        private List<Level> Levels(HapticForm form, double frameHz) => model.Labels
-            .Select(label => new Level(label.Name,
-                Play(form, WaveOf(label.Name, frameHz), frameHz, 1f)))
-            .ToList();
 
         private float[] WaveOf(string label, double frameHz)
         {
@@ -121,9 +120,10 @@ namespace HaptoFlow.RepositoryTests
         private static double[] Play(HapticForm form, float[] wave, double frameHz, float gain)
         {
             var motor = new SimulatedMotor();
-            var parametric = new AmplitudeRecorder();
+            var parametric = new SimulatedParametricDevice { RangeHz = (60.0, 400.0) };
             var device = new SimulatedWaveDevice(2000.0);
-            var source = new RecordedWave(wave);
+            var source = new SimulatedWave(
+                seconds => wave.ElementAtOrDefault((int)Math.Round(seconds * WaveHistory.RateHz)));
             using HapticQueue queue = form switch
             {
                 HapticForm.Amplitude => new AmplitudeQueue(motor, source),
@@ -136,6 +136,7 @@ namespace HaptoFlow.RepositoryTests
             for (double now = 1.0 / frameHz; now < wave.Length / WaveHistory.RateHz; now += 1.0 / frameHz)
             {
                 motor.AdvanceTo(now);
+                parametric.AdvanceTo(now);
                 device.AdvanceTo(now);
                 queue.Update(now);
             }
@@ -155,67 +156,6 @@ namespace HaptoFlow.RepositoryTests
         {
             double[] sorted = values.OrderBy(each => each).ToArray();
             return sorted[(int)(share * (sorted.Length - 1))];
-        }
-
-        private sealed class Level
-        {
-            public Level(string label, double[] amplitudes)
-            {
-                Label = label;
-                Median = LabelLevelsTests.Median(amplitudes);
-                Ninetieth = Percentile(amplitudes, 0.9);
-            }
-
-            public string Label { get; }
-
-            public double Median { get; }
-
-            public double Ninetieth { get; }
-        }
-
-        private sealed class RecordedWave : IWaveSource
-        {
-            private readonly float[] wave;
-            private int at;
-
-            public RecordedWave(float[] wave) => this.wave = wave;
-
-            public bool IsStopped => false;
-
-            public void Render(Span<float> samples)
-            {
-                for (int index = 0; index < samples.Length; ++index, ++at)
-                {
-                    samples[index] = at < wave.Length ? wave[at] : 0f;
-                }
-            }
-        }
-
-        private sealed class AmplitudeRecorder : IParametricSink
-        {
-            public List<double> Amplitudes { get; } = new List<double>();
-
-            public string Name => "simulated";
-
-            public bool TryGetCapabilities(out HapticSinkCapabilities capabilities)
-            {
-                capabilities = new HapticSinkCapabilities(0.0, int.MaxValue, 60.0, 400.0, 0.02);
-                return true;
-            }
-
-            public bool Submit(ReadOnlySpan<ParametricPoint> amplitudes, ReadOnlySpan<ParametricPoint> frequencies,
-                ReadOnlySpan<ParametricTransient> transients, StreamPart part)
-            {
-                foreach (ParametricPoint point in amplitudes)
-                {
-                    Amplitudes.Add(point.Value);
-                }
-                return true;
-            }
-
-            public void Stop()
-            {
-            }
         }
     }
 }

@@ -219,6 +219,7 @@ namespace HaptoFlow.RepositoryTests
             Assert.That(value["list"][0].AsNumber(), Is.EqualTo(-0.0015));
             Assert.That(value["list"][1].AsBoolean(), Is.True);
             Assert.That(value["list"][2].IsNull, Is.True);
+            Assert.That(value["list"].Text, Is.Null);
             Assert.That(() => value["list"][1].AsText(),
                 Throws.TypeOf<FormatException>().With.Message.EqualTo("list[1] is not a string"));
             Assert.That(() => value["gone"],

@@ -74,6 +74,14 @@ namespace HaptoFlow.RepositoryTests
         }
 
         [Test]
+        public void AGeneratorIsOfTheDefaultTierOrOfOneThatIsThere()
+        {
+            new HapticGenerator(runtime, model).Dispose();
+            Assert.That(Assert.Throws<HaptoFlowException>(() => new HapticGenerator(runtime, model, "superb"))!.Message,
+                Does.Contain("superb"));
+        }
+
+        [Test]
         public void AClosedVoiceRendersSilenceAndRefusesStates()
         {
             using HapticEngine engine = EngineWithoutWorker();
@@ -83,6 +91,7 @@ namespace HaptoFlow.RepositoryTests
             Assert.That(voice.Render(block, 1, 0, 48000.0), Is.False);
             Assert.That(block, Is.All.Zero);
             Assert.Throws<HaptoFlowException>(() => voice.Publish(Sliding(1)));
+            Assert.Throws<HaptoFlowException>(() => voice.SignalStatistics());
         }
 
         [Test]
@@ -296,6 +305,10 @@ namespace HaptoFlow.RepositoryTests
             Assert.That(ribs.Number, Is.Zero);
             Assert.That(Level(number, (10.0, 0.0), 0.5f), Is.Zero);
         }
+
+        [Test]
+        public void AMapWithoutColumnsIsRefused() => Assert.Throws<HaptoFlowException>(
+            () => new HapticReliefMap(new float[4], 0, Size, 0.001f, 0f, true));
 
         /// <summary>A sine of 2 mm along the columns.</summary>
         private static HapticReliefMap Ribs() => new HapticReliefMap(

@@ -104,6 +104,11 @@ namespace HaptoFlow.RepositoryTests
 
         public List<ParametricTransient> Knocks { get; } = new List<ParametricTransient>();
 
+        /// <summary>Of all points of all streams.</summary>
+        public List<double> Amplitudes { get; } = new List<double>();
+
+        public (double Lowest, double Highest) RangeHz { get; set; } = (50.0, 450.0);
+
         public float LastFrequency { get; private set; }
 
         /// <summary>The part of the stream that is not yet played, in seconds.</summary>
@@ -135,7 +140,8 @@ namespace HaptoFlow.RepositoryTests
 
         public bool TryGetCapabilities(out HapticSinkCapabilities capabilities)
         {
-            capabilities = new HapticSinkCapabilities(RateHz, 500, 50.0, 450.0, MinimumFirstSeconds);
+            capabilities = new HapticSinkCapabilities(
+                RateHz, 500, RangeHz.Lowest, RangeHz.Highest, MinimumFirstSeconds);
             return IsThere;
         }
 
@@ -168,6 +174,7 @@ namespace HaptoFlow.RepositoryTests
                 Require(points.Count == 0 || point.Seconds > points[^1].Seconds, "times must rise");
                 Require(point.Value >= 0f && point.Value <= 1f, "an amplitude is out of range");
                 points.Add(point);
+                Amplitudes.Add(point.Value);
             }
             foreach (ParametricPoint point in frequencies)
             {

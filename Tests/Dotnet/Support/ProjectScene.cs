@@ -10,8 +10,8 @@ using Object = UnityEngine.Object;
 
 namespace HaptoFlow.Tests.Support
 {
-    /// <summary>Makes the objects of a scene or prefab file, with those of its prefabs. A field of a script that the class
-    /// does not have is an error. References to assets stay empty.</summary>
+    /// <summary>Makes the objects of a scene or prefab file, with those of its prefabs. A field of a script that the
+    /// class does not have is an error. References to assets stay empty.</summary>
     internal sealed class ProjectScene
     {
         private static readonly string[] Unseen = { "OcclusionCullingSettings", "RenderSettings", "LightmapSettings",

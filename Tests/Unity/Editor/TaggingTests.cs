@@ -61,6 +61,8 @@ namespace HaptoFlow.EditorTests
             GameObject house = Make("Wooden House");
             GameObject thing = Box("Thing", house);
             Assert.That(Plan(thing).Unmatched, Is.EqualTo(new[] { thing }));
+            GameObjectMenu.TagSelected(new[] { thing }, Matcher);
+            Assert.That(thing.TryGetComponent(out HapticSurface _), Is.False);
         }
 
         private static TagPlan Plan(GameObject root) =>

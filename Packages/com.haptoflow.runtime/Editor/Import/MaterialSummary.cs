@@ -54,7 +54,8 @@ namespace HaptoFlow.Editor
             }
         }
 
-        protected void SetRows(IEnumerable<SummaryRow> rows) => Rows = rows.Where(row => row.Value.Length > 0).ToArray();
+        protected void SetRows(IEnumerable<SummaryRow> rows) =>
+            Rows = rows.Where(row => row.Value.Length > 0).ToArray();
     }
 
     /// <summary>The text of a learnt material's Inspector: its nearest label, its recording, and whether it can be used

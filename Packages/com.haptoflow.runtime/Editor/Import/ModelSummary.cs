@@ -15,7 +15,8 @@ namespace HaptoFlow.Editor
     /// <summary>A model's Inspector: its origin, its tiers with accuracy and time, its labels.</summary>
     internal sealed class ModelSummary : FileSummary
     {
-        private const string AboutLabels = "The materials that a surface can have: name, category, stiffness of the spring " +
+        private const string AboutLabels =
+            "The materials that a surface can have: name, category, stiffness of the spring " +
             "model, mean kinetic friction.";
 
         private bool showsLabels = true;

@@ -166,7 +166,8 @@ namespace HaptoFlow.Preview
                 return;
             }
             Box frame = inside.Inside(AxisWidth, 0.0, 0.0, AxisHeight);
-            CurveChart chart = CurveChart.OverSpeed(canvas, palette, frame, report.Levels.SpeedsMps, (LowestRibDecibels, 0.0));
+            CurveChart chart = CurveChart.OverSpeed(
+                canvas, palette, frame, report.Levels.SpeedsMps, (LowestRibDecibels, 0.0));
             chart.Rows(AxisNumbers.Ticks(LowestRibDecibels, 0.0, 4), value => AxisNumbers.Text(value, 0));
             for (int rib = 0; rib < report.WaveVectors.Length; ++rib)
             {

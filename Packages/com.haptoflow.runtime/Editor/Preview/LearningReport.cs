@@ -57,9 +57,11 @@ namespace HaptoFlow.Preview
                     Figure("spectra within {0:0.0} dB", SpectralDistanceDb),
                     Figure("levels within {0:0.0} dB", LevelErrorDb),
                     Figure("{0:0.0} s of sliding", SlidingSeconds),
-                    SensorNoise.Mps2 > 0.0 ? Figure("{0:0.000} m/s^2 of the sensor's noise removed", SensorNoise.Mps2) : "",
-                    Math.Abs(TurnDegrees) >= 0.5 ? Figure(
-                        "the first axis is perpendicular to the ribs, {0:0} degrees from the recording's", TurnDegrees) : "",
+                    SensorNoise.Mps2 > 0.0
+                        ? Figure("{0:0.000} m/s^2 of the sensor's noise removed", SensorNoise.Mps2) : "",
+                    Math.Abs(TurnDegrees) >= 0.5
+                        ? Figure("the first axis is perpendicular to the ribs, {0:0} degrees from the recording's",
+                            TurnDegrees) : "",
                     Figure("learnt in {0:0.0} s", Seconds),
                 }.Where(part => part.Length > 0).ToArray();
                 return "Learnt." + Sentence(string.Join("; ", parts)) +
