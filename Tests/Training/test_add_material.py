@@ -30,7 +30,7 @@ from places import DEFAULT, ENGINE, ROOT, SMALL
 TINY = ROOT / "Tests" / "Golden" / "model" / "tiny.haptoflow"
 RIBBED = ROOT / "Tests" / "Golden" / "material" / "ribbed.haptomaterial"
 # The search ends early, so that two runs may differ.
-QUICK = ["--seconds-limit", "1"]
+QUICK = ["--seconds-limit", "0.1"]
 
 
 @pytest.fixture(scope="module")
@@ -59,7 +59,7 @@ def test_a_material_file_states_what_was_recorded(
     recording: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    assert add("--recording", recording) == 0
+    assert add("--recording", recording, "--seconds-limit", "1") == 0
     said = capsys.readouterr().out
     assert "mat.haptomaterial" in said
     assert "10 s or more give a more accurate material" in said

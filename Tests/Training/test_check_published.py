@@ -1,8 +1,10 @@
-"""check-published: every line of its report passes, fails and does not apply where it should."""
+"""Imports of the published weights: our modules and the engine compute what the authors' code does (golden arrays of
+their own), and every line of check-published's report passes, fails and does not apply where it should."""
 
 from __future__ import annotations
 
 import json
+import subprocess
 import sys
 from collections.abc import Iterator
 from dataclasses import replace
@@ -13,8 +15,10 @@ from typing import Any
 import numpy as np
 import pytest
 import torch
+from scipy.io import wavfile
 
 from haptoflow_benchmark.engine_library import EngineLibrary, default_engine
+from haptoflow_benchmark.engine_render import render_motion
 from haptoflow_paper.cli import main
 from haptoflow_paper.commands import check_published
 from haptoflow_paper.published import check_points
@@ -24,17 +28,21 @@ from haptoflow_paper.published.check_parity import parity_lines
 from haptoflow_paper.published.check_points import BUDGET_MS, Measured, Point, points_of, time_lines
 from haptoflow_paper.published.check_signals import LabelWaves, signal_lines
 from haptoflow_paper.published.checkpoint import read_checkpoint
-from haptoflow_paper.published.published_file import PublishedFile
+from haptoflow_paper.published.level_measurement import band_rms
+from haptoflow_paper.published.published_file import STANDARD_GRAVITY_MPS2, PublishedFile
 from haptoflow_paper.published.published_model import PublishedModel
 from haptoflow_paper.rows.engine_generator import EngineGenerator
 from haptoflow_paper.rows.timing import Milliseconds
 from haptoflow_training.export.model_file import read_model_file
 from haptoflow_training.model_stamp import SHIPPED_MODEL
 from published_samples import (
-    PUBLISHED, SOLVERS, assert_within_1e_4_of_its_rms, change_safetensors, copied,
+    PUBLISHED, SOLVERS, GoldenChain, assert_within_1e_4_of_its_rms, change_safetensors, copied,
     write_checkpoint_of_published_sizes
 )
-from places import ROOT
+from places import ENGINE, ROOT
+
+PEAK_G = 1.5
+UNIT_MPS2 = PEAK_G * STANDARD_GRAVITY_MPS2
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -50,8 +58,8 @@ def one_block() -> Iterator[None]:
 def imported(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
     folder = tmp_path_factory.mktemp("imported")
     for solver in SOLVERS:
-        arguments = ["import-published", str(PUBLISHED / solver), "--peak-g", "1.5", "-o", str(folder / f"{solver}.haptoflow")]
-        assert main(arguments) == 0
+        arguments = ["import-published", str(PUBLISHED / solver), "--peak-g", str(PEAK_G), "-o"]
+        assert main([*arguments, str(folder / f"{solver}.haptoflow")]) == 0
     return {solver: folder / f"{solver}.haptoflow" for solver in SOLVERS}
 
 
@@ -62,6 +70,67 @@ def _verdicts(lines: list[Line]) -> dict[str, str]:
 
 def _parity(engine: EngineLibrary, path: Path, folder: Path | None) -> tuple[list[Line], str]:
     return parity_lines(read_model_file(path), path, folder, None, engine, ROOT)
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_three_segments_that_follow_each_other_are_the_golden_ones(solver: str) -> None:
+    model, golden = read_checkpoint(PUBLISHED / solver).model, GoldenChain(solver)
+    previous = golden.tensor(0, "previous")
+    for segment in range(golden.segments):
+        row = model.network.label_embed(torch.tensor([golden.label(segment)]))
+        previous = model.segment(golden.tensor(segment, "noise"), row, golden.motion(segment), previous)
+        assert_within_1e_4_of_its_rms(previous, golden.tensor(segment, "waveform"))
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_three_segments_through_the_c_interface_are_the_golden_ones(
+    engine: EngineLibrary, imported: dict[str, Path], solver: str
+) -> None:
+    golden, unused = GoldenChain(solver), np.zeros((1, 200), dtype=np.float32)
+    with EngineGenerator(engine, imported[solver]) as generator:
+        previous = golden.tensor(0, "previous").reshape(1, -1).numpy() * np.float32(UNIT_MPS2)
+        for segment in range(golden.segments):
+            row, noise = generator.embeddings[[golden.label(segment)]], golden.tensor(segment, "noise")
+            motion = golden.motion(segment).numpy()
+            previous = generator.generate(row, motion, previous, unused, latent_noise=noise.reshape(1, -1).numpy())
+            assert_within_1e_4_of_its_rms(previous / UNIT_MPS2, golden.tensor(segment, "waveform")[0])
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_the_offline_engine_plays_a_stroke_from_touch_down_at_the_measured_level(
+    imported: dict[str, Path], solver: str, tmp_path: Path
+) -> None:
+    file = read_model_file(imported[solver])
+    entries = file.header["seed_bank"]["entries"]
+    seeds = [
+        seed["gain"] * wave
+        for seed, wave in zip(entries, file.tensors["seeds"], strict=True)
+        if seed["label"] == "granite"
+    ]
+    expected = UNIT_MPS2 * np.sqrt(np.square(band_rms(np.array(seeds))).mean())
+    motion = np.tile([0.04, 0.0, 0.75], (2000, 1))
+    wave = render_motion(ENGINE, "granite", motion, tmp_path, model=imported[solver]).waveform_mps2
+    assert np.isfinite(wave).all()
+    assert abs(20 * np.log10(band_rms(wave[None, 400:])[0] / expected)) < 3.0
+    # The seed sounds before the first segment is there.
+    assert abs(20 * np.log10(band_rms(wave[None, 20:120])[0] / expected)) < 9.0
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_learning_a_material_on_an_import_is_refused_because_its_network_has_its_own_unit(
+    imported: dict[str, Path], solver: str, tmp_path: Path
+) -> None:
+    path = imported[solver]
+    numbers = np.random.default_rng(1)
+    recording = tmp_path / "board.wav"
+    wavfile.write(recording, 8000, (0.1 * numbers.standard_normal(80000)).astype(np.float32))
+    recording.with_suffix(".json").write_text('{"full_scale_mps2": 20}', encoding="utf-8")
+    command = [str(ENGINE), "learn", str(recording), "--model", str(path), "-o", str(tmp_path / "board.haptomaterial")]
+    command += ["--speed-mps", "0.04", "--force-newtons", "0.75"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 3, done.stderr
+    assert f"{path}: the model gives all its labels one level, {UNIT_MPS2:.3g}" in done.stderr
+    assert not (tmp_path / "board.haptomaterial").exists()
 
 
 @pytest.mark.long(because="check-published runs whole; its lines of parity, signal and time are tested below")
@@ -305,8 +374,9 @@ class TestTimes:
 
 
 @pytest.mark.long(
-    because="a network of the published sizes is exported and run; test_published_model.py holds the engine to the "
-    "authors' own arrays at small sizes"
+    because="a network of the published sizes is exported and run; "
+    "test_three_segments_through_the_c_interface_are_the_golden_ones holds the engine to the authors' own arrays at small "
+    "sizes"
 )
 def test_a_model_of_the_published_sizes_computes_the_same_in_the_engine_as_in_pytorch(tmp_path: Path) -> None:
     checkpoint = read_checkpoint(write_checkpoint_of_published_sizes(tmp_path / "published"))

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from haptoflow_training.training.closed_loop import PhaseTrack, SurfaceStatistics, run_closed_loop, spliced
+from haptoflow_training.training.closed_loop import ClosedLoopRun, PhaseTrack, SurfaceStatistics, run_closed_loop, spliced
 from haptoflow_training.recordings.synthetic import Material, load_materials
 from haptoflow_training.recordings.synthetic.features import rib_wander_turns, slips_of
 from haptoflow_training.recordings.synthetic.surface import TipPath
@@ -26,14 +25,8 @@ class Probe:
         self.phases: list[np.ndarray] = []
         self.noises: list[np.ndarray] = []
 
-    def generate(
-        self,
-        embeddings: np.ndarray,
-        motions: np.ndarray,
-        previous_mps2: np.ndarray,
-        noise: np.ndarray,
-        phases: np.ndarray,
-    ) -> np.ndarray:
+    def generate(self, embeddings: np.ndarray, motions: np.ndarray, *others: np.ndarray) -> np.ndarray:
+        previous_mps2, noise, phases = others
         self.phases.append(phases.copy())
         self.motions.append(motions.copy())
         self.continued.append(previous_mps2[:, 0].copy())
@@ -41,24 +34,26 @@ class Probe:
         return np.tile(1000.0 * len(self.continued) + np.arange(200), (len(embeddings), 1)).astype(np.float32)
 
 
+def _probed(motions: NDArray[np.floating], update_rate_hz: float) -> tuple[Probe, ClosedLoopRun]:
+    """A run over still surfaces, one row for each of the motions."""
+    probe, rows = Probe(), len(motions)
+    embeddings, still = np.zeros((rows, 64), np.float32), still_surfaces(rows)
+    moved = motions.astype(np.float32)
+    return probe, run_closed_loop(
+        probe, embeddings, moved, np.arange(rows), still, update_rate_hz=update_rate_hz, seed=1
+    )
+
+
 @pytest.mark.parametrize("rate_hz", [30.0, 72.0, 120.0])
 def test_each_past_is_the_two_hundred_samples_before_the_segment(rate_hz: float) -> None:
-    probe = Probe()
-    run = run_closed_loop(
-        probe, np.zeros((2, 64), np.float32), np.zeros((2, 1500, 3), np.float32), np.arange(2), still_surfaces(2),
-        update_rate_hz=rate_hz, seed=1,
-    )  # fmt: skip
+    probe, run = _probed(np.zeros((2, 1500, 3)), rate_hz)
     padded = np.concatenate([np.zeros((2, 200), np.float32), run.waves], axis=1)
     for start, past in zip(run.hop_starts, probe.continued, strict=True):
         np.testing.assert_array_equal(past, padded[:, start : start + 200])
 
 
 def test_segments_that_overlap_have_the_same_noise_because_it_belongs_to_the_place() -> None:
-    probe = Probe()
-    run = run_closed_loop(
-        probe, np.zeros((2, 64), np.float32), np.zeros((2, 1500, 3), np.float32), np.arange(2), still_surfaces(2),
-        update_rate_hz=72.0, seed=1,
-    )  # fmt: skip
+    probe, run = _probed(np.zeros((2, 1500, 3)), 72.0)
     hops = np.diff(run.hop_starts)
     for hop, before, after in zip(hops, probe.noises, probe.noises[1:], strict=False):
         np.testing.assert_array_equal(before[:, hop:], after[:, : 200 - hop])
@@ -66,13 +61,9 @@ def test_segments_that_overlap_have_the_same_noise_because_it_belongs_to_the_pla
 
 
 def test_the_condition_of_a_segment_is_the_motion_before_it_and_not_the_motion_after_it() -> None:
-    probe = Probe()
-    motions = np.zeros((1, 400, 3), dtype=np.float32)
+    motions = np.zeros((1, 400, 3))
     motions[0, 200:, 0] = 1.0
-    run = run_closed_loop(
-        probe, np.zeros((1, 64), np.float32), motions, np.zeros(1, np.int64), still_surfaces(1),
-        update_rate_hz=40.0, seed=1,
-    )  # fmt: skip
+    probe, run = _probed(motions, 40.0)
     told = np.array([motion[0, 0] for motion in probe.motions])
     np.testing.assert_array_equal(told, (run.hop_starts > 200).astype(np.float32))
 

@@ -23,6 +23,7 @@ from haptoflow_training.recordings.dataset_layout import TextureEntry, write_rec
 from haptoflow_training.recordings.labels import LabelDefinition, LabelMap, load_labels
 from haptoflow_training.recordings.recording import Recording, RecordingIdentity
 from haptoflow_training.recordings.synthetic import load_materials, record_condition_of
+from haptoflow_training.training.level_calibration import Extent
 from parquet_samples import HUB
 from test_skeleton_training import SMALL_BASE, SMALL_STANDARD
 from training_fixtures import run_here
@@ -125,6 +126,7 @@ def model(data_set: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     words = ["--configs", str(configs), "--recordings", str(data_set), "--out", str(folder / "runs"), "--lanes", "1"]
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(train_tiers, "run_jobs", run_here)
+        patch.setattr(train_tiers, "Extent", lambda: Extent(recordings_per_label=4, longest_samples=2000))
         assert main(["train-tiers", *words, "--export", str(file)]) == 0
     return file
 

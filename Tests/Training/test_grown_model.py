@@ -194,10 +194,10 @@ def _accuracy(level_db: float, gfc: float, lsd_db: float) -> LabelAccuracy:
 def test_a_model_is_not_worth_using_if_learning_is_ahead_in_two_of_three_figures(
     level_db: float, gfc: float, lsd_db: float, is_worse: bool
 ) -> None:
-    found = verdict([_accuracy(level_db, gfc, lsd_db)], [_accuracy(0.5, 0.97, 1.5)])
-    assert found.is_worse == is_worse
-    assert found.words.startswith("not worth using" if is_worse else "worth using")
-    assert "level 0.50 dB, GFC 0.970, LSD 1.50 dB" in found.words
+    words, found = verdict([_accuracy(level_db, gfc, lsd_db)], [_accuracy(0.5, 0.97, 1.5)])
+    assert found == is_worse
+    assert words.startswith("not worth using" if is_worse else "worth using")
+    assert "level 0.50 dB, GFC 0.970, LSD 1.50 dB" in words
 
 
 def test_the_template_can_be_inspected_and_prepared_as_it_is(

@@ -11,8 +11,8 @@ import pytest
 from own_samples import RATE_HZ, Stroke, csv_one_axis, csv_three_axes, stroke, wav_with_motion, with_sidecar
 from scipy.io import wavfile
 
+from haptoflow_training.commands.add_material import material_files, read_material_recordings
 from haptoflow_training.errors import InputError
-from haptoflow_training.recordings.material_recording import material_files, read_material_recordings
 from haptoflow_training.recordings.native_recording import MaterialRecording
 from haptoflow_training.recordings.open_recordings import RecordingFile
 from haptoflow_training.recordings.own_files import open_own_dataset
@@ -21,8 +21,8 @@ MADE = stroke(4.0)
 
 
 def read(path: Path) -> tuple[RecordingFile, MaterialRecording]:
-    (file,) = material_files([path], print)
-    (recording,) = read_material_recordings([file], print)
+    (file,) = material_files([path])
+    (recording,) = read_material_recordings([file])
     return file, recording
 
 
@@ -107,9 +107,9 @@ def test_a_table_that_cannot_be_used_is_named_with_what_was_found_and_expected(
 def test_a_missing_file_and_an_empty_folder_are_named(tmp_path: Path) -> None:
     (tmp_path / "empty").mkdir()
     with pytest.raises(InputError, match=r"empty: no recording in it; expected files that end with \.csv"):
-        material_files([tmp_path / "empty"], print)
+        material_files([tmp_path / "empty"])
     with pytest.raises(InputError, match="does not exist"):
-        material_files([tmp_path / "gone"], print)
+        material_files([tmp_path / "gone"])
 
 
 def test_motion_files_in_a_folder_are_not_recordings(tmp_path: Path) -> None:

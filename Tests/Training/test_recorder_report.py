@@ -72,14 +72,15 @@ def test_the_pooled_centroid_grows_with_speed_as_in_published_textures_and_beyon
 
 def test_calibration_restores_a_detuned_material():
     ceramic = MATERIALS["ceramic"]
+    design = replace(SMALL, speeds_mmps=(20.0, 200.0), forces_newtons=(0.5, 2.0), directions_degrees=(0.0, 90.0))
     wrong = ceramic.with_calibrated(
         height_micrometres=3.0 * ceramic.calibrated.height_micrometres,
         height_exponent=ceramic.calibrated.height_exponent + 0.7,
         force_exponent=ceramic.calibrated.force_exponent - 0.4,
         absorption_db_per_octave=ceramic.calibrated.absorption_db_per_octave + 3.0,
     )
-    before = Deviation.of(measure(wrong, seed=7, design=SMALL).targets(), ceramic.targets)
-    _, measured = calibrate(wrong, seed=7, design=SMALL, rounds=3)
+    before = Deviation.of(measure(wrong, seed=7, design=design).targets(), ceramic.targets)
+    _, measured = calibrate(wrong, seed=7, design=design, rounds=3)
     assert not before.passes()
     assert Deviation.of(measured.targets(), ceramic.targets).passes()
 

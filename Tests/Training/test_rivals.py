@@ -124,7 +124,7 @@ def test_the_level_error_of_a_trained_row_is_corrected_at_its_export(
 
     monkeypatch.setattr(train, "measured_levels", levels_of)
     text = (
-        '[model]\nwidth = 16\nprevious_width = 8\n[optimiser]\nbatch_size = 8\nlevel_steps = 4\nsteps = 4\n'
+        '[model]\nhidden = [8, 8]\n[optimiser]\nbatch_size = 8\nlevel_steps = 4\nsteps = 4\n'
         "level_polish_steps = 0\n[recipe]\ncalibrate_level = {}\n"
     )
     levels = []
@@ -291,7 +291,11 @@ def _exported(baseline: Rival, batch: int) -> onnx.ModelProto:
     return onnx.load_from_string(buffer.getvalue())
 
 
-@pytest.mark.parametrize("form", FORMS)
+@pytest.mark.parametrize(
+    "form",
+    [pytest.param(form, marks=[_LARGE] if form in ("transformer, sampled with ribs", "dstn, sampled with ribs") else [])
+     for form in FORMS],
+)  # fmt: skip
 def test_a_rival_exports_as_one_graph_for_every_batch_size(form: str) -> None:
     baseline = _built(form)
     model = _exported(baseline, 2)

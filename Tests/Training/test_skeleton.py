@@ -323,14 +323,14 @@ def test_impulses_are_most_likely_with_the_ring_that_they_have() -> None:
     true = _with_impulses(_gains(), 0.4, 0.3)
     true = true._replace(impulses=true.impulses + ring.reshape(1, -1))
     phases = _phases((0.0, 0.0, 0.0))
-    segment = _recorded(true, phases, 4000)
+    segment = _recorded(true, phases, 1500)
 
     def likelihood(share: float) -> float:
         """Of so much of the ring, with the same first sample."""
         other = (share - 1.0) * ring
         other[..., 0] -= other[..., 7] * SKELETON.impulses.atoms[7, 0]
         gains = true._replace(impulses=true.impulses + other.reshape(1, -1))
-        return SKELETON.tail_likelihood(segment, _many(gains, 4000), phases.expand(4000, 6)).mean().item()
+        return SKELETON.tail_likelihood(segment, _many(gains, 1500), phases.expand(1500, 6)).mean().item()
 
     best = likelihood(1.0)
     for share in (-1.0, 0.0, 2.0):
@@ -340,10 +340,10 @@ def test_impulses_are_most_likely_with_the_ring_that_they_have() -> None:
 def test_the_tails_are_most_likely_with_the_impulses_and_the_noise_that_made_them() -> None:
     true = _with_impulses(_gains(), 0.4, 0.1)._replace(log_gain=_gains().log_gain - 0.1)
     phases = _phases((0.0, 0.0, 0.0))
-    segment = _recorded(true, phases, 4000)
+    segment = _recorded(true, phases, 1500)
 
     def likelihood(gains: SkeletonGains) -> float:
-        return SKELETON.tail_likelihood(segment, _many(gains, 4000), phases.expand(4000, 6)).mean().item()
+        return SKELETON.tail_likelihood(segment, _many(gains, 1500), phases.expand(1500, 6)).mean().item()
 
     best = likelihood(true)
     wrong = {

@@ -17,7 +17,7 @@ from haptoflow_training.cli import main
 from haptoflow_training.errors import InputError
 from haptoflow_training.preprocessing.store import store_lock
 from haptoflow_training.training.processes import Job, run_jobs
-from places import ROOT, TRAINING
+from places import TRAINING
 
 CONFIGURATION = """
 name = "small"
@@ -31,8 +31,7 @@ machine_forces_millinewtons = [500]
 hand_recordings_per_label = 8
 hand_duration_seconds = {hand_seconds}
 [model]
-width = 16
-previous_width = 8
+hidden = [16, 16]
 [optimiser]
 batch_size = 8
 level_steps = 20
@@ -206,8 +205,7 @@ def test_terminating_the_parent_terminates_its_jobs(tmp_path: Path) -> None:
         f"words = ({_CAREFUL!r}, str(folder), 'job', '60')\n"
         "run_jobs([Job('job', words, folder / 'log', folder / 'job', program=(sys.executable, '-c'))], 1)\n"
     )
-    training = ROOT / "Training"
-    process = subprocess.Popen([*_PYTHON, parent], env={**os.environ, "PYTHONPATH": str(training)})
+    process = subprocess.Popen([*_PYTHON, parent], env={**os.environ, "PYTHONPATH": str(TRAINING)})
     end = time.monotonic() + 30.0
     while not (tmp_path / "job.began").exists() and time.monotonic() < end:
         time.sleep(0.05)

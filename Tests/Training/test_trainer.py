@@ -64,7 +64,7 @@ def assert_same_weights(folder: Path, whole: Path) -> None:
 
 
 def test_training_lowers_both_validation_losses(tmp_path: Path) -> None:
-    trainer = Trainer(_config(steps=150), make_store(), tmp_path, ALONE)
+    trainer = Trainer(_config(steps=80), make_store(), tmp_path, ALONE)
     level_before, _ = trainer.validate()
     untrained = copy.deepcopy(trainer.averaged_model.network.state_dict())
     trainer.run()

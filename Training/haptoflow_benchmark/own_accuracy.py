@@ -218,14 +218,6 @@ def _draw(
     figure.savefig(path, dpi=100, metadata=picture_metadata(model_sha256))
 
 
-@dataclass(frozen=True)
-class Verdict:
-    """words: one line for a terminal. is_worse: the model is behind learning in at least two of level, GFC and LSD."""
-
-    words: str
-    is_worse: bool
-
-
 def render_learnt(
     seen: Sequence[HeldOutPart], held_out: Sequence[HeldOutPart], turned_degrees: Mapping[str, float], *,
     base: Path, engine: Path, folder: Path, advance: Callable[[int], object],
@@ -249,13 +241,14 @@ def render_learnt(
     return rendered
 
 
-def verdict(model: Sequence[LabelAccuracy], learnt: Sequence[LabelAccuracy]) -> Verdict:
-    """model, learnt: the same labels."""
+def verdict(model: Sequence[LabelAccuracy], learnt: Sequence[LabelAccuracy]) -> tuple[str, bool]:
+    """One line for a terminal, and whether the model is behind learning in at least two of level, GFC and LSD. model,
+    learnt: the same labels."""
     ours, theirs = _figures(model), _figures(learnt)
     behind = sum(own > other for own, other in zip(ours, theirs, strict=True))
     words = "not worth using" if behind >= 2 else "worth using"
     shown = [f"level {level:.2f} dB, GFC {1.0 - gfc:.3f}, LSD {lsd:.2f} dB" for level, gfc, lsd in (ours, theirs)]
-    return Verdict(f"{words}: {shown[0]}; `haptoflow learn` on the same recordings: {shown[1]}", behind >= 2)
+    return f"{words}: {shown[0]}; `haptoflow learn` on the same recordings: {shown[1]}", behind >= 2
 
 
 def _figures(found: Sequence[LabelAccuracy]) -> tuple[float, float, float]:

@@ -13,7 +13,7 @@ from typing import Any
 from tqdm import tqdm
 
 from haptoflow_benchmark.own_accuracy import (
-    HeldOutPart, LabelAccuracy, RenderedPart, Verdict, label_accuracy, lines, render_learnt, render_parts, verdict,
+    HeldOutPart, LabelAccuracy, RenderedPart, label_accuracy, lines, render_learnt, render_parts, verdict,
     write_own_report
 )
 from haptoflow_training.errors import InputError
@@ -75,8 +75,8 @@ def run(options: argparse.Namespace) -> int:
         write_own_report(options.out, found, by_label, sha256_of(model))
         print(f"evaluate: {options.out / 'own-accuracy.json'}, .md and .png")
     if decided is not None:
-        print(decided.words)
-    return _NOT_WORTH_USING if decided is not None and decided.is_worse else 0
+        print(decided[0])
+    return _NOT_WORTH_USING if decided is not None and decided[1] else 0
 
 
 def _measured(rendered: list[RenderedPart]) -> tuple[dict[str, list[RenderedPart]], list[LabelAccuracy]]:
@@ -92,7 +92,10 @@ def _measured(rendered: list[RenderedPart]) -> tuple[dict[str, list[RenderedPart
     return by_label, found
 
 
-def _beside_learning(options: argparse.Namespace, parts: OwnParts, found: list[LabelAccuracy], folder: Path) -> Verdict:
+def _beside_learning(
+    options: argparse.Namespace, parts: OwnParts, found: list[LabelAccuracy], folder: Path
+) -> tuple[str, bool]:
+    """As of `verdict`."""
     compared = {one.label for one in found}
     held_out = [part for part in parts.held_out if part.label in compared]
     with tqdm(total=len(compared), unit="label", desc="haptoflow learn") as bar:

@@ -17,9 +17,10 @@ from tqdm import tqdm
 from haptoflow_training.errors import InputError
 from haptoflow_training.export.model_file import read_model_file, require_new_name, with_label, write_model_file
 from haptoflow_training.export.learning import DEFAULT_SECONDS_LIMIT, joined, learn_material
+from haptoflow_training.preprocessing.pipeline import preprocess_parts
 from haptoflow_training.recordings.dataset import UNKNOWN
-from haptoflow_training.recordings.material_recording import material_files, read_material_recordings
-from haptoflow_training.recordings.open_recordings import RecordingFile
+from haptoflow_training.recordings.native_recording import MaterialRecording
+from haptoflow_training.recordings.open_recordings import RecordingFile, open_recordings
 from haptoflow_training.recordings.own_files import open_own, read_own
 from haptoflow_training.whole_file import check_writable, write_whole
 
@@ -77,7 +78,7 @@ def run(options: argparse.Namespace) -> int:
     if not 0.0 < options.seconds_limit <= 3600.0:
         raise InputError(f"--seconds-limit {options.seconds_limit:g}: expected above 0 to 3600")
     wave_vectors = _wave_vectors(options.wave_vector)
-    files = material_files(options.recording, _tell)
+    files = material_files(options.recording)
     # One file is learnt as `haptoflow learn` does it, byte for byte; several are joined as training prepares them.
     is_one_file = len(options.recording) == 1 and options.recording[0].is_file()
     read = read_own(options.recording[0]) if is_one_file else None
@@ -89,7 +90,7 @@ def run(options: argparse.Namespace) -> int:
     for note in read.notes if read else ():
         _tell(note)
     licence, origin = _origin(options.recording, files)
-    recording = open_own(options.recording[0]) if read else joined(read_material_recordings(files, _tell), origin)
+    recording = open_own(options.recording[0]) if read else joined(read_material_recordings(files), origin)
     with tqdm(total=100, desc=name, unit="%", disable=None) as progress:
         text, report = learn_material(
             options.model,
@@ -113,6 +114,47 @@ def run(options: argparse.Namespace) -> int:
 
 def _tell(line: str) -> None:
     print(line, file=sys.stderr)
+
+
+def material_files(paths: Sequence[Path]) -> list[RecordingFile]:
+    """Every recording in files and folders (own files, or the published data set's layout), described and not yet read.
+
+    Says which recordings of a folder cannot be used. InputError, naming file, column or key, what was found and what is
+    expected, if a file that was named itself cannot be used, or if nothing can.
+    """
+    files: list[RecordingFile] = []
+    for path in paths:
+        dataset = open_recordings(path)
+        found = (*dataset.recordings, *dataset.unlabelled)
+        for problem in dataset.problems:
+            if not found:
+                raise InputError(str(problem))
+            _tell(f"skipped: {problem}")
+        files += found
+    if not files:
+        raise InputError(f"{', '.join(map(str, paths))}: no recording; expected .csv, .parquet or .wav files")
+    return files
+
+
+def read_material_recordings(files: Sequence[RecordingFile]) -> list[MaterialRecording]:
+    """The samples of recordings, prepared as for training. Says which cannot be used, and what the reader ignored or
+    corrected. InputError if none can be used."""
+    recordings: list[MaterialRecording] = []
+    for entry in files:
+        try:
+            read = entry.load()
+            parts = preprocess_parts(read)
+        except InputError as error:
+            if len(files) == 1:
+                raise
+            _tell(f"skipped: {error}")
+            continue
+        for note in read.notes:
+            _tell(note)
+        recordings += [MaterialRecording(part.waveform_mps2, part.motion) for part in parts]
+    if not recordings:
+        raise InputError("no recording could be used")
+    return recordings
 
 
 def _name(options: argparse.Namespace, files: Sequence[RecordingFile], of_one_file: str | None) -> str:
