@@ -6,7 +6,6 @@
 #include "engine/voice_channels.hpp"
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
 
 namespace haptoflow::engine {

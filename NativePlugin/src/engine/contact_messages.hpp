@@ -5,7 +5,7 @@
 #include "effects/impacts.hpp"
 #include "effects/relief_map.hpp"
 #include "engine/contact_state.hpp"
-#include "engine/range_law.hpp"
+#include "engine/material.hpp"
 #include "inference/segment_generator.hpp"
 #include "skeleton/stream.hpp"
 

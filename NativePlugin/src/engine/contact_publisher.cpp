@@ -1,13 +1,10 @@
 #include "engine/contact_publisher.hpp"
 
-#include "engine/material.hpp"
-#include "engine/range_law.hpp"
 #include "engine/tap_pieces.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <optional>
 #include <utility>
 
 namespace haptoflow::engine {

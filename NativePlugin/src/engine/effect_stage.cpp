@@ -4,7 +4,6 @@
 #include "effects/device_loudness.hpp"
 
 #include <algorithm>
-#include <array>
 #include <functional>
 #include <utility>
 
@@ -221,24 +220,6 @@ bool EffectStage::areSourcesIdle() const noexcept {
     return impact_.isIdle() && edge_.isIdle() && relief_.isIdle() && clip_.isIdle() && signal_.isIdle();
 }
 
-void EffectStage::runSources(std::span<float> samplesMps2, EffectFigures& figures) noexcept {
-    if (!impact_.isIdle()) {
-        run(impact_, EffectKind::impact, samplesMps2, figures);
-    }
-    if (!edge_.isIdle()) {
-        run(edge_, EffectKind::edge, samplesMps2, figures);
-    }
-    if (!relief_.isIdle()) {
-        run(relief_, EffectKind::relief, samplesMps2, figures);
-    }
-    if (!clip_.isIdle()) {
-        run(clip_, EffectKind::clip, samplesMps2, figures);
-    }
-    if (!signal_.isIdle()) {
-        run(signal_, EffectKind::signal, samplesMps2, figures);
-    }
-}
-
 void EffectStage::addSources(std::span<float> samplesMps2, EffectFigures& figures) noexcept {
     // The texture has its own gate. Without processors, this gate applies only to the sources added here.
     if (areSourcesIdle()) {
@@ -246,7 +227,14 @@ void EffectStage::addSources(std::span<float> samplesMps2, EffectFigures& figure
     }
     std::array<float, blockSamples> added{};
     const std::span<float> target = hasProcessors() ? samplesMps2 : std::span(added).first(samplesMps2.size());
-    runSources(target, figures);
+    using Source = std::pair<effects::Effect&, EffectKind>;
+    for (const auto& [source, kind] :
+         {Source(impact_, EffectKind::impact), Source(edge_, EffectKind::edge), Source(relief_, EffectKind::relief),
+          Source(clip_, EffectKind::clip), Source(signal_, EffectKind::signal)}) {
+        if (!source.isIdle()) {
+            run(source, kind, target, figures);
+        }
+    }
     if (!hasProcessors()) {
         passGate(target);
         std::ranges::transform(target, samplesMps2, samplesMps2.begin(), std::plus<>());

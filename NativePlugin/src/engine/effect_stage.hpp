@@ -135,7 +135,6 @@ public:
 
 private:
     [[nodiscard]] bool areSourcesIdle() const noexcept;
-    void runSources(std::span<float> samplesMps2, EffectFigures& figures) noexcept;
     void runProcessors(std::span<float> samplesMps2, EffectFigures& figures) noexcept;
     void passGate(std::span<float> samplesMps2) noexcept;
     void settleDelay() noexcept;

@@ -1,13 +1,11 @@
 #include "engine/live_engine.hpp"
 
 #include "dsp/denormals.hpp"
-#include "engine/worker_thread.hpp"
 #include "inference/load_limits.hpp"
 
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cmath>
 #include <exception>
 #include <iterator>
 #include <limits>

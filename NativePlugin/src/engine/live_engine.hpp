@@ -1,7 +1,6 @@
 #pragma once
 
 #include "dsp/limiter.hpp"
-#include "engine/inference_round.hpp"
 #include "engine/live_voice.hpp"
 #include "engine/mailbox.hpp"
 #include "engine/material_library.hpp"

@@ -16,11 +16,6 @@ namespace haptoflow::engine {
 template <typename Message>
 class Mailbox {
 public:
-    Mailbox() = default;
-    Mailbox(const Mailbox&) = delete;
-    Mailbox& operator=(const Mailbox&) = delete;
-    ~Mailbox() = default;
-
     /// Writer: the message to fill. It contains an old message, so every field must be written.
     [[nodiscard]] Message& draft() noexcept { return slots_[writing_]; }
     /// Writer: publishes the draft as the newest message.

@@ -1,15 +1,23 @@
 #include "engine/material.hpp"
 
-#include "inference/segment_generator.hpp"
-#include "skeleton/gaussian_noise.hpp"
+#include "dsp/rate_warp.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
-#include <span>
+#include <numbers>
 
 namespace haptoflow::engine {
+namespace {
+
+constexpr double maximumGain = 16.0;
+
+/// value / edge, at least 1.
+double excess(double value, double edge) {
+    return edge > 0.0 ? std::max(1.0, value / edge) : 1.0;
+}
+
+}  // namespace
 
 WaveVectors waveVectorsOf(std::span<const float, model::embeddingSize> embedding) noexcept {
     const auto numbers = embedding.last<2 * skeleton::ribCount>();
@@ -128,87 +136,41 @@ dsp::ToneCepstrum designTilt() {
     return dsp::toneCepstrum([=](double frequencyHz) { return std::log2(std::max(frequencyHz, lowestHz) / pivotHz); });
 }
 
-namespace {
+RangedMotion applyRangeLaw(const model::ModelHeader& header, const Material& material,
+                           const std::array<float, 2>& velocityMps, float forceNewtons, float spatialScale) noexcept {
+    const double fastest = header.speedMps.maximum;
+    const double force = forceNewtons;
+    const double forceExcess = excess(force, header.forceNewtons.maximum);
+    const auto clampedForce = static_cast<float>(std::max(force, header.forceNewtons.minimum) / forceExcess);
+    const auto clamped = [&](double vx, double vy) -> std::array<float, 3> {
+        const double speedExcess = excess(std::hypot(vx, vy), fastest);
+        return {static_cast<float>(vx / speedExcess), static_cast<float>(vy / speedExcess), clampedForce};
+    };
+    const double scale = spatialScale;
+    const double vx = velocityMps[0];
+    const double vy = velocityMps[1];
+    const double speedExcess = excess(std::hypot(vx, vy), fastest);
+    const double featureExcess = excess(std::hypot(vx, vy) / scale, fastest);
 
-constexpr float largestDeviation = 2.5F;
-// Of a standard normal number that is limited to that. With the density p and the distribution P, its variance is
-// 2 P(2.5) - 1 - 5 p(2.5) + 2 * 2.5^2 (1 - P(2.5)).
-constexpr double limitedDeviation = 0.988716;
-// Voices are numbered from 0.
-constexpr std::uint32_t noVoice = std::numeric_limits<std::uint32_t>::max();
-
-}  // namespace
-
-std::array<float, model::embeddingSize> embeddingOf(const PreparedMaterial& material, ObjectIdentity object) noexcept {
-    std::array<float, model::embeddingSize> embedding{};
-    std::ranges::copy(material.embedding, embedding.begin());
-    const std::size_t pieces = std::min(material.pieceOffsets.size() / model::textureSize, model::maximumPieces);
-    if (object.variation == 0.0F || pieces < 2) {
-        return embedding;
-    }
-    std::array<float, model::maximumPieces> numbers{};
-    const auto drawn = std::span(numbers).first(pieces);
-    skeleton::fillStandardNormal({.seed = object.surfaceSeed, .voice = noVoice}, drawn);
-    std::array<double, model::textureSize> offset{};
-    for (std::size_t piece = 0; piece < pieces; ++piece) {
-        const auto number = static_cast<double>(std::clamp(drawn[piece], -largestDeviation, largestDeviation));
-        const auto own = material.pieceOffsets.subspan(piece * model::textureSize).first<model::textureSize>();
-        for (std::size_t j = 0; j < offset.size(); ++j) {
-            offset[j] += number * static_cast<double>(own[j]);
-        }
-    }
-    const double scale =
-        static_cast<double>(object.variation) / (limitedDeviation * std::sqrt(static_cast<double>(pieces - 1)));
-    for (std::size_t j = 0; j < offset.size(); ++j) {
-        embedding[j] = static_cast<float>(static_cast<double>(embedding[j]) + scale * offset[j]);
-    }
-    return embedding;
+    RangedMotion ranged;
+    ranged.motion = clamped(vx / scale, vy / scale);
+    ranged.levelMotion = clamped(vx, vy);
+    ranged.levelGain = std::min(maximumGain, std::pow(speedExcess, material.speedLevelExponent) *
+                                                 std::pow(forceExcess, material.forceLevelExponent));
+    ranged.readingRate =
+        std::clamp(std::pow(featureExcess, material.frequencyExponent), 1.0, dsp::RateWarp::maximumRatio);
+    return ranged;
 }
 
-double PreparedMaterial::logLevel(const std::array<float, 3>& motion) const noexcept {
-    const double offset = label->levelOffsetDb * dsp::nepersPerDecibel;
-    if (!label->level) {
-        return grid->at(*graphLevels, motion) + offset;
+LevelRequest requestLevel(const Ingredients& ingredients, const RangedMotion& ranged) noexcept {
+    const model::Label& label = *ingredients.entries[0].material->label;
+    LevelRequest request{.levelMps2 = {}, .motion = ranged.levelMotion, .gain = 1.0F};
+    if (ingredients.isBlend() || label.level) {
+        request.levelMps2 = ingredients.levelMps2(ranged.levelMotion);
+    } else if (label.levelOffsetDb != 0.0) {
+        request.gain = static_cast<float>(std::exp(label.levelOffsetDb * std::numbers::ln10 / 20.0));
     }
-    const double own = label->level->logLevel(std::hypot(motion[0], motion[1]), motion[2], label->speedLevelExponent);
-    return std::clamp(own + offset, -inference::maximumLogLevel, inference::maximumLogLevel);
-}
-
-double PreparedMaterial::forceExponent() const noexcept {
-    return label->level ? label->level->forceExponent : label->forceLevelExponent;
-}
-
-namespace {
-
-// Added to speed and force before taking logarithms, because smaller differences cannot be felt.
-constexpr double restMps = 0.002;
-constexpr double restNewtons = 0.05;
-constexpr double forceShare = 0.5;
-constexpr double directionShare = 0.1;
-
-double distance(const Seed& seed, const std::array<float, 3>& motion) {
-    const double speed = std::hypot(motion[0], motion[1]);
-    const double seedSpeed = std::hypot(seed.velocityMps[0], seed.velocityMps[1]);
-    const double speedGap = std::log((speed + restMps) / (seedSpeed + restMps));
-    const double forceGap = std::log((motion[2] + restNewtons) / (seed.forceNewtons + restNewtons));
-    const double along =
-        (seed.velocityMps[0] * motion[0] + seed.velocityMps[1] * motion[1]) / (speed * seedSpeed + restMps * restMps);
-    return speedGap * speedGap + forceShare * forceGap * forceGap + directionShare * (1.0 - along * along);
-}
-
-}  // namespace
-
-const Seed* retrieveSeed(std::span<const Seed> seeds, const std::array<float, 3>& motion) noexcept {
-    double nearest = std::numeric_limits<double>::infinity();
-    const Seed* chosen = nullptr;
-    for (const Seed& seed : seeds) {
-        const double gap = distance(seed, motion);
-        if (gap < nearest) {
-            nearest = gap;
-            chosen = &seed;
-        }
-    }
-    return chosen;
+    return request;
 }
 
 }  // namespace haptoflow::engine

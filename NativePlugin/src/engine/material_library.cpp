@@ -1,17 +1,24 @@
 #include "engine/material_library.hpp"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <unordered_map>
 #include <utility>
 
 namespace haptoflow::engine {
+namespace {
+
 static_assert(model::textureSize == model::embeddingSize - 2 * inference::ribCount);
+
+std::optional<inference::PreparedTone> toneOf(const model::Label& label) {
+    return label.tone ? std::optional<inference::PreparedTone>(*label.tone) : std::nullopt;
+}
+
+}  // namespace
 
 const Ingredient& Ingredients::heaviest() const noexcept {
     return *std::ranges::max_element(all(), {}, &Ingredient::weight);
@@ -33,11 +40,31 @@ float Ingredients::levelMps2(const std::array<float, 3>& motion) const noexcept 
     return static_cast<float>(std::exp(sum / totalWeight()));
 }
 
-MaterialLibrary::MaterialLibrary(const model::ModelFile& model, inference::LevelEstimator& levels,
+MaterialLibrary::MaterialLibrary(const model::ModelFile& model, inference::LevelEstimator& estimator,
                                  const inference::LoadLimits& limits)
-    : model_(model), levels_(model, levels, limits) {
-    for (std::size_t label = 0; label < model.header().labels.size(); ++label) {
-        labels_.push_back(prepareLabel(label));
+    : model_(model), grid_(model.header()) {
+    const auto& labels = model.header().labels;
+    std::vector<std::span<const float, model::embeddingSize>> embeddings;
+    // The table of each embedding row, and of each label.
+    std::unordered_map<std::size_t, std::size_t> tableOfRow;
+    std::vector<std::size_t> tables;
+    for (std::size_t label = 0; label < labels.size(); ++label) {
+        const auto [known, isNew] = tableOfRow.emplace(labels[label].embeddingRow, embeddings.size());
+        if (isNew) {
+            embeddings.push_back(model.embedding(label));
+        }
+        tables.push_back(known->second);
+    }
+    graphLevels_ = tabulateLevels(grid_, embeddings, estimator, limits);
+    for (std::size_t label = 0; label < labels.size(); ++label) {
+        const auto table = std::span(std::as_const(graphLevels_)).subspan(tables[label] * LevelGrid::points);
+        labels_.push_back({.label = &labels[label],
+                           .embedding = model.embedding(label),
+                           .pieceOffsets = model.pieceOffsets(label),
+                           .grid = &grid_,
+                           .graphLevels = table.first<LevelGrid::points>(),
+                           .tone = toneOf(labels[label]),
+                           .seeds = {}});
     }
     const auto& seeds = model.header().seeds;
     for (std::size_t seed = 0; seed < seeds.size(); ++seed) {
@@ -46,24 +73,8 @@ MaterialLibrary::MaterialLibrary(const model::ModelFile& model, inference::Level
                                               .forceNewtons = entry.forceNewtons,
                                               .ribPhase = entry.ribPhase,
                                               .gain = entry.gain,
-                                              .samples = model.seed(seed),
-                                              .embedding = model.embedding(entry.label)});
+                                              .samples = model.seed(seed)});
     }
-}
-
-PreparedMaterial MaterialLibrary::prepareLabel(std::size_t label) const {
-    const model::Label& entry = model_.header().labels[label];
-    PreparedMaterial known{.label = &entry,
-                           .embedding = model_.embedding(label),
-                           .pieceOffsets = model_.pieceOffsets(label),
-                           .grid = &levels_.grid(),
-                           .graphLevels = levels_.table(label),
-                           .tone = {},
-                           .seeds = {}};
-    if (entry.tone) {
-        known.tone.emplace(*entry.tone);
-    }
-    return known;
 }
 
 std::unique_ptr<const MaterialLibrary::Registered> MaterialLibrary::prepare(model::MaterialFile material,
@@ -74,21 +85,18 @@ std::unique_ptr<const MaterialLibrary::Registered> MaterialLibrary::prepare(mode
     PreparedMaterial& known = made->known;
     known.label = &made->file.label;
     known.embedding = made->file.embedding;
-    known.grid = &levels_.grid();
+    known.grid = &grid_;
     if (!made->file.label.level) {
         const std::array embeddings{known.embedding};
-        made->graphLevels = tabulateLevels(levels_.grid(), embeddings, levels());
+        made->graphLevels = tabulateLevels(grid_, embeddings, levels());
         known.graphLevels = std::span(std::as_const(made->graphLevels)).first<LevelGrid::points>();
     }
-    if (made->file.label.tone) {
-        known.tone.emplace(*made->file.label.tone);
-    }
+    known.tone = toneOf(made->file.label);
     for (const model::MaterialSeed& seed : made->file.seeds) {
         known.seeds.push_back({.velocityMps = seed.velocityMps,
                                .forceNewtons = seed.forceNewtons,
                                .ribPhase = seed.ribPhase,
-                               .samples = seed.samples,
-                               .embedding = known.embedding});
+                               .samples = seed.samples});
     }
     if (known.seeds.empty()) {
         known.seeds = labels_[model_.nearestLabel(known.embedding)].seeds;

@@ -1,10 +1,8 @@
 #pragma once
 
 #include "engine/contact_state.hpp"
-#include "engine/onset_levels.hpp"
 #include "engine/prepared_material.hpp"
 #include "inference/load_limits.hpp"
-#include "inference/segment_generator.hpp"
 #include "model/material_file.hpp"
 #include "model/model_file.hpp"
 
@@ -49,13 +47,11 @@ public:
     /// Returns a level graph that no other thread uses meanwhile; called only if one is needed.
     using LevelSource = std::function<inference::LevelEstimator&()>;
 
-    /// Computes the levels of all labels with the level graph (see OnsetLevels). The model must outlive the library.
-    /// Throws inference::InferenceError, inference::LoadCancelled.
+    /// Tabulates the level graph for each embedding that labels use, so that touch-downs run no graph; labels with the
+    /// same embedding share a table. The model must outlive the library. Throws inference::InferenceError,
+    /// inference::LoadCancelled.
     MaterialLibrary(const model::ModelFile& model, inference::LevelEstimator& levels,
                     const inference::LoadLimits& limits = {});
-    MaterialLibrary(const MaterialLibrary&) = delete;
-    MaterialLibrary& operator=(const MaterialLibrary&) = delete;
-    ~MaterialLibrary() = default;
 
     /// Registers a material and returns its index for contact states: the number of labels plus the number of materials
     /// registered before. Throws model::MaterialMismatch, inference::InferenceError, and std::invalid_argument if the
@@ -95,7 +91,6 @@ private:
         PreparedMaterial known;
     };
 
-    [[nodiscard]] PreparedMaterial prepareLabel(std::size_t label) const;
     [[nodiscard]] std::unique_ptr<const Registered> prepare(model::MaterialFile material,
                                                             const LevelSource& levels) const;
     [[nodiscard]] const PreparedMaterial* find(std::uint32_t index) const noexcept;
@@ -103,7 +98,9 @@ private:
     void waitForReaders() noexcept;
 
     const model::ModelFile& model_;
-    OnsetLevels levels_;
+    LevelGrid grid_;
+    /// Tables of the level graph, one after the other; the labels view them.
+    std::vector<float> graphLevels_;
     std::vector<PreparedMaterial> labels_;
 
     // Held while a material is registered or replaced or a label is shown.

@@ -1,17 +1,14 @@
 #include "engine/offline_renderer.hpp"
 
 #include "dsp/splice.hpp"
-#include "engine/inference_round.hpp"
 #include "engine/live_voice.hpp"
 #include "engine/material_library.hpp"
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <optional>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
 namespace haptoflow::engine {
 namespace {
@@ -173,6 +170,11 @@ private:
         }
     }
 
+    RoundResult infer() {
+        LiveVoice* const voices[] = {&voice_};
+        return round_.run(voices, generator_);
+    }
+
     void addProcessors() {
         if (settings_.actuator == nullptr && !(settings_.delaySeconds > 0.0) && !settings_.listens) {
             return;
@@ -186,8 +188,7 @@ private:
         });
         // The renderer states its rate, the planner makes the processors, and the renderer takes them.
         voice_.renderer.render({}, settings_.outputRateHz);
-        LiveVoice* const voices[] = {&voice_};
-        (void)round_.run(voices, generator_);
+        (void)infer();
         voice_.renderer.render({}, settings_.outputRateHz);
     }
 
@@ -206,8 +207,7 @@ private:
         voice_.publisher.publish(state);
         // An empty block makes the renderer begin the stream, which the planner needs.
         voice_.renderer.render({}, settings_.outputRateHz);
-        LiveVoice* const voices[] = {&voice_};
-        const RoundResult round = round_.run(voices, generator_);
+        const RoundResult round = infer();
         if (round.segments > 0) {
             inferenceMs_.add(static_cast<float>(round.milliseconds / static_cast<double>(round.segments)));
         }

@@ -10,7 +10,6 @@
 #include "model/model_file.hpp"
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -72,9 +71,6 @@ struct OfflineFigures {
 /// Receives a render piece by piece.
 class OfflineSink {
 public:
-    OfflineSink() = default;
-    OfflineSink(const OfflineSink&) = delete;
-    OfflineSink& operator=(const OfflineSink&) = delete;
     virtual ~OfflineSink() = default;
     /// Output, +-1 at outputRateHz.
     virtual void output(std::span<const float> samples) = 0;

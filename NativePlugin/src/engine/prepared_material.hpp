@@ -1,8 +1,8 @@
 #pragma once
 
-#include "engine/onset_levels.hpp"
+#include "inference/load_limits.hpp"
 #include "inference/prepared_tone.hpp"
-#include "model/model_file.hpp"
+#include "inference/segment_generator.hpp"
 #include "model/model_header.hpp"
 
 #include <array>
@@ -13,6 +13,43 @@
 
 namespace haptoflow::engine {
 
+/// The points of speed, direction and force at which a material's level is tabulated. Tables are interpolated linearly
+/// in direction and in the logarithms of speed and force. Immutable.
+class LevelGrid {
+public:
+    static constexpr std::size_t speeds = 10;
+    static constexpr std::size_t directions = 8;
+    static constexpr std::size_t forces = 8;
+    static constexpr std::size_t points = speeds * directions * forces;
+    /// Natural logarithm of the RMS in m/s^2 at each point.
+    using Table = std::span<const float, points>;
+
+    explicit LevelGrid(const model::ModelHeader& header) noexcept;
+
+    /// vx, vy in m/s and force in N at a point.
+    [[nodiscard]] std::array<float, 3> motionOf(std::size_t point) const noexcept;
+    /// The table's value at a motion, which is clamped to the grid.
+    [[nodiscard]] double at(Table table, const std::array<float, 3>& motion) const noexcept;
+
+private:
+    /// An axis with points spaced evenly over the logarithm.
+    struct Axis {
+        double lowest = 0.0;
+        double highest = 0.0;
+        [[nodiscard]] double value(double place) const noexcept;
+        [[nodiscard]] double place(double value, std::size_t count) const noexcept;
+    };
+
+    Axis speed_;
+    Axis force_;
+};
+
+/// Logarithms of the level graph's levels at the points of the grid for each of `embeddings`, one table after the
+/// other. Throws inference::InferenceError, inference::LoadCancelled.
+[[nodiscard]] std::vector<float> tabulateLevels(
+    const LevelGrid& grid, std::span<const std::span<const float, model::embeddingSize>> embeddings,
+    inference::LevelEstimator& estimator, const inference::LoadLimits& limits = {});
+
 /// A recorded waveform that is played at touch-down, with the motion at which it was recorded.
 struct Seed {
     std::array<double, 2> velocityMps{};
@@ -21,8 +58,6 @@ struct Seed {
     /// RMS of the played seed relative to the level.
     float gain = 1.0F;
     std::span<const float, model::seedSamples> samples;
-    /// Embedding of the recorded material; the rib phase refers to its wave vectors.
-    std::span<const float, model::embeddingSize> embedding;
 };
 
 /// The seed recorded at the motion nearest to `motion`, compared by the logarithms of speed and force and by the

@@ -1,7 +1,6 @@
 #include "engine/quality_control.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <stdexcept>
 #include <string>

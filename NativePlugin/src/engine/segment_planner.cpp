@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
-#include <new>
-#include <stdexcept>
 
 namespace haptoflow::engine {
 namespace {
@@ -91,18 +88,14 @@ bool SegmentPlanner::mayReplace() const noexcept {
 }
 
 bool SegmentPlanner::mustPoll() noexcept {
-    if (!awaitsCallback() || polls_ >= maximumPolls) {
+    // Every reason for which `wake` did not generate ends when the callback runs: an onset that has not been played
+    // yet, a clock that stands still, a hop that would be too short, a full queue.
+    const PublishedContact& contact = channels_.toWorker.current().contact;
+    if (!contact.sliding || contact.slides == settledSlides_ || polls_ >= maximumPolls) {
         return false;
     }
     ++polls_;
     return true;
-}
-
-bool SegmentPlanner::awaitsCallback() const noexcept {
-    // Every reason for which `wake` did not generate ends when the callback runs: an onset that has not been played
-    // yet, a clock that stands still, a hop that would be too short, a full queue.
-    const PublishedContact& contact = channels_.toWorker.current().contact;
-    return contact.sliding && contact.slides != settledSlides_;
 }
 
 void SegmentPlanner::learn() noexcept {
@@ -225,14 +218,12 @@ void SegmentPlanner::fail() noexcept {
     channels_.counters.failures.fetch_add(1, std::memory_order_relaxed);
 }
 
-ProcessorSettings SegmentPlanner::requestedProcessors() const {
-    const std::lock_guard lock(channels_.processorMutex);
-    return channels_.processorSettings;
-}
-
 std::unique_ptr<Processors> SegmentPlanner::processorsFor(double rateHz) {
     const VoiceControls& controls = channels_.controls;
-    const ProcessorSettings settings = requestedProcessors();
+    const ProcessorSettings settings = [this] {
+        const std::lock_guard lock(channels_.processorMutex);
+        return channels_.processorSettings;
+    }();
     keepsExposure_ = keepsExposure_ || settings.hasExposureGuard;
     return makeProcessors(settings, rateHz, controls.delaySeconds, controls.actuatorGain, keepsExposure_);
 }

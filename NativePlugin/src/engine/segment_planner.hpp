@@ -50,11 +50,9 @@ public:
     void serveOutputRate() noexcept;
 
 private:
-    [[nodiscard]] ProcessorSettings requestedProcessors() const;
     [[nodiscard]] std::unique_ptr<Processors> processorsFor(double rateHz);
     void serveProcessors() noexcept;
     [[nodiscard]] bool mayReplace() const noexcept;
-    [[nodiscard]] bool awaitsCallback() const noexcept;
     void skipUntil(std::uint64_t slides) noexcept;
     void learn() noexcept;
     void copyWaveform() noexcept;

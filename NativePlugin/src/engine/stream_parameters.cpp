@@ -22,38 +22,6 @@ constexpr double octaves = 0.5;
 // the surface have: 2/3 of a direction's square lies in a plane, half of it along a path.
 const double shortening = std::sqrt(1.5);
 
-}  // namespace
-
-WanderPoint surfaceWander(std::uint64_t key, double wavelengthMetres, const skeleton::SurfacePath& path) noexcept {
-    constexpr double wholeTurn = 2.0 * std::numbers::pi;
-    const double size = std::sqrt(2.0 / static_cast<double>(waves));
-    WanderPoint point;
-    for (std::uint64_t wave = 0; wave < waves; ++wave) {
-        std::array<double, numbersPerWave> drawn{};
-        for (std::size_t number = 0; number < numbersPerWave; ++number) {
-            drawn[number] = skeleton::fractionOf(key, wave * numbersPerWave + number);
-        }
-        // Uniform on the sphere: height and angle are independent.
-        const double height = 2.0 * drawn[0] - 1.0;
-        const double across = std::sqrt(1.0 - height * height);
-        const double turn = wholeTurn * drawn[1];
-        const double cycles = shortening * std::exp2(octaves * (2.0 * drawn[2] - 1.0)) / wavelengthMetres;
-        const std::array<double, 3> direction{across * std::cos(turn), across * std::sin(turn), height};
-        double phase = drawn[3];
-        double step = 0.0;
-        for (std::size_t axis = 0; axis < direction.size(); ++axis) {
-            phase += cycles * direction[axis] * path.startMetres[axis];
-            step += cycles * direction[axis] * path.stepMetres[axis];
-        }
-        const double angle = wholeTurn * (phase - std::floor(phase));
-        point.value += size * std::cos(angle);
-        point.changePerSample -= size * wholeTurn * step * std::sin(angle);
-    }
-    return point;
-}
-
-namespace {
-
 // The distance between slips is proportional to the force raised to this power. A force below the lightest counts as
 // the lightest, so that the distance stays above zero.
 constexpr double slipForceExponent = 0.4;
@@ -61,29 +29,6 @@ constexpr double lightestSlipNewtons = 0.05;
 // From the noise to the vibration: two samples of the resampler and one of the filters (measured).
 constexpr double outputDelaySamples = 3.0;
 constexpr double maximumSecondsAhead = 0.25;
-
-}  // namespace
-
-double slipsHz(const model::StickSlip& slip, const std::array<float, 3>& motion, double wander) noexcept {
-    if (!(slip.lengthMetres > 0.0)) {
-        return 0.0;
-    }
-    const double pressed = std::pow(std::max(static_cast<double>(motion[2]), lightestSlipNewtons), slipForceExponent);
-    const double wayMetres = slip.lengthMetres * pressed * std::exp(slip.wander * wander);
-    return std::hypot(static_cast<double>(motion[0]), static_cast<double>(motion[1])) / wayMetres;
-}
-
-double samplesSincePublished(double samples, double readingRate, double sincePublishedSeconds) noexcept {
-    const double samplesPerSecond = dsp::waveformRateHz * readingRate;
-    const double seconds = (samples + outputDelaySamples) / samplesPerSecond + sincePublishedSeconds;
-    return std::clamp(seconds, 0.0, maximumSecondsAhead) * samplesPerSecond;
-}
-
-StreamParameterMaker::StreamParameterMaker(skeleton::NativeParts native, std::uint64_t seed,
-                                           std::uint32_t voice) noexcept
-    : native_(std::move(native)), seed_(seed), voice_(voice) {}
-
-namespace {
 
 constexpr std::size_t slipFamily = skeleton::ribCount;
 constexpr double millimetresPerMetre = 1000.0;
@@ -161,6 +106,53 @@ skeleton::SkeletonParameters parametersOf(const skeleton::Skeleton& skeleton,
 }
 
 }  // namespace
+
+WanderPoint surfaceWander(std::uint64_t key, double wavelengthMetres, const skeleton::SurfacePath& path) noexcept {
+    constexpr double wholeTurn = 2.0 * std::numbers::pi;
+    const double size = std::sqrt(2.0 / static_cast<double>(waves));
+    WanderPoint point;
+    for (std::uint64_t wave = 0; wave < waves; ++wave) {
+        std::array<double, numbersPerWave> drawn{};
+        for (std::size_t number = 0; number < numbersPerWave; ++number) {
+            drawn[number] = skeleton::fractionOf(key, wave * numbersPerWave + number);
+        }
+        // Uniform on the sphere: height and angle are independent.
+        const double height = 2.0 * drawn[0] - 1.0;
+        const double across = std::sqrt(1.0 - height * height);
+        const double turn = wholeTurn * drawn[1];
+        const double cycles = shortening * std::exp2(octaves * (2.0 * drawn[2] - 1.0)) / wavelengthMetres;
+        const std::array<double, 3> direction{across * std::cos(turn), across * std::sin(turn), height};
+        double phase = drawn[3];
+        double step = 0.0;
+        for (std::size_t axis = 0; axis < direction.size(); ++axis) {
+            phase += cycles * direction[axis] * path.startMetres[axis];
+            step += cycles * direction[axis] * path.stepMetres[axis];
+        }
+        const double angle = wholeTurn * (phase - std::floor(phase));
+        point.value += size * std::cos(angle);
+        point.changePerSample -= size * wholeTurn * step * std::sin(angle);
+    }
+    return point;
+}
+
+double slipsHz(const model::StickSlip& slip, const std::array<float, 3>& motion, double wander) noexcept {
+    if (!(slip.lengthMetres > 0.0)) {
+        return 0.0;
+    }
+    const double pressed = std::pow(std::max(static_cast<double>(motion[2]), lightestSlipNewtons), slipForceExponent);
+    const double wayMetres = slip.lengthMetres * pressed * std::exp(slip.wander * wander);
+    return std::hypot(static_cast<double>(motion[0]), static_cast<double>(motion[1])) / wayMetres;
+}
+
+double samplesSincePublished(double samples, double readingRate, double sincePublishedSeconds) noexcept {
+    const double samplesPerSecond = dsp::waveformRateHz * readingRate;
+    const double seconds = (samples + outputDelaySamples) / samplesPerSecond + sincePublishedSeconds;
+    return std::clamp(seconds, 0.0, maximumSecondsAhead) * samplesPerSecond;
+}
+
+StreamParameterMaker::StreamParameterMaker(skeleton::NativeParts native, std::uint64_t seed,
+                                           std::uint32_t voice) noexcept
+    : native_(std::move(native)), seed_(seed), voice_(voice) {}
 
 skeleton::StreamParameters StreamParameterMaker::make(const PublishedContact& contact, const MaterialInputs& material,
                                                       const Ingredients& ingredients, double renderedSeconds,

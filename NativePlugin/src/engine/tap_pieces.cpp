@@ -106,43 +106,6 @@ double distance(double stiffness, double other) noexcept {
     return std::abs(std::log(stiffness / other));
 }
 
-}  // namespace
-
-std::span<const TapPiece> tapPieces() noexcept {
-    return pieces;
-}
-
-const TapPiece* tapPieceOf(const model::Label& label) noexcept {
-    const TapPiece* nearest = nullptr;
-    for (const TapPiece& piece : pieces) {
-        if (piece.label == label.name) {
-            return &piece;
-        }
-        const double own = label.stiffnessNewtonsPerMetre;
-        if (isOfCategory(piece, label.category) &&
-            (nearest == nullptr ||
-             distance(piece.stiffnessNewtonsPerMetre, own) < distance(nearest->stiffnessNewtonsPerMetre, own))) {
-            nearest = &piece;
-        }
-    }
-    return nearest;
-}
-
-ImpactResponse tapOn(const TapPiece& piece) noexcept {
-    const std::array<CoupledMode, 2> modes = coupledModes(piece);
-    ImpactResponse response;
-    response.modes[0] = feltMode(modes[0].frequencyHz, piece.lossFactor, 1.0);
-    if (modes[1].frequencyHz > 0.0) {
-        // Relative to the first mode, whatever the frequency.
-        response.modes[1] = feltMode(modes[1].frequencyHz, tipLossFactor, 0.0);
-        response.modes[1].gainPerSecond =
-            static_cast<float>(upperModeShare * modes[1].penShare) * response.modes[0].gainPerSecond;
-    }
-    return response;
-}
-
-namespace {
-
 using effects::ImpactResponse;
 static_assert(ImpactResponse::modeCount == model::Impact::maximumModes);
 
@@ -184,6 +147,39 @@ bool statesOnlyStiffness(const model::Label& label) noexcept {
 }
 
 }  // namespace
+
+std::span<const TapPiece> tapPieces() noexcept {
+    return pieces;
+}
+
+const TapPiece* tapPieceOf(const model::Label& label) noexcept {
+    const TapPiece* nearest = nullptr;
+    for (const TapPiece& piece : pieces) {
+        if (piece.label == label.name) {
+            return &piece;
+        }
+        const double own = label.stiffnessNewtonsPerMetre;
+        if (isOfCategory(piece, label.category) &&
+            (nearest == nullptr ||
+             distance(piece.stiffnessNewtonsPerMetre, own) < distance(nearest->stiffnessNewtonsPerMetre, own))) {
+            nearest = &piece;
+        }
+    }
+    return nearest;
+}
+
+ImpactResponse tapOn(const TapPiece& piece) noexcept {
+    const std::array<CoupledMode, 2> modes = coupledModes(piece);
+    ImpactResponse response;
+    response.modes[0] = feltMode(modes[0].frequencyHz, piece.lossFactor, 1.0);
+    if (modes[1].frequencyHz > 0.0) {
+        // Relative to the first mode, whatever the frequency.
+        response.modes[1] = feltMode(modes[1].frequencyHz, tipLossFactor, 0.0);
+        response.modes[1].gainPerSecond =
+            static_cast<float>(upperModeShare * modes[1].penShare) * response.modes[0].gainPerSecond;
+    }
+    return response;
+}
 
 ImpactResponse impactResponse(const model::Label& label) noexcept {
     ImpactResponse response;

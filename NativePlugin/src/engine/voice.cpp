@@ -1,7 +1,6 @@
 #include "engine/voice.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace haptoflow::engine {
 

@@ -7,7 +7,6 @@
 #include "engine/effect_stage.hpp"
 #include "engine/waveform.hpp"
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -18,9 +17,6 @@ namespace haptoflow::engine {
 /// not block.
 class WaveformSink {
 public:
-    WaveformSink() = default;
-    WaveformSink(const WaveformSink&) = delete;
-    WaveformSink& operator=(const WaveformSink&) = delete;
     virtual ~WaveformSink() = default;
     virtual void played(std::int64_t start, std::span<const float> samplesMps2) noexcept = 0;
     /// A correction takes over at `sample`.

@@ -83,7 +83,13 @@ struct SignalTransitions {
     std::atomic<double> lastSeconds{0.0};
     std::atomic<double> meanSeconds{0.0};
 
-    void note(double seconds) noexcept;
+    void note(double seconds) noexcept {
+        const std::uint64_t runs = count.load(std::memory_order_relaxed) + 1;
+        const double before = meanSeconds.load(std::memory_order_relaxed);
+        lastSeconds.store(seconds, std::memory_order_relaxed);
+        meanSeconds.store(before + (seconds - before) / static_cast<double>(runs), std::memory_order_relaxed);
+        count.store(runs, std::memory_order_release);
+    }
 };
 
 /// Counters of a voice; none ever decreases. Any thread reads.
@@ -173,10 +179,24 @@ struct VoiceChannels {
     /// The newest published touch. The publisher sets it before it posts the message.
     std::atomic<std::uint64_t> publishedTouch{0};
     /// Silences every touch published so far; later touches sound. Any thread except the callback's.
-    void panic() noexcept;
+    void panic() noexcept {
+        const std::uint64_t touch = publishedTouch.load(std::memory_order_acquire);
+        std::uint64_t silenced = controls.silencedTouch.load(std::memory_order_relaxed);
+        while (silenced < touch && !controls.silencedTouch.compare_exchange_weak(silenced, touch)) {
+        }
+        controls.panics.fetch_add(1, std::memory_order_release);
+    }
     /// `change` edits the processor settings and returns whether they have changed; the worker then makes the
     /// processors. Returns the result of `change`. Any thread except the callback's.
-    bool changeProcessors(const std::function<bool(ProcessorSettings&)>& change);
+    bool changeProcessors(const std::function<bool(ProcessorSettings&)>& change) {
+        const std::lock_guard lock(processorMutex);
+        if (!change(processorSettings)) {
+            return false;
+        }
+        requestedProcessors.store(++processorSettings.version, std::memory_order_release);
+        lacksProcessors.store(true, std::memory_order_release);
+        return true;
+    }
 
     /// Rate of the output stage that the callback requests; 0 if it needs none.
     std::atomic<double> requestedRateHz{0.0};
@@ -199,31 +219,5 @@ struct VoiceChannels {
     std::atomic<double> exposureDailyMps2{0.0};
     std::atomic<double> exposureLoweredSeconds{0.0};
 };
-
-inline void SignalTransitions::note(double seconds) noexcept {
-    const std::uint64_t runs = count.load(std::memory_order_relaxed) + 1;
-    const double before = meanSeconds.load(std::memory_order_relaxed);
-    lastSeconds.store(seconds, std::memory_order_relaxed);
-    meanSeconds.store(before + (seconds - before) / static_cast<double>(runs), std::memory_order_relaxed);
-    count.store(runs, std::memory_order_release);
-}
-
-inline bool VoiceChannels::changeProcessors(const std::function<bool(ProcessorSettings&)>& change) {
-    const std::lock_guard lock(processorMutex);
-    if (!change(processorSettings)) {
-        return false;
-    }
-    requestedProcessors.store(++processorSettings.version, std::memory_order_release);
-    lacksProcessors.store(true, std::memory_order_release);
-    return true;
-}
-
-inline void VoiceChannels::panic() noexcept {
-    const std::uint64_t touch = publishedTouch.load(std::memory_order_acquire);
-    std::uint64_t silenced = controls.silencedTouch.load(std::memory_order_relaxed);
-    while (silenced < touch && !controls.silencedTouch.compare_exchange_weak(silenced, touch)) {
-    }
-    controls.panics.fetch_add(1, std::memory_order_release);
-}
 
 }  // namespace haptoflow::engine

@@ -239,13 +239,11 @@ void VoiceRenderer::takeEvents(std::size_t frames) noexcept {
     dueCount_ = 0;
     dueNext_ = 0;
     framesRendered_ = 0;
-    const bool maySound = silence_ == Silence::none || silence_ == Silence::rest;
-    const bool waitsForRate = silence_ == Silence::rate && channels_.isRateSupported.load(std::memory_order_relaxed);
-    if (waitedSeconds_ > staleness_.seconds() || (!maySound && !waitsForRate)) {
+    if (waitedSeconds_ > staleness_.seconds() || (!maySound() && !waitsForRate())) {
         // ContactEvents that occurred long ago or during another silence are not played later.
         waiting_ = {};
     }
-    if (maySound) {
+    if (maySound()) {
         voice_.allowEffects();
         startWaiting();
     }
@@ -262,9 +260,9 @@ void VoiceRenderer::takeEvents(std::size_t frames) noexcept {
         if (event.number <= takenEvent_ || isTooOld || signal_.isSet()) {
             continue;
         }
-        if (maySound) {
+        if (maySound()) {
             schedule(event, frames);
-        } else if (waitsForRate) {
+        } else if (waitsForRate()) {
             std::optional<ContactEvent>& strongest = waiting_[event.kind == effects::EffectKind::edge ? 1 : 0];
             waitedSeconds_ = waiting_[0] || waiting_[1] ? waitedSeconds_ : 0.0;
             if (!strongest || strongest->speedMps < event.speedMps) {
@@ -333,8 +331,7 @@ void VoiceRenderer::notePeriod(double sinceLastSeconds, std::uint64_t states) no
 
 void VoiceRenderer::followRelief() noexcept {
     const ContactMessage& message = channels_.toAudio.current();
-    const bool maySound = silence_ == Silence::none || silence_ == Silence::rest;
-    if (!maySound || std::exchange(reliefUpdate_, message.contact.updates) == message.contact.updates) {
+    if (!maySound() || std::exchange(reliefUpdate_, message.contact.updates) == message.contact.updates) {
         return;
     }
     if (message.relief == nullptr || message.contact.touch <= silencedTouch_) {
@@ -358,9 +355,7 @@ void VoiceRenderer::followRelief() noexcept {
 }
 
 void VoiceRenderer::readClip() noexcept {
-    const bool maySound = silence_ == Silence::none || silence_ == Silence::rest;
-    const bool waitsForRate = silence_ == Silence::rate && channels_.isRateSupported.load(std::memory_order_relaxed);
-    if (waitsForRate || !channels_.clip.fetch()) {
+    if (waitsForRate() || !channels_.clip.fetch()) {
         return;
     }
     // The message before, which kept the wave that sounds, is the publisher's again.
@@ -368,7 +363,7 @@ void VoiceRenderer::readClip() noexcept {
     // A device that has stopped for a while does not play what was meant then.
     constexpr double oldestSeconds = 0.5;
     const bool isTooOld = channels_.isRealTime && channels_.clock() - message.publishedSeconds > oldestSeconds;
-    if (message.wave == nullptr || !maySound || isTooOld || message.panics != seenPanics_ || signal_.isSet()) {
+    if (message.wave == nullptr || !maySound() || isTooOld || message.panics != seenPanics_ || signal_.isSet()) {
         voice_.effects().clip().leave();
     } else {
         voice_.startClip(*message.wave, message.gain, message.isLoop);
@@ -379,7 +374,7 @@ void VoiceRenderer::readSignal() noexcept {
     const bool isMoving = contact().state.isMoving();
     const bool hasChanged = std::exchange(wasMoving_, isMoving) != isMoving;
     // A silence also ends the signal, which restarts afterwards.
-    if (silence_ != Silence::none && silence_ != Silence::rest) {
+    if (!maySound()) {
         return;
     }
     const bool isWanted = signal_.isSet() && isMoving;

@@ -44,6 +44,12 @@ public:
 
 private:
     [[nodiscard]] bool isSounding() const noexcept { return silence_ == Silence::none; }
+    /// Whether effects may sound; the texture may rest.
+    [[nodiscard]] bool maySound() const noexcept { return isSounding() || silence_ == Silence::rest; }
+    /// Silent only until the worker has made an output stage.
+    [[nodiscard]] bool waitsForRate() const noexcept {
+        return silence_ == Silence::rate && channels_.isRateSupported.load(std::memory_order_relaxed);
+    }
     [[nodiscard]] const PublishedContact& contact() const noexcept { return channels_.toAudio.current().contact; }
     void readContact() noexcept;
     void applyContact() noexcept;

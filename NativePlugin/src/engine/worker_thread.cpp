@@ -77,12 +77,6 @@ bool WakeSignal::waitFor(double milliseconds) noexcept {
     return WaitForMultipleObjects(static_cast<DWORD>(either.size()), either.data(), FALSE, INFINITE) == WAIT_OBJECT_0;
 }
 
-bool raiseThisThreadsPriority() noexcept {
-    return SetThreadPriority(GetCurrentThread(), THREAD_PRIORITY_ABOVE_NORMAL) != 0;
-}
-
-void nameThisThread(const char*) noexcept {}
-
 #elif defined(__EMSCRIPTEN__)
 
 // Emscripten's semaphores need its own threads. Posting is allowed on a page's main thread, which must not wait.
@@ -119,12 +113,6 @@ bool WakeSignal::waitFor(double milliseconds) noexcept {
     return true;
 }
 
-bool raiseThisThreadsPriority() noexcept {
-    return false;
-}
-
-void nameThisThread(const char*) noexcept {}
-
 #elif defined(__APPLE__)
 
 struct WakeSignal::Semaphore {
@@ -157,14 +145,6 @@ bool WakeSignal::waitFor(double milliseconds) noexcept {
     return true;
 }
 
-bool raiseThisThreadsPriority() noexcept {
-    return pthread_set_qos_class_self_np(QOS_CLASS_USER_INTERACTIVE, 0) == 0;
-}
-
-void nameThisThread(const char* name) noexcept {
-    pthread_setname_np(name);
-}
-
 #else
 
 namespace {
@@ -195,6 +175,12 @@ int waitUntil(sem_t& semaphore, const timespec& until) noexcept {
 
 struct WakeSignal::Semaphore {
     sem_t handle{};
+
+    /// Further posts count as the one that ended a wait.
+    void clear() noexcept {
+        while (sem_trywait(&handle) == 0) {
+        }
+    }
 };
 
 WakeSignal::WakeSignal() : semaphore_(std::make_unique<Semaphore>()) {
@@ -214,8 +200,7 @@ void WakeSignal::post() noexcept {
 void WakeSignal::wait() noexcept {
     while (sem_wait(&semaphore_->handle) != 0 && errno == EINTR) {
     }
-    while (sem_trywait(&semaphore_->handle) == 0) {
-    }
+    semaphore_->clear();
 }
 
 bool WakeSignal::waitFor(double milliseconds) noexcept {
@@ -225,41 +210,38 @@ bool WakeSignal::waitFor(double milliseconds) noexcept {
     const auto nanoseconds = static_cast<long long>(milliseconds * 1e6) + until.tv_nsec;
     until.tv_sec += static_cast<time_t>(nanoseconds / second);
     until.tv_nsec = static_cast<long>(nanoseconds % second);
-    int result = waitUntil(semaphore_->handle, until);
-    while (result != 0 && errno == EINTR) {
-        result = waitUntil(semaphore_->handle, until);
+    while (waitUntil(semaphore_->handle, until) != 0) {
+        if (errno != EINTR) {
+            return false;
+        }
     }
-    if (result != 0) {
-        return false;
-    }
-    while (sem_trywait(&semaphore_->handle) == 0) {
-    }
+    semaphore_->clear();
     return true;
 }
 
-#if defined(__linux__)
+#endif
 
 bool raiseThisThreadsPriority() noexcept {
+#if defined(_WIN32)
+    return SetThreadPriority(GetCurrentThread(), THREAD_PRIORITY_ABOVE_NORMAL) != 0;
+#elif defined(__APPLE__)
+    return pthread_set_qos_class_self_np(QOS_CLASS_USER_INTERACTIVE, 0) == 0;
+#elif defined(__linux__)
     // On Linux and Android, niceness applies to a thread; -10 is Android's "urgent display".
     constexpr int urgent = -10;
     const auto thread = static_cast<id_t>(syscall(SYS_gettid));
     return setpriority(PRIO_PROCESS, thread, urgent) == 0;
-}
-
-void nameThisThread(const char* name) noexcept {
-    pthread_setname_np(pthread_self(), name);
-}
-
 #else
-
-bool raiseThisThreadsPriority() noexcept {
     return false;
+#endif
 }
 
-void nameThisThread(const char*) noexcept {}
-
+void nameThisThread([[maybe_unused]] const char* name) noexcept {
+#if defined(__APPLE__)
+    pthread_setname_np(name);
+#elif defined(__linux__)
+    pthread_setname_np(pthread_self(), name);
 #endif
-
-#endif
+}
 
 }  // namespace haptoflow::engine

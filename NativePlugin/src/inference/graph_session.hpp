@@ -57,19 +57,13 @@ public:
     /// What the last `run` computed, one row for each member of the batch.
     [[nodiscard]] std::span<const float> output() const noexcept;
     /// Throws InferenceError.
-    void run() {
-        execute();
-        ++runs_;
-    }
-    /// Number of runs since loading; the probe runs are not counted.
-    [[nodiscard]] std::uint64_t runs() const noexcept { return runs_; }
+    virtual void run() = 0;
 
 protected:
     GraphSession(std::string name, GraphSignature signature, std::size_t maximumBatch);
 
     /// Prepares runs of `batch` requests on the buffers.
     virtual void bind(std::size_t batch) = 0;
-    virtual void execute() = 0;
 
     // NOLINTBEGIN(cppcoreguidelines-non-private-member-variables-in-classes,readability-identifier-naming)
     const std::string name_;
@@ -82,9 +76,6 @@ protected:
     std::vector<std::vector<float>> inputs_;
     std::vector<float> output_;
     // NOLINTEND(cppcoreguidelines-non-private-member-variables-in-classes,readability-identifier-naming)
-
-private:
-    std::uint64_t runs_ = 0;
 };
 
 /// Loads a graph whose operators were checked, compares it with `signature` and runs it once with maximumBatch

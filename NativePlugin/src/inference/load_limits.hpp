@@ -38,11 +38,6 @@ class CancellationAction;
 /// A request to stop loading a model. Any thread.
 class Cancellation {
 public:
-    Cancellation() = default;
-    Cancellation(const Cancellation&) = delete;
-    Cancellation& operator=(const Cancellation&) = delete;
-    ~Cancellation() = default;
-
     /// Runs the registered actions. Further calls do nothing.
     void cancel() noexcept;
     [[nodiscard]] bool isCancelled() const noexcept;

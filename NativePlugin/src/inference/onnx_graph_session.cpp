@@ -307,13 +307,14 @@ public:
     OnnxGraphSession(std::shared_ptr<const Runtime> runtime, std::span<const std::byte> graph, std::string name,
                      GraphSignature signature, std::size_t maximumBatch, const LoadLimits& limits);
 
+    void run() override { run(nullptr, name_); }
+
 private:
-    void execute() override { execute(nullptr, name_); }
     void bind(std::size_t batch) override;
     void bind(const TensorSignature& tensor, std::size_t batch, std::vector<float>& buffer, bool isInput);
     /// Loads the graph and runs it once with maximumBatch_ requests within the limits.
     void probe(std::span<const std::byte> graph, const LoadLimits& limits);
-    void execute(const OrtRunOptions* options, const std::string& what);
+    void run(const OrtRunOptions* options, const std::string& what);
 
     std::shared_ptr<const Runtime> runtime_;
     OrtHandle<OrtMemoryInfo> memory_;
@@ -366,8 +367,8 @@ void OnnxGraphSession::probe(std::span<const std::byte> graph, const LoadLimits&
         }
     };
     try {
-        execute(options.get(), "a run of " + std::to_string(maximumBatch_) + " with at most " +
-                                   std::to_string(memoryBytes >> 20U) + " MiB failed");
+        run(options.get(), "a run of " + std::to_string(maximumBatch_) + " with at most " +
+                               std::to_string(memoryBytes >> 20U) + " MiB failed");
     } catch (const InferenceError&) {
         explain();
         throw;
@@ -403,7 +404,7 @@ void OnnxGraphSession::bind(std::size_t batch) {
     bind(signature_.output, batch, output_, false);
 }
 
-void OnnxGraphSession::execute(const OrtRunOptions* options, const std::string& what) {
+void OnnxGraphSession::run(const OrtRunOptions* options, const std::string& what) {
     runtime_->check(runtime_->api().RunWithBinding(session_.get(), options, binding_.get()), what);
 }
 

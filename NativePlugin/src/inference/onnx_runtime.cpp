@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <mutex>
 #include <utility>
 #include <vector>
 

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <utility>
 
 namespace haptoflow::inference {
 namespace {
@@ -16,42 +15,6 @@ void advance(std::span<const float> point, float factor, std::span<const float> 
         result[index] = point[index] + factor * direction[index];
     }
 }
-
-}  // namespace
-
-void Solver::integrate(const VelocityField& field, const SolverSettings& settings, std::span<float> point) {
-    checkSolverSettings(settings);
-    velocity_.resize(point.size());
-    trialPoint_.resize(point.size());
-    trialVelocity_.resize(point.size());
-
-    const double stepCount = settings.steps;
-    const auto step = static_cast<float>(1.0 / stepCount);
-    for (int index = 0; index < settings.steps; ++index) {
-        const auto start = static_cast<float>(index / stepCount);
-        const auto middle = static_cast<float>((index + 0.5) / stepCount);
-        const auto end = static_cast<float>((index + 1) / stepCount);
-        field(point, start, step, velocity_);
-        switch (settings.kind) {
-            case SolverKind::euler:
-                advance(point, step, velocity_, point);
-                break;
-            case SolverKind::midpoint:
-                advance(point, 0.5F * step, velocity_, trialPoint_);
-                field(trialPoint_, middle, step, trialVelocity_);
-                advance(point, step, trialVelocity_, point);
-                break;
-            case SolverKind::heun:
-                advance(point, step, velocity_, trialPoint_);
-                field(trialPoint_, end, step, trialVelocity_);
-                advance(point, 0.5F * step, velocity_, point);
-                advance(point, 0.5F * step, trialVelocity_, point);
-                break;
-        }
-    }
-}
-
-namespace {
 
 /// Positions of the inputs in the signatures of the graphs. Only tiers of kind `average-velocity` have the interval.
 namespace field_input {
@@ -103,6 +66,38 @@ void fillRow(std::span<float> input, std::size_t row, const Numbers& numbers) {
 
 }  // namespace
 
+void Solver::integrate(const VelocityField& field, const SolverSettings& settings, std::span<float> point) {
+    checkSolverSettings(settings);
+    velocity_.resize(point.size());
+    trialPoint_.resize(point.size());
+    trialVelocity_.resize(point.size());
+
+    const double stepCount = settings.steps;
+    const auto step = static_cast<float>(1.0 / stepCount);
+    for (int index = 0; index < settings.steps; ++index) {
+        const auto start = static_cast<float>(index / stepCount);
+        const auto middle = static_cast<float>((index + 0.5) / stepCount);
+        const auto end = static_cast<float>((index + 1) / stepCount);
+        field(point, start, step, velocity_);
+        switch (settings.kind) {
+            case SolverKind::euler:
+                advance(point, step, velocity_, point);
+                break;
+            case SolverKind::midpoint:
+                advance(point, 0.5F * step, velocity_, trialPoint_);
+                field(trialPoint_, middle, step, trialVelocity_);
+                advance(point, step, trialVelocity_, point);
+                break;
+            case SolverKind::heun:
+                advance(point, step, velocity_, trialPoint_);
+                field(trialPoint_, end, step, trialVelocity_);
+                advance(point, 0.5F * step, velocity_, point);
+                advance(point, 0.5F * step, trialVelocity_, point);
+                break;
+        }
+    }
+}
+
 std::size_t pointSize(const model::Tier& tier) {
     return TensorSignature{"", pointShape(tier)}.size();
 }
@@ -134,22 +129,20 @@ void OnnxLevelEstimator::estimate(std::span<const SegmentRequest> requests, std:
 }
 
 OnnxSegmentGenerator::OnnxSegmentGenerator(const GraphSource& source, SolverSettings solver)
-    : kind_(source.tier.kind),
-      maximumBatch_(source.maximumBatch),
+    : TierGenerator(std::make_unique<OnnxLevelEstimator>(withoutSessions(source)), source.maximumBatch, "field graph"),
+      kind_(source.tier.kind),
       pointSize_(pointSize(source.tier)),
-      level_(withoutSessions(source)),
-      field_(source.load(source.tier.field, fieldSignature(source.tier), maximumBatch_)),
-      levelsMps2_(maximumBatch_),
-      previous_(maximumBatch_ * segmentSamples),
-      points_(maximumBatch_ * pointSize_),
-      result_(maximumBatch_ * pointSize_) {
+      field_(source.load(source.tier.field, fieldSignature(source.tier), source.maximumBatch)),
+      previous_(source.maximumBatch * segmentSamples),
+      points_(source.maximumBatch * pointSize_),
+      result_(source.maximumBatch * pointSize_) {
     if (source.tier.representation == model::TierRepresentation::latent) {
         const TensorSignature waveform{"waveform", waveformShape};
         const TensorSignature latent{"latent", pointShape(source.tier)};
         if (field_->hasInput(field_input::previous)) {
-            encoder_ = source.load(source.tier.encoder, {{waveform}, latent}, maximumBatch_);
+            encoder_ = source.load(source.tier.encoder, {{waveform}, latent}, source.maximumBatch);
         }
-        decoder_ = source.load(source.tier.decoder, {{latent}, waveform}, maximumBatch_);
+        decoder_ = source.load(source.tier.decoder, {{latent}, waveform}, source.maximumBatch);
     }
     setSolver(solver);
 }
@@ -157,17 +150,6 @@ OnnxSegmentGenerator::OnnxSegmentGenerator(const GraphSource& source, SolverSett
 void OnnxSegmentGenerator::setSolver(SolverSettings solver) {
     checkSolverSettings(solver);
     settings_ = solver;
-}
-
-void OnnxSegmentGenerator::generate(std::span<const SegmentRequest> requests, std::span<float> segments) {
-    requireSize(segments.size(), requests.size() * segmentSamples, "segments need room");
-    inBatches(requests.size(), maximumBatch_, [&](std::size_t first, std::size_t count) {
-        generateBatch(requests.subspan(first, count), segments.subspan(first * segmentSamples, count * segmentSamples));
-    });
-}
-
-void OnnxSegmentGenerator::levels(std::span<const SegmentRequest> requests, std::span<float> levelsMps2) {
-    level_.levels(requests, levelsMps2);
 }
 
 void OnnxSegmentGenerator::evaluate(std::span<const float> point, float time, float interval,
@@ -181,8 +163,9 @@ void OnnxSegmentGenerator::evaluate(std::span<const float> point, float time, fl
     std::ranges::copy(field_->output(), velocity.begin());
 }
 
-void OnnxSegmentGenerator::generateBatch(std::span<const SegmentRequest> requests, std::span<float> segments) {
-    prepare(requests);
+void OnnxSegmentGenerator::generateBatch(std::span<const SegmentRequest> requests, std::span<const float> levelsMps2,
+                                         std::span<float> segments) {
+    prepare(requests, levelsMps2);
     const auto points = std::span(points_).first(requests.size() * pointSize_);
     if (kind_ == model::TierKind::direct) {
         const auto result = std::span(result_).first(points.size());
@@ -202,13 +185,11 @@ void OnnxSegmentGenerator::generateBatch(std::span<const SegmentRequest> request
         waveforms = decoder_->output();
     }
     for (std::size_t index = 0; index < segments.size(); ++index) {
-        segments[index] = waveforms[index] * levelsMps2_[index / segmentSamples];
+        segments[index] = waveforms[index] * levelsMps2[index / segmentSamples];
     }
-    requireFinite(segments, "field graph");
 }
 
-void OnnxSegmentGenerator::prepare(std::span<const SegmentRequest> requests) {
-    level_.levels(requests, std::span(levelsMps2_).first(requests.size()));
+void OnnxSegmentGenerator::prepare(std::span<const SegmentRequest> requests, std::span<const float> levelsMps2) {
     field_->setBatch(requests.size());
     const auto previous = std::span(previous_).first(requests.size() * segmentSamples);
     for (std::size_t row = 0; row < requests.size(); ++row) {
@@ -216,7 +197,7 @@ void OnnxSegmentGenerator::prepare(std::span<const SegmentRequest> requests) {
         fillRow(field_->input(field_input::embedding), row, request.embedding);
         fillRow(field_->input(field_input::motion), row, request.motion);
         fillRow(field_->input(field_input::phases), row, request.phases);
-        skeleton::toUnitScale(request.previous, levelsMps2_[row],
+        skeleton::toUnitScale(request.previous, levelsMps2[row],
                               previous.subspan(row * segmentSamples).first<segmentSamples>());
         const auto point = std::span(points_).subspan(row * pointSize_, pointSize_);
         if (!request.latentNoise.empty()) {
@@ -236,10 +217,6 @@ void OnnxSegmentGenerator::prepare(std::span<const SegmentRequest> requests) {
     } else if (field_->hasInput(field_input::previous)) {
         std::ranges::copy(previous, field_->input(field_input::previous).begin());
     }
-}
-
-RunCounts OnnxSegmentGenerator::runCounts() const noexcept {
-    return {level_.runs(), field_->runs(), encoder_ ? encoder_->runs() : 0, decoder_ ? decoder_->runs() : 0};
 }
 
 }  // namespace haptoflow::inference

@@ -5,7 +5,6 @@
 #include "inference/tier_generator.hpp"
 
 #include <cstddef>
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <span>
@@ -43,26 +42,13 @@ public:
     /// an impossible level, std::invalid_argument if the spans differ in size.
     void levels(std::span<const SegmentRequest> requests, std::span<float> levelsMps2) override;
 
-    [[nodiscard]] std::uint64_t runs() const noexcept { return graph_->runs(); }
-
 private:
     void estimate(std::span<const SegmentRequest> requests, std::span<float> levelsMps2);
 
     std::shared_ptr<GraphSession> graph_;
 };
 
-/// Number of runs of each graph, of all generators that share it. Tests use it to show that nothing is computed
-/// needlessly.
-struct RunCounts {
-    std::uint64_t level = 0;
-    std::uint64_t field = 0;
-    std::uint64_t encoder = 0;
-    std::uint64_t decoder = 0;
-};
-
-/// A tier that is a network alone, run by ONNX Runtime. Up to `maximumBatch` requests are evaluated together, with one
-/// run per evaluation of the field; more requests are split into several batches. Worker thread; used by one thread at
-/// a time; allocates.
+/// A tier that is a network alone, run by ONNX Runtime, with one run of the field for each evaluation of a batch.
 class OnnxSegmentGenerator final : public TierGenerator {
 public:
     /// Loads, checks and runs the tier's graphs. The model need not outlive the generator. Throws std::invalid_argument
@@ -72,31 +58,23 @@ public:
     /// Takes effect with the next batch. Tiers of kind `average-velocity` always use Euler steps; tiers of kind
     /// `direct` are evaluated once and ignore the settings. Throws std::invalid_argument for settings out of range.
     void setSolver(SolverSettings solver) override;
-    [[nodiscard]] SolverSettings solver() const noexcept { return settings_; }
-
-    void generate(std::span<const SegmentRequest> requests, std::span<float> segments) override;
-    void levels(std::span<const SegmentRequest> requests, std::span<float> levelsMps2) override;
-
-    [[nodiscard]] RunCounts runCounts() const noexcept;
 
 private:
-    void generateBatch(std::span<const SegmentRequest> requests, std::span<float> segments);
+    void generateBatch(std::span<const SegmentRequest> requests, std::span<const float> levelsMps2,
+                       std::span<float> segments) override;
     /// Fills the inputs that stay the same for all steps, and the points from which the solver starts.
-    void prepare(std::span<const SegmentRequest> requests);
+    void prepare(std::span<const SegmentRequest> requests, std::span<const float> levelsMps2);
     /// The field at a time, or for a tier of kind `direct` the generated point itself.
     void evaluate(std::span<const float> point, float time, float interval, std::span<float> velocity);
 
     model::TierKind kind_;
     SolverSettings settings_;
-    std::size_t maximumBatch_;
     std::size_t pointSize_;
-    OnnxLevelEstimator level_;
     std::shared_ptr<GraphSession> field_;
     /// Null unless the tier is latent, the encoder also if the field does not see the previous waveform.
     std::shared_ptr<GraphSession> encoder_;
     std::shared_ptr<GraphSession> decoder_;
     Solver solver_;
-    std::vector<float> levelsMps2_;
     std::vector<float> previous_;
     std::vector<float> points_;
     std::vector<float> result_;

@@ -59,9 +59,6 @@ struct SegmentRequest {
 /// Estimates a material's level. Used by one thread at a time; may allocate.
 class LevelEstimator {
 public:
-    LevelEstimator() = default;
-    LevelEstimator(const LevelEstimator&) = delete;
-    LevelEstimator& operator=(const LevelEstimator&) = delete;
     virtual ~LevelEstimator() = default;
 
     /// Writes one RMS in m/s^2 for each request: the request's own level, or the model's for its embedding and motion.

@@ -1,9 +1,7 @@
 #include "inference/skeleton_generator.hpp"
 
-#include "inference/tier_generator.hpp"
 #include "skeleton/condition.hpp"
 #include "skeleton/skeleton_layout.hpp"
-#include "skeleton/skeleton_tensors.hpp"
 #include "skeleton/synthesis.hpp"
 
 #include <algorithm>
@@ -57,33 +55,6 @@ const skeleton::NetworkInput& networkInputOf(const SegmentRequest& request, floa
     return made;
 }
 
-}  // namespace
-
-SkeletonGenerator::SkeletonGenerator(skeleton::NativeParts native, std::size_t maximumBatch, const LoadLimits& limits)
-    : level_(std::move(native.level)), skeleton_(std::move(native.skeleton)), levelsMps2_(maximumBatch) {
-    limits.check();
-}
-
-void SkeletonGenerator::levels(std::span<const SegmentRequest> requests, std::span<float> levelsMps2) {
-    level_.levels(requests, levelsMps2);
-}
-
-void SkeletonGenerator::generate(std::span<const SegmentRequest> requests, std::span<float> segments) {
-    requireSize(segments.size(), requests.size() * segmentSamples, "segments need room");
-    levelsMps2_.resize(std::max(levelsMps2_.size(), requests.size()));
-    const auto levelsMps2 = std::span(levelsMps2_).first(requests.size());
-    levels(requests, levelsMps2);
-    skeleton::NetworkInput made;
-    for (std::size_t row = 0; row < requests.size(); ++row) {
-        const skeleton::NetworkInput& input = networkInputOf(requests[row], levelsMps2[row], *skeleton_, made);
-        std::ranges::transform(input.segment(), segments.subspan(row * segmentSamples).begin(),
-                               [level = levelsMps2[row]](float sample) { return sample * level; });
-    }
-    requireFinite(segments, "skeleton");
-}
-
-namespace {
-
 /// Positions of the inputs in the graph's signature.
 namespace refinement_input {
 constexpr std::size_t skeleton = 0, past = 1, own = 2, film = 3;
@@ -102,27 +73,31 @@ GraphSignature refinementSignature(std::size_t filmSize) {
 
 }  // namespace
 
+SkeletonGenerator::SkeletonGenerator(skeleton::NativeParts native, std::size_t maximumBatch, const LoadLimits& limits)
+    : TierGenerator(std::make_unique<SkeletonLevelEstimator>(std::move(native.level)), maximumBatch, "skeleton"),
+      skeleton_(std::move(native.skeleton)) {
+    limits.check();
+}
+
+void SkeletonGenerator::generateBatch(std::span<const SegmentRequest> requests, std::span<const float> levelsMps2,
+                                      std::span<float> segments) {
+    skeleton::NetworkInput made;
+    for (std::size_t row = 0; row < requests.size(); ++row) {
+        const skeleton::NetworkInput& input = networkInputOf(requests[row], levelsMps2[row], *skeleton_, made);
+        std::ranges::transform(input.segment(), segments.subspan(row * segmentSamples).begin(),
+                               [level = levelsMps2[row]](float sample) { return sample * level; });
+    }
+}
+
 RefinedGenerator::RefinedGenerator(const GraphSource& source, skeleton::NativeParts native)
-    : maximumBatch_(source.maximumBatch),
-      level_(std::move(native.level)),
+    : TierGenerator(std::make_unique<SkeletonLevelEstimator>(std::move(native.level)), source.maximumBatch,
+                    "refining graph"),
       skeleton_(std::move(native.skeleton)),
       conditioning_(skeleton::readConditioning(source.model, source.tier.name)),
-      graph_(source.load(source.tier.field, refinementSignature(conditioning_.outputs()), maximumBatch_)),
-      levelsMps2_(maximumBatch_) {}
+      graph_(source.load(source.tier.field, refinementSignature(conditioning_.outputs()), source.maximumBatch)) {}
 
-void RefinedGenerator::levels(std::span<const SegmentRequest> requests, std::span<float> levelsMps2) {
-    level_.levels(requests, levelsMps2);
-}
-
-void RefinedGenerator::generate(std::span<const SegmentRequest> requests, std::span<float> segments) {
-    requireSize(segments.size(), requests.size() * segmentSamples, "segments need room");
-    inBatches(requests.size(), maximumBatch_, [&](std::size_t first, std::size_t count) {
-        generateBatch(requests.subspan(first, count), segments.subspan(first * segmentSamples, count * segmentSamples));
-    });
-}
-
-void RefinedGenerator::generateBatch(std::span<const SegmentRequest> requests, std::span<float> segments) {
-    levels(requests, std::span(levelsMps2_).first(requests.size()));
+void RefinedGenerator::generateBatch(std::span<const SegmentRequest> requests, std::span<const float> levelsMps2,
+                                     std::span<float> segments) {
     graph_->setBatch(requests.size());
     const auto seen = graph_->input(refinement_input::skeleton);
     const auto past = graph_->input(refinement_input::past);
@@ -131,9 +106,9 @@ void RefinedGenerator::generateBatch(std::span<const SegmentRequest> requests, s
     skeleton::NetworkInput made;
     for (std::size_t row = 0; row < requests.size(); ++row) {
         std::array<float, segmentSamples> previous{};
-        skeleton::toUnitScale(requests[row].previous, levelsMps2_[row], previous);
-        const auto ownUnit = ownUnitOf(requests[row], levelsMps2_[row]);
-        const skeleton::NetworkInput& input = networkInputOf(requests[row], levelsMps2_[row], *skeleton_, made);
+        skeleton::toUnitScale(requests[row].previous, levelsMps2[row], previous);
+        const auto ownUnit = ownUnitOf(requests[row], levelsMps2[row]);
+        const skeleton::NetworkInput& input = networkInputOf(requests[row], levelsMps2[row], *skeleton_, made);
         std::ranges::copy(input.values, seen.subspan(row * input.values.size()).begin());
         std::ranges::reverse_copy(previous, past.subspan(row * segmentSamples).begin());
         std::ranges::reverse_copy(ownUnit, own.subspan(row * segmentSamples).begin());
@@ -143,9 +118,8 @@ void RefinedGenerator::generateBatch(std::span<const SegmentRequest> requests, s
     }
     graph_->run();
     for (std::size_t index = 0; index < segments.size(); ++index) {
-        segments[index] = (segments[index] + graph_->output()[index]) * levelsMps2_[index / segmentSamples];
+        segments[index] = (segments[index] + graph_->output()[index]) * levelsMps2[index / segmentSamples];
     }
-    requireFinite(segments, "refining graph");
 }
 
 }  // namespace haptoflow::inference

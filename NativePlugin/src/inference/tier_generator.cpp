@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <string>
 #include <utility>
 
 namespace haptoflow::inference {
@@ -25,8 +24,25 @@ std::shared_ptr<const Runtime> requireRuntime(std::shared_ptr<const Runtime> run
 
 }  // namespace
 
+TierGenerator::TierGenerator(std::unique_ptr<LevelEstimator> level, std::size_t maximumBatch, const char* source)
+    : level_(std::move(level)), maximumBatch_(maximumBatch), source_(source), levelsMps2_(maximumBatch) {}
+
 void TierGenerator::setSolver(SolverSettings solver) {
     checkSolverSettings(solver);
+}
+
+void TierGenerator::generate(std::span<const SegmentRequest> requests, std::span<float> segments) {
+    requireSize(segments.size(), requests.size() * segmentSamples, "segments need room");
+    inBatches(requests.size(), maximumBatch_, [&](std::size_t first, std::size_t count) {
+        const auto batch = requests.subspan(first, count);
+        const auto levelsMps2 = std::span(levelsMps2_).first(count);
+        const auto made = segments.subspan(first * segmentSamples, count * segmentSamples);
+        levels(batch, levelsMps2);
+        generateBatch(batch, levelsMps2, made);
+        if (!std::ranges::all_of(made, [](float sample) { return std::isfinite(sample); })) {
+            throw InferenceError(std::string("the ") + source_ + " returned a waveform that is not finite");
+        }
+    });
 }
 
 std::unique_ptr<TierGenerator> makeGenerator(std::shared_ptr<const Runtime> runtime, const model::ModelFile& model,
@@ -87,12 +103,6 @@ void requireSize(std::size_t found, std::size_t expected, const char* what) {
     if (found != expected) {
         throw std::invalid_argument(std::string(what) + " for " + std::to_string(expected) + " numbers; found " +
                                     std::to_string(found));
-    }
-}
-
-void requireFinite(std::span<const float> segments, const char* source) {
-    if (!std::ranges::all_of(segments, [](float sample) { return std::isfinite(sample); })) {
-        throw InferenceError(std::string("the ") + source + " returned a waveform that is not finite");
     }
 }
 

@@ -12,6 +12,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace haptoflow::inference {
 
@@ -23,6 +24,27 @@ public:
     /// Takes effect with the next batch; without effect on tiers that are not solved. Throws std::invalid_argument for
     /// settings out of range.
     virtual void setSolver(SolverSettings solver);
+
+    /// More requests than the maximum batch are split into several batches. Throws std::invalid_argument if the spans
+    /// differ in size, InferenceError if a graph fails, for an impossible level or a sample that is not finite.
+    void generate(std::span<const SegmentRequest> requests, std::span<float> segments) final;
+    void levels(std::span<const SegmentRequest> requests, std::span<float> levelsMps2) final {
+        level_->levels(requests, levelsMps2);
+    }
+
+protected:
+    /// `source` stands in messages for what makes the segments; it must outlive the generator.
+    TierGenerator(std::unique_ptr<LevelEstimator> level, std::size_t maximumBatch, const char* source);
+
+    /// Writes the segments of at most the maximum batch, whose levels are `levelsMps2`.
+    virtual void generateBatch(std::span<const SegmentRequest> requests, std::span<const float> levelsMps2,
+                               std::span<float> segments) = 0;
+
+private:
+    std::unique_ptr<LevelEstimator> level_;
+    std::size_t maximumBatch_;
+    const char* source_;
+    std::vector<float> levelsMps2_;
 };
 
 /// Loads, checks and runs a tier of any kind. `runtime` may be null for a tier that needs no ONNX Runtime. The model
@@ -75,9 +97,6 @@ void checkSolverSettings(const SolverSettings& settings);
 
 /// Throws std::invalid_argument that begins with `what` unless `found` is `expected`.
 void requireSize(std::size_t found, std::size_t expected, const char* what);
-
-/// Throws InferenceError that names `source` if a sample is not finite.
-void requireFinite(std::span<const float> segments, const char* source);
 
 /// Calls `action(first, count)` for consecutive parts of at most `maximum` elements.
 template <typename Action>

@@ -25,24 +25,8 @@ constexpr std::array<std::uint32_t, 256> makeTable() {
 
 constexpr std::array<std::uint32_t, 256> table = makeTable();
 
-}  // namespace
-
-std::uint32_t crc32(std::span<const std::byte> bytes) noexcept {
-    std::uint32_t remainder = 0xFFFFFFFFU;
-    for (const std::byte value : bytes) {
-        remainder = table[(remainder ^ std::to_integer<std::uint32_t>(value)) & 0xFFU] ^ (remainder >> 8U);
-    }
-    return remainder ^ 0xFFFFFFFFU;
-}
-
-namespace {
-
 std::uint64_t readUnsigned(std::span<const std::byte> file, std::size_t offset, std::size_t byteCount) {
-    std::uint64_t value = 0;
-    for (std::size_t index = byteCount; index > 0; --index) {
-        value = (value << 8U) | std::to_integer<std::uint64_t>(file[offset + index - 1]);
-    }
-    return value;
+    return model::readUnsigned(file.subspan(offset, byteCount));
 }
 
 void checkMagic(std::span<const std::byte> file) {
@@ -99,6 +83,14 @@ void checkLengths(std::span<const std::byte> file, std::uint64_t headerLength, s
 }
 
 }  // namespace
+
+std::uint32_t crc32(std::span<const std::byte> bytes) noexcept {
+    std::uint32_t remainder = 0xFFFFFFFFU;
+    for (const std::byte value : bytes) {
+        remainder = table[(remainder ^ std::to_integer<std::uint32_t>(value)) & 0xFFU] ^ (remainder >> 8U);
+    }
+    return remainder ^ 0xFFFFFFFFU;
+}
 
 std::vector<std::byte> readFile(const std::filesystem::path& path, std::uint64_t maximumBytes) {
     std::error_code failure;

@@ -13,6 +13,15 @@ namespace haptoflow::model {
 /// lines save the plugin a link to zlib on every platform.
 [[nodiscard]] std::uint32_t crc32(std::span<const std::byte> bytes) noexcept;
 
+/// The little-endian number in at most eight bytes.
+[[nodiscard]] inline std::uint64_t readUnsigned(std::span<const std::byte> bytes) noexcept {
+    std::uint64_t value = 0;
+    for (std::size_t index = bytes.size(); index > 0; --index) {
+        value = (value << 8U) | std::to_integer<std::uint64_t>(bytes[index - 1]);
+    }
+    return value;
+}
+
 inline constexpr std::string_view fileMagic = "HAPTFLOW";
 inline constexpr std::uint32_t formatVersion = 2;
 inline constexpr std::size_t prefixBytes = 32;

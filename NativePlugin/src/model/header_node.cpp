@@ -3,13 +3,9 @@
 #include "model/model_error.hpp"
 #include "model/plain_text.hpp"
 
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
 #include <cmath>
-#include <string>
 #include <unordered_set>
-#include <vector>
 
 namespace haptoflow::model {
 

@@ -63,21 +63,14 @@ void checkBlobBytes(std::span<const std::byte> file, std::size_t headerEnd, cons
     requireZero(file, covered, file.size());
 }
 
-float readFloat(std::span<const std::byte> bytes) {
-    std::uint32_t bits = 0;
-    for (std::size_t index = sizeof(float); index > 0; --index) {
-        bits = (bits << 8U) | std::to_integer<std::uint32_t>(bytes[index - 1]);
-    }
-    return std::bit_cast<float>(bits);
-}
-
 /// The numbers of a float32 blob of `file`. Throws ModelError (inconsistent) if one is not finite or has a magnitude
 /// above 1e6.
 std::vector<float> readTensor(std::span<const std::byte> file, const Blob& blob) {
     const auto bytes = file.subspan(blob.offset, blob.bytes);
     std::vector<float> values(blob.bytes / sizeof(float));
     for (std::size_t index = 0; index < values.size(); ++index) {
-        values[index] = readFloat(bytes.subspan(index * sizeof(float), sizeof(float)));
+        const std::uint64_t bits = readUnsigned(bytes.subspan(index * sizeof(float), sizeof(float)));
+        values[index] = std::bit_cast<float>(static_cast<std::uint32_t>(bits));
         // In this form the condition is also true for NaN.
         if (!(std::fabs(values[index]) <= maximumMagnitude)) {
             throw ModelError(ModelStatus::inconsistent, "tensor \"" + blob.name + "\": number " +

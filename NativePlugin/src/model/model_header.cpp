@@ -5,13 +5,8 @@
 #include "model/plain_text.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
 #include <numeric>
-#include <span>
-#include <string>
-#include <string_view>
 #include <unordered_map>
 #include <utility>
 

@@ -4,8 +4,6 @@
 #include "model/onnx_tensor.hpp"
 
 #include <algorithm>
-#include <span>
-#include <string_view>
 #include <unordered_map>
 #include <vector>
 

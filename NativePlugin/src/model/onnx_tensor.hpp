@@ -48,7 +48,6 @@ public:
 private:
     [[nodiscard]] std::uint64_t varint();
     [[nodiscard]] std::span<const std::byte> take(std::uint64_t count);
-    [[nodiscard]] std::uint64_t fixed(std::size_t byteCount);
 
     std::span<const std::byte> rest_;
 };

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstddef>
-#include <cstdint>
 #include <iomanip>
 #include <locale>
 #include <sstream>
@@ -54,76 +52,12 @@ void appendEscape(std::string& text, unsigned byte) {
     text += digits[byte & 0xFU];
 }
 
-}  // namespace
-
-bool hasControlCharacter(std::string_view text) noexcept {
-    return std::ranges::any_of(text, [](char each) { return isControl(static_cast<unsigned char>(each)); });
-}
-
-bool isUtf8(std::string_view text) noexcept {
-    while (!text.empty()) {
-        const std::size_t count = characterBytes(text);
-        if (count == 0) {
-            return false;
-        }
-        text.remove_prefix(count);
-    }
-    return true;
-}
-
-std::string printable(std::string_view text) {
-    std::string result;
-    result.reserve(text.size());
-    while (!text.empty()) {
-        const std::size_t count = std::max<std::size_t>(characterBytes(text), 1);
-        const unsigned first = byteAt(text, 0);
-        // U+0080 to U+009F are control characters, too: some terminals take U+009B for an escape sequence.
-        const bool isUnicodeControl = count == 2 && first == 0xC2U && byteAt(text, 1) < 0xA0U;
-        if (isControl(first) || isUnicodeControl || (count == 1 && first >= 0x80U)) {
-            for (std::size_t index = 0; index < count; ++index) {
-                appendEscape(result, byteAt(text, index));
-            }
-        } else {
-            result += text.substr(0, count);
-        }
-        text.remove_prefix(count);
-    }
-    return result;
-}
-
-std::string_view shortened(std::string_view text, std::size_t bytes) noexcept {
-    if (text.size() <= bytes) {
-        return text;
-    }
-    while (bytes > 0 && isContinuation(byteAt(text, bytes))) {
-        --bytes;
-    }
-    return text.substr(0, bytes);
-}
-
-std::string shortNumber(double value) {
-    std::ostringstream stream;
-    stream.imbue(std::locale::classic());
-    stream << value;
-    return stream.str();
-}
-
-std::string hexadecimal(std::uint32_t value) {
-    std::ostringstream stream;
-    stream.imbue(std::locale::classic());
-    stream << std::hex << std::setw(8) << std::setfill('0') << value;
-    return stream.str();
-}
-
-namespace {
-
+/// The first character of UTF-8 text, which it loses.
 char32_t takeLetter(std::string_view& text) {
-    const auto byte = [&](std::size_t index) { return static_cast<unsigned char>(text[index]); };
-    const unsigned first = byte(0);
-    const std::size_t count = first < 0x80U ? 1 : first < 0xE0U ? 2 : first < 0xF0U ? 3 : 4;
-    char32_t letter = count == 1 ? first : first & (0x7FU >> count);
+    const std::size_t count = characterBytes(text);
+    char32_t letter = count == 1 ? byteAt(text, 0) : byteAt(text, 0) & (0x7FU >> count);
     for (std::size_t index = 1; index < count; ++index) {
-        letter = letter << 6U | (byte(index) & 0x3FU);
+        letter = letter << 6U | (byteAt(text, index) & 0x3FU);
     }
     text.remove_prefix(count);
     return letter;
@@ -215,6 +149,65 @@ void orderMarks(std::u32string& letters) {
 }
 
 }  // namespace
+
+bool hasControlCharacter(std::string_view text) noexcept {
+    return std::ranges::any_of(text, [](char each) { return isControl(static_cast<unsigned char>(each)); });
+}
+
+bool isUtf8(std::string_view text) noexcept {
+    while (!text.empty()) {
+        const std::size_t count = characterBytes(text);
+        if (count == 0) {
+            return false;
+        }
+        text.remove_prefix(count);
+    }
+    return true;
+}
+
+std::string printable(std::string_view text) {
+    std::string result;
+    result.reserve(text.size());
+    while (!text.empty()) {
+        const std::size_t count = std::max<std::size_t>(characterBytes(text), 1);
+        const unsigned first = byteAt(text, 0);
+        // U+0080 to U+009F are control characters, too: some terminals take U+009B for an escape sequence.
+        const bool isUnicodeControl = count == 2 && first == 0xC2U && byteAt(text, 1) < 0xA0U;
+        if (isControl(first) || isUnicodeControl || (count == 1 && first >= 0x80U)) {
+            for (std::size_t index = 0; index < count; ++index) {
+                appendEscape(result, byteAt(text, index));
+            }
+        } else {
+            result += text.substr(0, count);
+        }
+        text.remove_prefix(count);
+    }
+    return result;
+}
+
+std::string_view shortened(std::string_view text, std::size_t bytes) noexcept {
+    if (text.size() <= bytes) {
+        return text;
+    }
+    while (bytes > 0 && isContinuation(byteAt(text, bytes))) {
+        --bytes;
+    }
+    return text.substr(0, bytes);
+}
+
+std::string shortNumber(double value) {
+    std::ostringstream stream;
+    stream.imbue(std::locale::classic());
+    stream << value;
+    return stream.str();
+}
+
+std::string hexadecimal(std::uint32_t value) {
+    std::ostringstream stream;
+    stream.imbue(std::locale::classic());
+    stream << std::hex << std::setw(8) << std::setfill('0') << value;
+    return stream.str();
+}
 
 std::string labelKey(std::string_view label) {
     if (!isUtf8(label)) {

@@ -1,55 +1,12 @@
 #include "skeleton/condition.hpp"
 
-#include "skeleton/skeleton_layout.hpp"
-
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 
 namespace haptoflow::skeleton {
 namespace {
 
 constexpr double millimetresPerMetre = 1000.0;
-
-}  // namespace
-
-std::array<double, ribCount> ribRatesHz(std::span<const float, embeddingSize> embedding, double vxMps,
-                                        double vyMps) noexcept {
-    const auto vectors = embedding.last<2 * ribCount>();
-    std::array<double, ribCount> rates{};
-    for (std::size_t rib = 0; rib < rates.size(); ++rib) {
-        rates[rib] =
-            (static_cast<double>(vectors[2 * rib]) * vxMps + static_cast<double>(vectors[2 * rib + 1]) * vyMps) *
-            millimetresPerMetre;
-    }
-    return rates;
-}
-
-Phases phasesOf(std::span<const float, embeddingSize> embedding, const Motion& motion,
-                const std::array<float, ribCount>& cycles) noexcept {
-    Phases phases{};
-    std::ranges::copy(cycles, phases.begin());
-    std::ranges::transform(ribRatesHz(embedding, static_cast<double>(motion[0]), static_cast<double>(motion[1])),
-                           phases.begin() + familyCount, [](double rateHz) { return static_cast<float>(rateHz); });
-    return phases;
-}
-
-float wrapped(double cycles) noexcept {
-    const auto phase = static_cast<float>(cycles - std::floor(cycles));
-    // Rounding could lift a phase just below one turn to 1.
-    return phase < 1.0F ? phase : 0.0F;
-}
-
-Phases advanced(const Phases& phases, double samples) noexcept {
-    Phases later = phases;
-    for (std::size_t family = 0; family < familyCount; ++family) {
-        later[family] = wrapped(static_cast<double>(phases[family]) +
-                                static_cast<double>(phases[familyCount + family]) * samples / waveformRateHz);
-    }
-    return later;
-}
-
-namespace {
 
 constexpr double restSpeedMps = 0.0005;
 constexpr double referenceSpeedMps = 0.06;
@@ -91,7 +48,46 @@ std::array<float, 8 + 2 * Count> featuresOf(const Motion& motion, const std::arr
 static_assert(fineFeatures == 8 + 2 * fineHarmonics.size());
 static_assert(smoothFeatures == 8 + 2 * smoothHarmonics.size());
 
+// Around this rate the direction turns.
+constexpr double turningHz = 20.0;
+
 }  // namespace
+
+std::array<double, ribCount> ribRatesHz(std::span<const float, embeddingSize> embedding, double vxMps,
+                                        double vyMps) noexcept {
+    const auto vectors = embedding.last<2 * ribCount>();
+    std::array<double, ribCount> rates{};
+    for (std::size_t rib = 0; rib < rates.size(); ++rib) {
+        rates[rib] =
+            (static_cast<double>(vectors[2 * rib]) * vxMps + static_cast<double>(vectors[2 * rib + 1]) * vyMps) *
+            millimetresPerMetre;
+    }
+    return rates;
+}
+
+Phases phasesOf(std::span<const float, embeddingSize> embedding, const Motion& motion,
+                const std::array<float, ribCount>& cycles) noexcept {
+    Phases phases{};
+    std::ranges::copy(cycles, phases.begin());
+    std::ranges::transform(ribRatesHz(embedding, static_cast<double>(motion[0]), static_cast<double>(motion[1])),
+                           phases.begin() + familyCount, [](double rateHz) { return static_cast<float>(rateHz); });
+    return phases;
+}
+
+float wrapped(double cycles) noexcept {
+    const auto phase = static_cast<float>(cycles - std::floor(cycles));
+    // Rounding could lift a phase just below one turn to 1.
+    return phase < 1.0F ? phase : 0.0F;
+}
+
+Phases advanced(const Phases& phases, double samples) noexcept {
+    Phases later = phases;
+    for (std::size_t family = 0; family < familyCount; ++family) {
+        later[family] = wrapped(static_cast<double>(phases[family]) +
+                                static_cast<double>(phases[familyCount + family]) * samples / waveformRateHz);
+    }
+    return later;
+}
 
 LogMotion logMotionOf(const Motion& motion) noexcept {
     return {.speed = std::log((speedOf(motion) + restSpeedMps) / referenceSpeedMps),
@@ -105,13 +101,6 @@ std::array<float, fineFeatures> fineFeaturesOf(const Motion& motion) noexcept {
 std::array<float, smoothFeatures> smoothFeaturesOf(const Motion& motion) noexcept {
     return featuresOf(motion, smoothHarmonics);
 }
-
-namespace {
-
-// Around this rate the direction turns.
-constexpr double turningHz = 20.0;
-
-}  // namespace
 
 float rateSize(double rateHz) noexcept {
     return static_cast<float>(0.25 * std::log1p(std::fabs(rateHz)));

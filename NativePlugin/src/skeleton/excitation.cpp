@@ -36,6 +36,52 @@ std::array<float, TailImpulses::taps> ringing(double ringHz, Sinusoid sinusoid) 
     return result;
 }
 
+constexpr double slowestHz = 0.5;
+constexpr double highestSwingHz = 700.0;
+constexpr double highestLineHz = 960.0;
+constexpr float largestLine = 30.0F;
+
+/// Cosine and sine of an angle that grows evenly from sample to sample.
+struct Rotation {
+    Piece cosine;
+    Piece sine;
+};
+
+/// The rotation of a family's first harmonic, turned on from its first sample in double precision.
+Rotation firstHarmonic(double cycles, double cyclesPerSample, std::size_t samples) noexcept {
+    constexpr double wholeTurn = 2.0 * std::numbers::pi;
+    const double start = cycles + 0.5 * cyclesPerSample;
+    const double angle = wholeTurn * (start - std::round(start));
+    const double step = wholeTurn * cyclesPerSample;
+    const double stepCosine = std::cos(step);
+    const double stepSine = std::sin(step);
+    double cosine = std::cos(angle);
+    double sine = std::sin(angle);
+    Rotation rotation;
+    for (std::size_t n = 0; n < samples; ++n) {
+        rotation.cosine[n] = static_cast<float>(cosine);
+        rotation.sine[n] = static_cast<float>(sine);
+        const double turned = cosine * stepCosine - sine * stepSine;
+        sine = cosine * stepSine + sine * stepCosine;
+        cosine = turned;
+    }
+    return rotation;
+}
+
+/// Turns `rotation` on by `step`.
+void turn(Rotation& rotation, const Rotation& step, std::size_t samples) noexcept {
+    for (std::size_t n = 0; n < samples; ++n) {
+        const float cosine = rotation.cosine[n];
+        const float sine = rotation.sine[n];
+        rotation.cosine[n] = cosine * step.cosine[n] - sine * step.sine[n];
+        rotation.sine[n] = cosine * step.sine[n] + sine * step.cosine[n];
+    }
+}
+
+float lineGain(float output) noexcept {
+    return largestLine * std::tanh(output / largestLine);
+}
+
 }  // namespace
 
 TailImpulses::TailImpulses() {
@@ -84,56 +130,6 @@ void TailImpulses::addKernel(std::span<const float, atomCount> gains, float even
         }
     }
 }
-
-namespace {
-
-constexpr double slowestHz = 0.5;
-constexpr double highestSwingHz = 700.0;
-constexpr double highestLineHz = 960.0;
-constexpr float largestLine = 30.0F;
-
-/// Cosine and sine of an angle that grows evenly from sample to sample.
-struct Rotation {
-    Piece cosine;
-    Piece sine;
-};
-
-/// The rotation of a family's first harmonic, turned on from its first sample in double precision.
-Rotation firstHarmonic(double cycles, double cyclesPerSample, std::size_t samples) noexcept {
-    constexpr double wholeTurn = 2.0 * std::numbers::pi;
-    const double start = cycles + 0.5 * cyclesPerSample;
-    const double angle = wholeTurn * (start - std::round(start));
-    const double step = wholeTurn * cyclesPerSample;
-    const double stepCosine = std::cos(step);
-    const double stepSine = std::sin(step);
-    double cosine = std::cos(angle);
-    double sine = std::sin(angle);
-    Rotation rotation;
-    for (std::size_t n = 0; n < samples; ++n) {
-        rotation.cosine[n] = static_cast<float>(cosine);
-        rotation.sine[n] = static_cast<float>(sine);
-        const double turned = cosine * stepCosine - sine * stepSine;
-        sine = cosine * stepSine + sine * stepCosine;
-        cosine = turned;
-    }
-    return rotation;
-}
-
-/// Turns `rotation` on by `step`.
-void turn(Rotation& rotation, const Rotation& step, std::size_t samples) noexcept {
-    for (std::size_t n = 0; n < samples; ++n) {
-        const float cosine = rotation.cosine[n];
-        const float sine = rotation.sine[n];
-        rotation.cosine[n] = cosine * step.cosine[n] - sine * step.sine[n];
-        rotation.sine[n] = cosine * step.sine[n] + sine * step.cosine[n];
-    }
-}
-
-float lineGain(float output) noexcept {
-    return largestLine * std::tanh(output / largestLine);
-}
-
-}  // namespace
 
 bool isHeardHz(double rateHz) noexcept {
     return std::fabs(rateHz) > slowestHz && std::fabs(rateHz) < highestLineHz;

@@ -60,6 +60,19 @@ Direction portableDirection(double cycles) noexcept {
     }
 }
 
+/// Philox-4x32 with ten rounds: 128 random bits for a 128-bit counter and a 64-bit key.
+std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> counter, std::array<std::uint32_t, 2> key) noexcept {
+    for (int round = 0; round < 10; ++round) {
+        const std::uint64_t even = std::uint64_t{0xD2511F53} * counter[0];
+        const std::uint64_t odd = std::uint64_t{0xCD9E8D57} * counter[2];
+        counter = {static_cast<std::uint32_t>(odd >> 32U) ^ counter[1] ^ key[0], static_cast<std::uint32_t>(odd),
+                   static_cast<std::uint32_t>(even >> 32U) ^ counter[3] ^ key[1], static_cast<std::uint32_t>(even)};
+        key[0] += 0x9E3779B9U;
+        key[1] += 0xBB67AE85U;
+    }
+    return counter;
+}
+
 /// A number in (0, 1): the middle of one of 2^52 equal intervals.
 double openUnit(std::uint32_t high, std::uint32_t low) noexcept {
     const std::uint64_t bits = (std::uint64_t{high} << 32U | low) >> 12U;

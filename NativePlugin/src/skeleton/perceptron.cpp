@@ -33,6 +33,12 @@ void addOne(float x, const float* weight, float* __restrict sums, std::size_t co
     }
 }
 
+void silu(std::span<float> values) noexcept {
+    for (float& value : values) {
+        value /= 1.0F + std::exp(-value);
+    }
+}
+
 }  // namespace
 
 LinearLayer::LinearLayer(std::span<const float> weight, std::span<const float> bias)
@@ -60,16 +66,6 @@ void LinearLayer::apply(std::span<const float> x, std::span<float> y) const noex
         addOne(x[input], weight, y.data(), count);
     }
 }
-
-namespace {
-
-void silu(std::span<float> values) noexcept {
-    for (float& value : values) {
-        value /= 1.0F + std::exp(-value);
-    }
-}
-
-}  // namespace
 
 HiddenLayers::HiddenLayers(LinearLayer first, LinearLayer second)
     : first_(std::move(first)), second_(std::move(second)) {}

@@ -23,6 +23,28 @@ double logCosh(double x) noexcept {
     return magnitude + std::log1p(std::exp(-2.0 * magnitude)) - std::numbers::ln2;
 }
 
+/// What predicts a sample from 0 to 24 samples before it, and how far it then still varies.
+struct StepDown {
+    /// Row m: the m coefficients.
+    std::array<std::array<double, filterOrder>, filterOrder + 1> predictors{};
+    std::array<double, filterOrder + 1> variances{};
+
+    explicit StepDown(const ReflectionFilter& filter) noexcept {
+        predictors[filterOrder] = filter.coefficients;
+        variances[filterOrder] = std::exp(2.0 * filter.logGain);
+        for (std::size_t m = filterOrder; m > 0; --m) {
+            const auto& a = predictors[m];
+            const double k = a[m - 1];
+            // Rounding may carry a reflection of a very sharp filter to 1.
+            const double rest = std::max(1.0 - k * k, 1e-9);
+            variances[m - 1] = variances[m] / rest;
+            for (std::size_t i = 0; i + 1 < m; ++i) {
+                predictors[m - 1][i] = (a[i] - k * a[m - 2 - i]) / rest;
+            }
+        }
+    }
+};
+
 }  // namespace
 
 ReflectionFilter ReflectionFilter::of(std::span<const float, filterOrder> reflections, float gain) noexcept {
@@ -85,32 +107,6 @@ void ReflectionFilter::run(std::array<double, filterOrder>& past, std::span<cons
     }
     std::copy_n(wave.begin() + static_cast<std::ptrdiff_t>(drive.size()), filterOrder, past.begin());
 }
-
-namespace {
-
-/// What predicts a sample from 0 to 24 samples before it, and how far it then still varies.
-struct StepDown {
-    /// Row m: the m coefficients.
-    std::array<std::array<double, filterOrder>, filterOrder + 1> predictors{};
-    std::array<double, filterOrder + 1> variances{};
-
-    explicit StepDown(const ReflectionFilter& filter) noexcept {
-        predictors[filterOrder] = filter.coefficients;
-        variances[filterOrder] = std::exp(2.0 * filter.logGain);
-        for (std::size_t m = filterOrder; m > 0; --m) {
-            const auto& a = predictors[m];
-            const double k = a[m - 1];
-            // Rounding may carry a reflection of a very sharp filter to 1.
-            const double rest = std::max(1.0 - k * k, 1e-9);
-            variances[m - 1] = variances[m] / rest;
-            for (std::size_t i = 0; i + 1 < m; ++i) {
-                predictors[m - 1][i] = (a[i] - k * a[m - 2 - i]) / rest;
-            }
-        }
-    }
-};
-
-}  // namespace
 
 std::array<double, filterOrder> ReflectionFilter::stationaryPast(
     std::span<const float, filterOrder> noise) const noexcept {

@@ -1,10 +1,6 @@
 #include "skeleton/skeleton.hpp"
 
-#include "skeleton/condition.hpp"
-#include "skeleton/skeleton_layout.hpp"
-
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -12,6 +8,21 @@ namespace haptoflow::skeleton {
 namespace {
 
 constexpr double largestCorrection = 0.9;
+
+/// The outputs of one family, in the perceptron's order.
+FamilyGains gainsOf(std::span<const float, 2 * (swingHarmonics + lineHarmonics)> outputs) noexcept {
+    FamilyGains gains;
+    const float* next = outputs.data();
+    const auto take = [&next](auto& part) {
+        std::copy_n(next, part.size(), part.begin());
+        next += part.size();
+    };
+    take(gains.swingCosine);
+    take(gains.swingSine);
+    take(gains.lineCosine);
+    take(gains.lineSine);
+    return gains;
+}
 
 }  // namespace
 
@@ -34,25 +45,6 @@ float LevelModel::logLevel(std::span<const float, model::embeddingSize> embeddin
                               static_cast<double>(law[2]) * logarithms.force +
                               largestCorrection * std::tanh(static_cast<double>(correction[0])));
 }
-
-namespace {
-
-/// The outputs of one family, in the perceptron's order.
-FamilyGains gainsOf(std::span<const float, 2 * (swingHarmonics + lineHarmonics)> outputs) noexcept {
-    FamilyGains gains;
-    const float* next = outputs.data();
-    const auto take = [&next](auto& part) {
-        std::copy_n(next, part.size(), part.begin());
-        next += part.size();
-    };
-    take(gains.swingCosine);
-    take(gains.swingSine);
-    take(gains.lineCosine);
-    take(gains.lineSine);
-    return gains;
-}
-
-}  // namespace
 
 double logPowerOf(const SkeletonParameters& parameters, const std::array<double, familyCount>& ratesHz) noexcept {
     double power = parameters.filter.variance();

@@ -2,8 +2,8 @@
 
 #include "model/model_error.hpp"
 
-#include <algorithm>
 #include <cstdint>
+#include <initializer_list>
 #include <optional>
 #include <span>
 #include <string>
@@ -78,28 +78,24 @@ Perceptron readPerceptron(const model::ModelFile& model, const std::string& name
     return {std::move(hidden), std::move(last)};
 }
 
-/// Some rows of a layer, in the order of their outputs.
-class Rows {
-public:
-    Rows(const Tensor& weight, const Tensor& bias)
-        : weight_(weight.values), bias_(bias.values), inputs_(weight.values.size() / weight.rows) {}
-
-    Rows& add(std::size_t first, std::size_t count) {
-        const auto rows = weight_.subspan(first * inputs_, count * inputs_);
-        const auto biases = bias_.subspan(first, count);
-        chosenWeight_.insert(chosenWeight_.end(), rows.begin(), rows.end());
-        chosenBias_.insert(chosenBias_.end(), biases.begin(), biases.end());
-        return *this;
-    }
-    [[nodiscard]] LinearLayer layer() const { return {chosenWeight_, chosenBias_}; }
-
-private:
-    std::span<const float> weight_;
-    std::span<const float> bias_;
-    std::size_t inputs_;
-    std::vector<float> chosenWeight_;
-    std::vector<float> chosenBias_;
+struct RowRange {
+    std::size_t first;
+    std::size_t count;
 };
+
+/// A layer of some rows of another, in this order.
+LinearLayer layerOf(const Tensor& weight, const Tensor& bias, std::initializer_list<RowRange> ranges) {
+    const std::size_t inputs = weight.values.size() / weight.rows;
+    std::vector<float> weights;
+    std::vector<float> biases;
+    for (const auto& [first, count] : ranges) {
+        const auto rows = std::span(weight.values).subspan(first * inputs, count * inputs);
+        const auto own = std::span(bias.values).subspan(first, count);
+        weights.insert(weights.end(), rows.begin(), rows.end());
+        biases.insert(biases.end(), own.begin(), own.end());
+    }
+    return {weights, biases};
+}
 
 }  // namespace
 
@@ -114,17 +110,16 @@ std::shared_ptr<const Skeleton> readSkeleton(const model::ModelFile& model) {
     const Tensor weight = readTensor(model, "skeleton.4.weight", output::count, hidden.outputs());
     const Tensor bias = readTensor(model, "skeleton.4.bias", output::count, std::nullopt);
     const auto family = [&](std::size_t index) {
-        return Rows(weight, bias)
-            .add(output::swing + index * 2 * swingHarmonics, 2 * swingHarmonics)
-            .add(output::lines + index * 2 * lineHarmonics, 2 * lineHarmonics)
-            .layer();
+        return layerOf(weight, bias,
+                       {{output::swing + index * 2 * swingHarmonics, 2 * swingHarmonics},
+                        {output::lines + index * 2 * lineHarmonics, 2 * lineHarmonics}});
     };
     static_assert(familyCount == 3);
     return std::make_shared<const Skeleton>(
         std::move(hidden),
-        OutputLayers{.filter = Rows(weight, bias).add(output::reflections, filterOrder + 1).layer(),
+        OutputLayers{.filter = layerOf(weight, bias, {{output::reflections, filterOrder + 1}}),
                      .families = {family(0), family(1), family(2)},
-                     .impulseGains = Rows(weight, bias).add(output::impulseGains, TailImpulses::gainCount).layer()});
+                     .impulseGains = layerOf(weight, bias, {{output::impulseGains, TailImpulses::gainCount}})});
 }
 
 NativeParts readNativeParts(const model::ModelFile& model) {

@@ -1,11 +1,8 @@
 #include "skeleton/surface_noise.hpp"
 
-#include "skeleton/gaussian_noise.hpp"
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstddef>
 #include <functional>
 #include <utility>
 

@@ -14,12 +14,11 @@ namespace haptoflow::skeleton {
 inline constexpr std::size_t noiseSlotsPerSample = 8;
 /// The filter's length on either side of a sample's middle.
 inline constexpr std::size_t noiseReachSamples = 8;
-inline constexpr double noiseRollOff = 0.25;
 
-/// Second half of the filter, which is symmetric: the root of a raised cosine with that roll-off (Proakis, "Digital
-/// communications", 9.2), in the middles of the slots, with a mean square of 1 / 16. It lets all pass below 750 Hz and
-/// nothing beyond 1250 Hz, and filtered white noise is white again at whole samples. A table, because sines differ from
-/// one platform's library to the next.
+/// Second half of the filter, which is symmetric: the root of a raised cosine with a roll-off of 0.25 (Proakis,
+/// "Digital communications", 9.2), in the middles of the slots, with a mean square of 1 / 16. It lets all pass below
+/// 750 Hz and nothing beyond 1250 Hz, and filtered white noise is white again at whole samples. A table, because sines
+/// differ from one platform's library to the next.
 inline constexpr std::array<float, noiseReachSamples * noiseSlotsPerSample> noiseKernelHalf{
     1.06023896F,     0.996766269F,    0.87694478F,     0.714038253F,    0.52563411F,     0.33127442F,
     0.149892911F,    -0.00256012613F, -0.114963688F,   -0.182094485F,   -0.204799786F,   -0.189300939F,

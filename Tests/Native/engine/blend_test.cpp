@@ -138,12 +138,11 @@ TEST_F(BlendSoundTest, EveryBlendLiesBetweenItsLabelsOrAtMostTwoDecibelsBelow) {
         const std::array<float, 2> velocity{0.8F * speedMps, 0.6F * speedMps};
         std::vector<double> alone;
         for (std::uint32_t label = 0; label < labels; ++label) {
-            alone.push_back(haptoflow::testing::levelDecibels(played({{label, 1.0F}}, velocity, 5.0)));
+            alone.push_back(testing::levelDecibels(played({{label, 1.0F}}, velocity, 5.0)));
         }
         for (std::uint32_t first = 0; first < labels; ++first) {
             for (std::uint32_t second = first + 1; second < labels; ++second) {
-                const double blend =
-                    haptoflow::testing::levelDecibels(played({{first, 0.5F}, {second, 0.5F}}, velocity, 4.0));
+                const double blend = testing::levelDecibels(played({{first, 0.5F}, {second, 0.5F}}, velocity, 4.0));
                 const auto [softer, louder] = std::minmax(alone[first], alone[second]);
                 EXPECT_GT(blend, softer - 2.0) << model_.header().labels[first].name << " and "
                                                << model_.header().labels[second].name << " at " << speedMps;

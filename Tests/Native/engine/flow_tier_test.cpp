@@ -21,6 +21,7 @@
 namespace haptoflow::engine {
 namespace {
 
+using haptoflow::testing::correlation;
 using inference::SegmentRequest;
 using testing::DeviceSettings;
 using testing::FakeGenerator;
@@ -126,10 +127,8 @@ protected:
 TEST_F(RibPhaseTest, AtConstantSpeedTheRibsContinueTheSeedsWithoutAJump) {
     for (const double updateHz : {30.0, 72.0, 120.0}) {
         for (const double latency : {0.002, 0.012, 0.045}) {
-            DeviceSettings settings;
-            settings.updateHz = updateHz;
-            settings.latencySeconds = [latency](double) { return latency; };
-            SimulatedDevice device(model_, generator_, settings);
+            SimulatedDevice device(model_, generator_,
+                                   {.updateHz = updateHz, .latencySeconds = [latency](double) { return latency; }});
             device.run(2.0, slide);
             ASSERT_GT(device.waveform.samples.size(), 3000U);
             ASSERT_GT(device.counters().inferences, 20U);
@@ -180,12 +179,9 @@ TEST_F(RibPhaseTest, SpeedChangesAtEveryUpdateMakeNoPhaseJump) {
         for (const double updateHz : {30.0, 72.0, 120.0}) {
             SCOPED_TRACE(std::to_string(blockFrames) + " frames, " + std::to_string(updateHz) + " Hz");
             constexpr std::int64_t leadSamples = 60;
-            DeviceSettings settings;
-            settings.blockFrames = blockFrames;
-            settings.updateHz = updateHz;
-            settings.fixedLeadSamples = leadSamples;
             forget();
-            SimulatedDevice device(model_, generator_, settings);
+            SimulatedDevice device(model_, generator_,
+                                   {.blockFrames = blockFrames, .updateHz = updateHz, .fixedLeadSamples = leadSamples});
             device.run(3.0, [](double t) {
                 return onLabel(0, 0.1F + 0.07F * static_cast<float>(std::sin(2.0 * std::numbers::pi * 1.7 * t)));
             });
@@ -204,9 +200,7 @@ TEST_F(RibPhaseTest, SpeedChangesAtEveryUpdateMakeNoPhaseJump) {
 }
 
 TEST_F(RibPhaseTest, ATouchBeginsWithThePhaseOfItsSeed) {
-    DeviceSettings settings;
-    settings.latencySeconds = [](double) { return 0.0; };
-    SimulatedDevice device(model_, generator_, settings);
+    SimulatedDevice device(model_, generator_, {.latencySeconds = [](double) { return 0.0; }});
     device.run(0.3, [](double) { return onLabel(1, 0.03F); });
     const double expected = otherSeedPhase + 0.00525 * static_cast<double>(device.waveform.seams.front() + 1);
     EXPECT_NEAR(phases_.front()[0], expected - std::floor(expected), 1e-5);
@@ -231,12 +225,8 @@ TEST_F(RibPhaseTest, LiveVoiceAndOfflineRendererHaveTheSameRibPhases) {
     const auto hand = [](double t) {
         return onLabel(0, 0.1F + 0.06F * static_cast<float>(std::sin(2.0 * std::numbers::pi * t)));
     };
-    const std::vector<TimedContactState> states = testing::statesOf(2.0, hand);
-    const OfflineRender offline = renderOffline(model_, generator_, states, {.leadMs = 8.0});
-    DeviceSettings settings;
-    settings.fixedLeadSamples = 16;
-    settings.blockFrames = 48;
-    SimulatedDevice device(model_, generator_, settings);
+    const OfflineRender offline = renderOffline(model_, generator_, testing::statesOf(2.0, hand), {.leadMs = 8.0});
+    SimulatedDevice device(model_, generator_, {.blockFrames = 48, .fixedLeadSamples = 16});
     device.run(2.0, hand);
     const std::size_t common = std::min(offline.waveformMps2.size(), device.waveform.samples.size());
     ASSERT_GT(common, 3500U);
@@ -251,35 +241,15 @@ TEST_F(RibPhaseTest, LiveVoiceAndOfflineRendererHaveTheSameRibPhases) {
 // The noise of a voice belongs to the place: whatever the blocks, the frames and the latencies, a place is heard with
 // its own noise at the moment at which the tip is there.
 
-ContactState at(double metres, double speedMps) {
-    ContactState state = testing::sliding(static_cast<float>(speedMps));
-    state.hasPlace = 1;
-    state.surfaceSeed = 11;
-    state.placeMetres = {static_cast<float>(metres), 0.0F, 0.25F};
-    state.firstAxis = {1.0F, 0.0F, 0.0F};
-    state.secondAxis = {0.0F, 0.0F, -1.0F};
-    return state;
-}
-
-double correlation(std::span<const float> left, std::span<const float> right) {
-    double product = 0.0;
-    double leftPower = 0.0;
-    double rightPower = 0.0;
-    for (std::size_t i = 0; i < left.size(); ++i) {
-        product += static_cast<double>(left[i]) * static_cast<double>(right[i]);
-        leftPower += static_cast<double>(left[i]) * static_cast<double>(left[i]);
-        rightPower += static_cast<double>(right[i]) * static_cast<double>(right[i]);
-    }
-    return product / std::sqrt(leftPower * rightPower);
-}
-
 class PlaceTest : public ::testing::Test {
 protected:
     /// What is heard on a stroke from `startMetres`, with a network that passes its noise on.
     std::vector<float> heard(const DeviceSettings& settings, double startMetres, double speedMps,
                              double seconds = 1.0) {
         SimulatedDevice device(model_, noise_, settings);
-        device.run(seconds, [&](double t) { return at(startMetres + speedMps * t, speedMps); });
+        device.run(seconds, [&](double t) {
+            return testing::slidingAt(startMetres + speedMps * t, static_cast<float>(speedMps));
+        });
         EXPECT_EQ(device.counters().underruns, 0U);
         return device.waveform.samples;
     }
@@ -291,8 +261,8 @@ protected:
         skeleton::SurfaceNoise surfaceNoise;
         std::vector<float> noise(count);
         for (std::size_t first = 0; first < count; first += pieceSamples) {
-            surfaceNoise.next(0x9E3779B97F4A7C15U + 11U,
-                              {.startMetres = {startMetres + stepMetres * static_cast<double>(first), 0.0, 0.25},
+            surfaceNoise.next(0x9E3779B97F4A7C15U + 3U,
+                              {.startMetres = {startMetres + stepMetres * static_cast<double>(first), 0.0, 0.0},
                                .stepMetres = {stepMetres, 0.0, 0.0}},
                               {}, std::span(noise).subspan(first, std::min(pieceSamples, count - first)));
         }
@@ -327,11 +297,10 @@ TEST_F(PlaceTest, APlaceIsHeardWhenTheTipIsThereWhateverTheDevice) {
     for (const std::size_t blockFrames : {64U, 480U, 1024U}) {
         for (const double updateHz : {60.0, 90.0}) {
             for (const double latency : {0.002, 0.02}) {
-                DeviceSettings settings;
-                settings.blockFrames = blockFrames;
-                settings.updateHz = updateHz;
-                settings.latencySeconds = [latency](double) { return latency; };
-                settings.readsClock = true;
+                const DeviceSettings settings{.blockFrames = blockFrames,
+                                              .updateHz = updateHz,
+                                              .latencySeconds = [latency](double) { return latency; },
+                                              .readsClock = true};
                 const Match found = match(heard(settings, 0.05, 0.1), 0.05, 0.1);
                 EXPECT_GT(found.correlation, 0.999) << blockFrames << " frames, " << updateHz << " Hz, " << latency;
                 // The output is three samples late, which is anticipated; two of them are read ahead at the onset.
@@ -342,9 +311,7 @@ TEST_F(PlaceTest, APlaceIsHeardWhenTheTipIsThereWhateverTheDevice) {
 }
 
 TEST_F(PlaceTest, AnotherPlaceHasOtherNoise) {
-    DeviceSettings settings;
-    settings.readsClock = true;
-    const std::vector<float> first = heard(settings, 0.05, 0.1);
+    const std::vector<float> first = heard({.readsClock = true}, 0.05, 0.1);
     EXPECT_GT(match(first, 0.05, 0.1).correlation, 0.999);
     EXPECT_LT(match(first, 0.25, 0.1).correlation, 0.2);
 }
@@ -355,7 +322,7 @@ TEST_F(PlaceTest, WithoutAPlaceTheNoiseIsWhiteAndDiffersFromTouchToTouch) {
     for (std::uint32_t touch = 1; touch <= 2; ++touch) {
         const std::size_t before = device.waveform.samples.size();
         device.run(0.6, [touch](double) {
-            ContactState state = testing::sliding(0.1F);
+            ContactState state = testing::sliding();
             state.touchCounter = touch;
             return state;
         });
@@ -365,7 +332,7 @@ TEST_F(PlaceTest, WithoutAPlaceTheNoiseIsWhiteAndDiffersFromTouchToTouch) {
     }
     EXPECT_NEAR(correlation(touches[0], touches[1]), 0.0, 0.15);
     for (const std::vector<float>& touch : touches) {
-        EXPECT_NEAR(haptoflow::testing::levelDecibels(touch), 0.0, 1.0);
+        EXPECT_NEAR(testing::levelDecibels(touch), 0.0, 1.0);
         EXPECT_NEAR(correlation(std::span(touch).first(799), std::span(touch).last(799)), 0.0, 0.15);
     }
 }

@@ -317,19 +317,16 @@ TEST_F(LiveEngineTest, TheMessageOfTheNewestFailureIsKept) {
 }
 
 TEST_F(LiveEngineTest, SettingsOutOfRangeAreRejected) {
-    LiveEngineSettings bad = settings(false);
-    bad.updateRateHz = 0.0;
-    EXPECT_THROW((void)engine(bad), std::invalid_argument);
-    bad = settings(false);
-    bad.fixedLeadMs = 51.0;
-    EXPECT_THROW((void)engine(bad), std::invalid_argument);
-    bad = settings(false);
-    bad.quality.budgetMs = 0.0;
-    EXPECT_THROW((void)engine(bad), std::invalid_argument);
+    const auto refused = [this](auto change) {
+        LiveEngineSettings changed = settings(false);
+        change(changed);
+        EXPECT_THROW((void)engine(changed), std::invalid_argument);
+    };
+    refused([](LiveEngineSettings& bad) { bad.updateRateHz = 0.0; });
+    refused([](LiveEngineSettings& bad) { bad.fixedLeadMs = 51.0; });
+    refused([](LiveEngineSettings& bad) { bad.quality.budgetMs = 0.0; });
     for (const float fullScaleMps2 : {0.0F, -60.0F, 1e-4F, 2e6F, std::nanf(""), INFINITY}) {
-        bad = settings(false);
-        bad.fullScaleMps2 = fullScaleMps2;
-        EXPECT_THROW((void)engine(bad), std::invalid_argument) << fullScaleMps2;
+        refused([fullScaleMps2](LiveEngineSettings& bad) { bad.fullScaleMps2 = fullScaleMps2; });
     }
     EXPECT_THROW(LiveEngine(model_, {}, 0, settings(false)), std::invalid_argument);
     EXPECT_THROW((void)engine(settings(false))->addVoice(4000.0), std::invalid_argument);

@@ -4,14 +4,13 @@
 #include "inference/golden_file.hpp"
 #include "model/material_builder.hpp"
 #include "small_library.hpp"
+#include "support/wave_measures.hpp"
 
 #include <gtest/gtest.h>
 
 #include <array>
 #include <atomic>
 #include <cmath>
-#include <complex>
-#include <numbers>
 #include <string>
 #include <thread>
 #include <vector>
@@ -19,6 +18,7 @@
 namespace haptoflow::engine {
 namespace {
 
+using haptoflow::testing::gainDecibels;
 using nlohmann::json;
 using testing::SmallLibrary;
 
@@ -114,14 +114,7 @@ TEST(MaterialLibraryTest, LevelsAndKernelsMatchTheGoldenFiles) {
                 EXPECT_NEAR(found[tap], taps[tap], 1e-5) << name << ' ' << kernel.at("speed_mps") << ' ' << tap;
             }
             for (double frequencyHz = 20.0; frequencyHz < 900.0; frequencyHz *= 1.3) {
-                std::complex<double> ratio[2] = {0.0, 0.0};
-                for (std::size_t tap = 0; tap < taps.size(); ++tap) {
-                    const auto turn =
-                        std::polar(1.0, -2.0 * std::numbers::pi * frequencyHz * static_cast<double>(tap) / 2000.0);
-                    ratio[0] += static_cast<double>(found[tap]) * turn;
-                    ratio[1] += taps[tap] * turn;
-                }
-                EXPECT_NEAR(20.0 * std::log10(std::abs(ratio[0]) / std::abs(ratio[1])), 0.0, 1.0);
+                EXPECT_NEAR(gainDecibels(found, frequencyHz), gainDecibels(taps, frequencyHz), 1.0);
             }
         }
     }
@@ -133,13 +126,7 @@ TEST(MaterialLibraryTest, ATiltAddsToTheMaterialsToneAbout150Hz) {
     const dsp::ToneCepstrum tilt = designTilt();
     EXPECT_FALSE(resolveTone(small.ingredients({{0, 1.0F}}), 0.1, 1.0, 0.0, tilt));
     const auto responseDb = [](const dsp::ToneCepstrum& cepstrum, double frequencyHz) {
-        const dsp::ToneKernel kernel = dsp::toneKernel(cepstrum);
-        std::complex<double> sum = 0.0;
-        for (std::size_t tap = 0; tap < kernel.size(); ++tap) {
-            sum += static_cast<double>(kernel[tap]) *
-                   std::polar(1.0, -2.0 * std::numbers::pi * frequencyHz * static_cast<double>(tap) / 2000.0);
-        }
-        return 20.0 * std::log10(std::abs(sum));
+        return gainDecibels(dsp::toneKernel(cepstrum), frequencyHz);
     };
     const auto bright = resolveTone(small.ingredients({{0, 1.0F}}), 0.1, 1.0, 3.0, tilt);
     const auto plain = resolveTone(small.ingredients({{2, 1.0F}}), 0.1, 1.0, 0.0, tilt);

@@ -1,19 +1,14 @@
 #include "engine/material.hpp"
 
-#include "engine/offline_renderer.hpp"
-#include "engine/range_law.hpp"
 #include "engine/test_model.hpp"
-#include "model/material_builder.hpp"
-#include "model/model_builder.hpp"
 #include "model/model_file.hpp"
 #include "simulated_device.hpp"
 #include "small_library.hpp"
-#include "support/model_generator.hpp"
-#include "support/wave_measures.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -101,11 +96,7 @@ TEST(ContactStateTest, EveryInvalidFieldOfAStateBecomesFiniteAndIsCounted) {
 TEST(ContactStateTest, APlaceOfNoUseIsUnknownAndCounted) {
     constexpr float nan = std::numeric_limits<float>::quiet_NaN();
     const auto changesOf = [](auto change) {
-        ContactState state = testing::sliding();
-        state.hasPlace = 1;
-        state.placeMetres = {1.0F, 2.0F, 3.0F};
-        state.firstAxis = {1.0F, 0.0F, 0.0F};
-        state.secondAxis = {0.0F, 1.0F, 0.0F};
+        ContactState state = testing::slidingAt(1.0);
         change(state);
         const std::uint32_t changes = sanitise(state);
         EXPECT_EQ(state.hasPlace, changes == 0 ? 1U : 0U);
@@ -120,71 +111,82 @@ TEST(ContactStateTest, APlaceOfNoUseIsUnknownAndCounted) {
     EXPECT_EQ(changesOf([](ContactState& state) { state.secondAxis = {5.0F, 0.0F, 0.0F}; }), 1U);
 }
 
-TEST(SeedRetrievalTest, TheSeedRecordedNearestToTheMotionIsChosen) {
+TEST(SeedRetrievalTest, TheSeedRecordedNearestToTheMotionIsChosenAndNoneWithoutSeeds) {
     const testing::SmallLibrary small;
     const auto& seeds = small.ingredients({{0, 1.0F}}).heaviest().material->seeds;
     // "oak" has seeds recorded at (0.1, -0.05) m/s and 1 N, and at (0.2, -0.05) m/s and 2 N.
     EXPECT_EQ(retrieveSeed(seeds, {0.09F, -0.04F, 1.0F}), &seeds[0]);
     EXPECT_EQ(retrieveSeed(seeds, {0.3F, -0.05F, 2.5F}), &seeds[1]);
-}
-
-TEST(SeedRetrievalTest, AMaterialWithoutSeedsGivesNull) {
     EXPECT_EQ(retrieveSeed({}, {0.1F, 0.0F, 1.0F}), nullptr);
 }
 
-Material material(double speed, double force, double frequency) {
-    Material result;
-    result.speedLevelExponent = speed;
-    result.forceLevelExponent = force;
-    result.frequencyExponent = frequency;
-    return result;
+/// The law of a label with these exponents of the level over speed and force and of the frequency.
+class RangeLawTest : public ::testing::Test {
+protected:
+    [[nodiscard]] RangedMotion ranged(const std::array<double, 3>& exponents, const std::array<float, 2>& velocityMps,
+                                      float forceNewtons, float spatialScale = 1.0F) const {
+        const Material material{.embedding = {},
+                                .speedLevelExponent = exponents[0],
+                                .forceLevelExponent = exponents[1],
+                                .frequencyExponent = exponents[2]};
+        return applyRangeLaw(model_.header(), material, velocityMps, forceNewtons, spatialScale);
+    }
+
+    model::ModelFile model_ = testing::smallModel();
+};
+
+TEST_F(RangeLawTest, InsideTheRangeNothingChanges) {
+    const RangedMotion inside = ranged({1.0, 0.5, 1.0}, {0.3F, -0.2F}, 2.0F);
+    EXPECT_EQ(inside.motion, (std::array<float, 3>{0.3F, -0.2F, 2.0F}));
+    EXPECT_EQ(inside.levelGain, 1.0);
+    EXPECT_EQ(inside.readingRate, 1.0);
 }
 
-TEST(RangeLawTest, InsideTheRangeNothingChanges) {
-    const model::ModelFile model = testing::smallModel();
-    const RangedMotion ranged = applyRangeLaw(model.header(), material(1.0, 0.5, 1.0), {0.3F, -0.2F}, 2.0F);
-    EXPECT_FLOAT_EQ(ranged.motion[0], 0.3F);
-    EXPECT_FLOAT_EQ(ranged.motion[1], -0.2F);
-    EXPECT_FLOAT_EQ(ranged.motion[2], 2.0F);
-    EXPECT_EQ(ranged.levelGain, 1.0);
-    EXPECT_EQ(ranged.readingRate, 1.0);
+TEST_F(RangeLawTest, BeyondTheRangeTheMotionIsClampedInItsDirection) {
+    const RangedMotion beyond = ranged({}, {1.2F, 1.6F}, 8.0F);
+    EXPECT_NEAR(std::hypot(beyond.motion[0], beyond.motion[1]), 0.4, 1e-6);
+    EXPECT_NEAR(beyond.motion[1] / beyond.motion[0], 4.0 / 3.0, 1e-5);
+    EXPECT_FLOAT_EQ(beyond.motion[2], 4.0F);
 }
 
-TEST(RangeLawTest, BeyondTheRangeTheMotionIsClampedInItsDirection) {
-    const model::ModelFile model = testing::smallModel();
-    const RangedMotion ranged = applyRangeLaw(model.header(), material(0.0, 0.0, 0.0), {1.2F, 1.6F}, 8.0F);
-    EXPECT_NEAR(std::hypot(ranged.motion[0], ranged.motion[1]), 0.4, 1e-6);
-    EXPECT_NEAR(ranged.motion[1] / ranged.motion[0], 4.0 / 3.0, 1e-5);
-    EXPECT_FLOAT_EQ(ranged.motion[2], 4.0F);
+TEST_F(RangeLawTest, LevelAndReadingRateFollowTheLabelsExponentsUpToALimit) {
+    const RangedMotion beyond = ranged({1.0, 0.5, 0.5}, {0.8F, 0.0F}, 16.0F);
+    EXPECT_NEAR(beyond.levelGain, 2.0 * 2.0, 1e-6);
+    EXPECT_NEAR(beyond.readingRate, std::sqrt(2.0), 1e-6);
+    const RangedMotion farBeyond = ranged({2.0, 1.0, 1.0}, {20.0F, 0.0F}, 1000.0F);
+    EXPECT_EQ(farBeyond.levelGain, 16.0);
+    EXPECT_EQ(farBeyond.readingRate, 4.0);
 }
 
-TEST(RangeLawTest, LevelAndReadingRateFollowTheLabelsExponents) {
-    const model::ModelFile model = testing::smallModel();
-    const RangedMotion ranged = applyRangeLaw(model.header(), material(1.0, 0.5, 0.5), {0.8F, 0.0F}, 16.0F);
-    EXPECT_NEAR(ranged.levelGain, 2.0 * 2.0, 1e-6);
-    EXPECT_NEAR(ranged.readingRate, std::sqrt(2.0), 1e-6);
-}
-
-TEST(RangeLawTest, LevelAndReadingRateAreLimited) {
-    const model::ModelFile model = testing::smallModel();
-    const RangedMotion ranged = applyRangeLaw(model.header(), material(2.0, 1.0, 1.0), {20.0F, 0.0F}, 1000.0F);
-    EXPECT_EQ(ranged.levelGain, 16.0);
-    EXPECT_EQ(ranged.readingRate, 4.0);
-}
-
-TEST(RangeLawTest, ASlowSweepAcrossTheEdgeOfTheRangeHasNoStep) {
-    const model::ModelFile model = testing::smallModel();
-    const Material mesh = material(0.97, 0.21, 1.0);
-    RangedMotion last = applyRangeLaw(model.header(), mesh, {0.0F, 0.0F}, 0.0F);
+TEST_F(RangeLawTest, ASlowSweepAcrossTheEdgeOfTheRangeHasNoStep) {
+    RangedMotion last = ranged({0.97, 0.21, 1.0}, {}, 0.0F);
     for (int i = 1; i <= 20000; ++i) {
         const float share = static_cast<float>(i) / 20000.0F;
-        const RangedMotion ranged = applyRangeLaw(model.header(), mesh, {2.0F * share, 0.0F}, 10.0F * share);
-        ASSERT_LE(std::abs(ranged.levelGain - last.levelGain), 1e-3);
-        ASSERT_LE(std::abs(ranged.readingRate - last.readingRate), 1e-3);
-        ASSERT_LE(std::abs(ranged.motion[0] - last.motion[0]), 1e-3F);
-        ASSERT_LE(std::abs(ranged.motion[2] - last.motion[2]), 1e-3F);
-        last = ranged;
+        const RangedMotion next = ranged({0.97, 0.21, 1.0}, {2.0F * share, 0.0F}, 10.0F * share);
+        ASSERT_LE(std::abs(next.levelGain - last.levelGain), 1e-3);
+        ASSERT_LE(std::abs(next.readingRate - last.readingRate), 1e-3);
+        ASSERT_LE(std::abs(next.motion[0] - last.motion[0]), 1e-3F);
+        ASSERT_LE(std::abs(next.motion[2] - last.motion[2]), 1e-3F);
+        last = next;
     }
+}
+
+TEST_F(RangeLawTest, OnASurfaceOfAnotherScaleTheNetworkUsesTheScaledSpeedAndTheLevelTheActualOne) {
+    constexpr std::array<double, 3> half{0.5, 0.25, 0.5};
+    const RangedMotion larger = ranged(half, {0.08F, -0.06F}, 1.0F, 2.0F);
+    EXPECT_FLOAT_EQ(larger.motion[0], 0.04F);
+    EXPECT_FLOAT_EQ(larger.motion[1], -0.03F);
+    EXPECT_FLOAT_EQ(larger.levelMotion[0], 0.08F);
+    EXPECT_FLOAT_EQ(larger.levelMotion[1], -0.06F);
+    EXPECT_EQ(larger.levelGain, 1.0);
+    EXPECT_EQ(larger.readingRate, 1.0);
+    const RangedMotion smaller = ranged(half, {0.4F, 0.0F}, 1.0F, 0.25F);
+    EXPECT_FLOAT_EQ(smaller.motion[0], 0.4F);
+    EXPECT_NEAR(smaller.levelGain, 1.0, 1e-6) << "the actual speed is within the range";
+    EXPECT_NEAR(smaller.readingRate, 2.0, 1e-6);
+    const RangedMotion fast = ranged(half, {0.8F, 0.0F}, 1.0F, 2.0F);
+    EXPECT_NEAR(fast.readingRate, 1.0, 1e-6) << "half the speed is within the range";
+    EXPECT_NEAR(fast.levelGain, std::sqrt(2.0), 1e-6);
 }
 
 }  // namespace

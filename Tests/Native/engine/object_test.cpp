@@ -14,10 +14,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <complex>
 #include <cstdint>
 #include <random>
-#include <utility>
 #include <vector>
 
 // Objects of one label differ as the recorded pieces of that label did: by an offset of the embedding that the object's
@@ -114,16 +112,7 @@ TEST(ObjectWithoutPiecesTest, AModelWithoutRecordedPiecesHasNoVariation) {
     EXPECT_TRUE(std::ranges::equal(embeddingOf(*alone.entries[0].material, {5, 1.0F}), small.model.embedding(1)));
 }
 
-}  // namespace
-}  // namespace haptoflow::engine
-
 // What a variation of the object is heard as: in a single label, in a blend, and where the object changes.
-
-namespace haptoflow::engine {
-namespace {
-
-using haptoflow::testing::levelDecibels;
-using testing::SimulatedDevice;
 
 /// A calm model, whose labels were recorded from eight pieces each.
 model::testing::ModelBuilder modelOfPieces() {
@@ -151,17 +140,10 @@ model::testing::ModelBuilder modelOfPieces() {
 class ObjectSoundTest : public ::testing::Test {
 protected:
     static ContactState slideAt(double seconds, std::uint32_t seed, float variation,
-                                const std::vector<std::pair<std::uint32_t, float>>& blend = {{0U, 1.0F}}) {
-        ContactState state = testing::sliding();
-        state.material = {};
-        for (const auto& [label, weight] : blend) {
-            state.material.add(label, weight);
-        }
-        state.hasPlace = 1;
+                                const std::vector<testing::LabelWeight>& blend = {{0U, 1.0F}}) {
+        ContactState state = testing::slidingAt(0.1 * seconds);
+        state.material = testing::blendOf(blend);
         state.surfaceSeed = seed;
-        state.placeMetres = {static_cast<float>(0.1 * seconds), 0.0F, 0.0F};
-        state.firstAxis = {1.0F, 0.0F, 0.0F};
-        state.secondAxis = {0.0F, 1.0F, 0.0F};
         state.variation = variation;
         return state;
     }
@@ -173,7 +155,7 @@ protected:
 
     /// What the worker is told of a state.
     ContactMessage published(const ContactState& state) {
-        SimulatedDevice device(model_, skeleton_);
+        testing::SimulatedDevice device(model_, skeleton_);
         device.voice().publisher.publish(state);
         EXPECT_TRUE(device.voice().channels.toWorker.fetch());
         return device.voice().channels.toWorker.current();
@@ -212,7 +194,7 @@ TEST_F(ObjectSoundTest, ASingleLabelHasTheLevelThatTheModelGivesTheObject) {
 }
 
 TEST_F(ObjectSoundTest, ABlendHasItsIngredientsOffsetsAndTheLevelOfItsLabels) {
-    const std::vector<std::pair<std::uint32_t, float>> half{{0U, 0.5F}, {1U, 0.5F}};
+    const std::vector<testing::LabelWeight> half{{0U, 0.5F}, {1U, 0.5F}};
     const ContactMessage mean = published(slideAt(0.0, 7, 0.0F, half));
     const ContactMessage drawn = published(slideAt(0.0, 7, 1.0F, half));
     const ObjectIdentity object{.surfaceSeed = 7, .variation = 1.0F};

@@ -2,7 +2,6 @@
 
 #include "engine/offline_renderer.hpp"
 
-#include "inference/load_limits.hpp"
 #include "simulated_device.hpp"
 
 #include <gtest/gtest.h>
@@ -79,18 +78,6 @@ TEST_F(OfflineRendererTest, AStreamedRenderArrivesPerUpdateAndHasTheSameStatisti
     EXPECT_EQ(streamed.seamStatistics.jumpRatio, whole.seamStatistics.jumpRatio);
 }
 
-TEST_F(OfflineRendererTest, WithoutTouchNothingIsGeneratedAndTheOutputIsZero) {
-    std::vector<TimedContactState> states = statesOfSlide(1.0);
-    for (ContactState& state : states) {
-        state.touching = false;
-        state.touchCounter = 0;
-    }
-    const OfflineRender render = renderOffline(model_, noise_, states, {});
-    EXPECT_EQ(noise_.generated, 0);
-    EXPECT_EQ(render.peak, 0.0);
-    EXPECT_TRUE(render.waveformMps2.empty());
-}
-
 TEST_F(OfflineRendererTest, InvalidStatesAreSanitisedAndCountedAndTheOutputIsFinite) {
     std::vector<TimedContactState> states = statesOfSlide(1.0);
     for (std::size_t i = 5; i < states.size(); i += 3) {
@@ -102,36 +89,6 @@ TEST_F(OfflineRendererTest, InvalidStatesAreSanitisedAndCountedAndTheOutputIsFin
     const OfflineRender render = renderOffline(model_, noise_, states, {});
     EXPECT_GT(render.sanitised, 60U);
     EXPECT_TRUE(std::ranges::all_of(render.samples, [](float sample) { return std::abs(sample) < 1.0F; }));
-}
-
-TEST_F(OfflineRendererTest, AfterAFailedRunTheOutputFadesAndTheFailureIsCounted) {
-    int calls = 0;
-    FakeGenerator generator([&calls](const inference::SegmentRequest& request, std::span<float> segment) {
-        if (++calls > 20 && calls <= 40) {
-            throw inference::InferenceError("refused by the test");
-        }
-        testing::continueTone(request, segment);
-    });
-    const OfflineRender render = renderOffline(model_, generator, statesOfSlide(1.0), {});
-    EXPECT_EQ(render.failures, 20U);
-    EXPECT_GT(render.underruns, 0U);
-    EXPECT_EQ(render.nonFinite, 0U);
-}
-
-TEST_F(OfflineRendererTest, MissingUpdatesSilenceTheVoiceUntilSlidingResumes) {
-    std::vector<TimedContactState> states = statesOfSlide(1.0);
-    for (std::size_t i = 36; i < states.size(); ++i) {
-        states[i].timeSeconds += 0.5;
-    }
-    const OfflineRender render = renderOffline(model_, tone_, states, {});
-    const auto quietFrom = static_cast<std::size_t>((states[35].timeSeconds + 0.1055) * 48000.0);
-    const auto quietTo = static_cast<std::size_t>(states[36].timeSeconds * 48000.0);
-    ASSERT_LT(quietFrom, quietTo);
-    for (std::size_t i = quietFrom; i < quietTo; ++i) {
-        ASSERT_EQ(render.samples[i], 0.0F) << "sample " << i;
-    }
-    EXPECT_EQ(render.onsets, 1U) << "the resumed slide belongs to the same touch";
-    EXPECT_NE(render.samples[quietTo + 480], 0.0F);
 }
 
 TEST_F(OfflineRendererTest, SettingsOutOfRangeAreRejected) {
@@ -155,23 +112,17 @@ double soundingSeconds() {
 class LongRunTest : public testing::DeviceTest {
 protected:
     static testing::DeviceSettings settings() {
-        testing::DeviceSettings settings;
-        settings.rateHz = 8192.0;
-        settings.blockFrames = 64;
-        settings.updateHz = 64.0;
-        settings.latencySeconds = [](double) { return 1.0 / 512.0; };
-        settings.fixedLeadSamples = 60;
-        return settings;
+        return {.rateHz = 8192.0,
+                .blockFrames = 64,
+                .updateHz = 64.0,
+                .latencySeconds = [](double) { return 1.0 / 512.0; },
+                .fixedLeadSamples = 60};
     }
 
     /// The output of two seconds of sliding and half a second after lift-off.
-    static std::vector<float> touch(SimulatedDevice& device, std::uint32_t counter) {
+    static std::vector<float> played(SimulatedDevice& device, std::uint32_t counter) {
         device.output.clear();
-        device.run(2.0, [counter](double) {
-            ContactState state = testing::sliding();
-            state.touchCounter = counter;
-            return state;
-        });
+        device.run(2.0, [counter](double) { return touch(counter); });
         device.run(0.5, [counter](double) { return testing::lifted(counter); });
         return device.output;
     }
@@ -179,7 +130,7 @@ protected:
     /// The output of a new voice.
     std::vector<float> ofANewVoice() {
         SimulatedDevice fresh(model_, tone_, settings());
-        std::vector<float> output = touch(fresh, 1);
+        std::vector<float> output = played(fresh, 1);
         EXPECT_GT(testing::peak(output), 0.5F / 60.0F);
         return output;
     }
@@ -194,7 +145,7 @@ TEST_F(LongRunTest, AVoiceWithAClockOneDayAheadSoundsLikeANewVoice) {
     while (waveform.head() < day) {
         waveform.read(nullptr, unheard);
     }
-    EXPECT_EQ(touch(device, 1), ofANewVoice());
+    EXPECT_EQ(played(device, 1), ofANewVoice());
     EXPECT_GT(waveform.head(), day + 4000);
     EXPECT_EQ(device.counters().underruns, 0U);
 }
@@ -226,7 +177,7 @@ TEST_F(LongRunTest, AVoiceAfterALongTouchSoundsLikeANewVoice) {
     // The head advances by four times 2,000 samples a second, except at the beginning.
     EXPECT_GT(device.voice().renderer.voice().waveform().head(), 7900LL * seconds);
     device.run(1.0, [](double) { return testing::lifted(1); });
-    EXPECT_EQ(touch(device, 2), ofANewVoice());
+    EXPECT_EQ(played(device, 2), ofANewVoice());
     EXPECT_EQ(device.counters().underruns, 0U);
 }
 

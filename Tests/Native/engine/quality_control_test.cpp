@@ -13,6 +13,7 @@
 #include <random>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace haptoflow::engine {
@@ -20,9 +21,10 @@ namespace {
 
 constexpr double budgetMs = 3.0;
 
-/// A control with three tiers, measured at these times in milliseconds.
-QualityControl measuredControl(double first, double second, double third) {
-    QualityControl control(3, {.fixedTier = std::nullopt, .budgetMs = budgetMs}, 1);
+/// A control with three tiers in an order of accuracy, measured at these times in milliseconds.
+QualityControl measuredControl(double first, double second, double third,
+                               std::vector<std::size_t> byAccuracy = {0, 1, 2}) {
+    QualityControl control(3, {.fixedTier = std::nullopt, .budgetMs = budgetMs}, 1, std::move(byAccuracy));
     const std::array<double, 3> times{first, second, third};
     while (const auto tier = control.tierToMeasure()) {
         control.recordMeasurement(*tier, times.at(*tier));
@@ -133,15 +135,9 @@ TEST(QualityControlTest, ARoundOfSeveralSegmentsForOneVoiceIsTimedBySegment) {
     EXPECT_EQ(control.stepsDown(), 0U);
 }
 
-/// A control with three tiers, of which the third is less accurate than the second, measured at these times in
-/// milliseconds.
+/// The same with a third tier that is less accurate than the second.
 QualityControl controlByAccuracy(double first, double second, double third) {
-    QualityControl control(3, {.fixedTier = std::nullopt, .budgetMs = budgetMs}, 1, {0, 2, 1});
-    const std::array<double, 3> times{first, second, third};
-    while (const auto tier = control.tierToMeasure()) {
-        control.recordMeasurement(*tier, times.at(*tier));
-    }
-    return control;
+    return measuredControl(first, second, third, {0, 2, 1});
 }
 
 TEST(QualityControlTest, TheOrderOfAccuracyDecidesAndNotTheModelsOrder) {
@@ -198,12 +194,9 @@ TEST(QualityControlTest, TheQualityCanBeChangedAtAnyTime) {
     EXPECT_THROW(QualityControl(3, {.fixedTier = 3, .budgetMs = budgetMs}, 0), std::invalid_argument);
 }
 
-TEST(LeadEstimatorTest, WithoutObservationsTheLeadIsTwoBlocksAndFourMilliseconds) {
-    EXPECT_EQ(LeadEstimator{}.samples(11), 30);
-}
-
 TEST(LeadEstimatorTest, OneStallDoesNotLengthenTheLeadButTwoDo) {
     LeadEstimator lead;
+    EXPECT_EQ(lead.samples(11), 30) << "without observations two blocks and 4 ms";
     for (int i = 0; i < 200; ++i) {
         lead.observe(12);
     }
@@ -277,7 +270,8 @@ model::ModelFile modelWithLabels(std::size_t labels, std::size_t embeddings) {
 /// Number of evaluations of the level graph for a model's levels.
 std::size_t levelsAskedFor(std::size_t labels, std::size_t embeddings) {
     PowerLaw graph;
-    const OnsetLevels levels(modelWithLabels(labels, embeddings), graph);
+    const model::ModelFile model = modelWithLabels(labels, embeddings);
+    const MaterialLibrary library(model, graph);
     EXPECT_LE(graph.calls, graph.requestCount / 256 + 1) << "all calls except the last are full batches";
     return graph.requestCount;
 }
@@ -338,7 +332,7 @@ TEST(OnsetLevelsCostTest, ACancellationEndsTheTabulationWithinOneBatch) {
         }
     };
     const model::ModelFile model = modelWithLabels(4096, 4096);
-    EXPECT_THROW(OnsetLevels(model, graph, {.cancellation = cancellation}), inference::LoadCancelled);
+    EXPECT_THROW(MaterialLibrary(model, graph, {.cancellation = cancellation}), inference::LoadCancelled);
     EXPECT_EQ(graph.calls, 3U);
 }
 

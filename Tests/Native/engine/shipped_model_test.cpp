@@ -3,9 +3,8 @@
 
 #include "engine/material.hpp"
 #include "engine/offline_renderer.hpp"
-#include "engine/range_law.hpp"
+#include "inference/rebuilt_model.hpp"
 #include "model/material_builder.hpp"
-#include "model/model_builder.hpp"
 #include "model/model_file.hpp"
 #include "simulated_device.hpp"
 #include "small_library.hpp"
@@ -41,9 +40,7 @@ protected:
         const auto generator = haptoflow::testing::generatorOf(model_, 1, "sketch");
         const auto hand = [&](double seconds) {
             ContactState state = testing::sliding();
-            state.velocityMps = {0.1F, 0.0F};
-            state.material = {};
-            state.material.add(static_cast<int>(seconds * 10.0 + 1e-6) % 2 == 0 ? first : second, 1.0F);
+            state.material.labels[0] = static_cast<int>(seconds * 10.0 + 1e-6) % 2 == 0 ? first : second;
             return state;
         };
         constexpr double updateHz = 100.0;
@@ -64,7 +61,7 @@ TEST_P(LabelChangeTest, FiveMillisecondsAfterAChangeBothLabelsHaveTheirOwnLevel)
             gathered.insert(gathered.end(), wave.begin() + static_cast<std::ptrdiff_t>(change + first),
                             wave.begin() + static_cast<std::ptrdiff_t>(change + last));
         }
-        return haptoflow::testing::levelDecibels(gathered);
+        return testing::levelDecibels(gathered);
     };
     EXPECT_NEAR(levelOf(0, 10, 20), levelOf(0, 100, 200), 4.0) << loud;
     EXPECT_NEAR(levelOf(1, 10, 20), levelOf(1, 100, 200), 4.0) << quiet;
@@ -80,8 +77,7 @@ class RangeSweepTest : public ::testing::Test {
 protected:
     /// Level in decibels, including the range law's gain, for each motion of a sweep over a label.
     std::vector<double> levels(std::size_t label, const std::vector<std::array<float, 3>>& motions) {
-        MaterialBlend blend;
-        blend.add(static_cast<std::uint32_t>(label), 1.0F);
+        const MaterialBlend blend = testing::blendOf({{static_cast<std::uint32_t>(label), 1.0F}});
         const Material material = resolveMaterial(MaterialLibrary::ReadScope(library_).ingredients(blend));
         std::vector<inference::SegmentRequest> requests;
         std::vector<double> result;
@@ -145,26 +141,15 @@ TEST_F(RangeSweepTest, FromStandstillToTwoMetresASecondTheLevelHasNeitherAStepNo
 
 /// The shipped model with one more label, which has a slightly changed embedding of wood and its own level and tone.
 model::ModelFile withDenim(const model::ModelFile& shipped) {
-    model::testing::ModelBuilder builder;
-    builder.header = nlohmann::json::parse(shipped.headerText());
-    builder.header.erase("blobs");
-    builder.blobs.clear();
-    for (const model::Blob& blob : shipped.header().blobs) {
-        const auto bytes = shipped.blob(blob.name);
-        model::testing::BlobContent content{blob.name, blob.type == model::BlobType::onnx ? "onnx" : "float32",
-                                            blob.shape, model::testing::Bytes(bytes.begin(), bytes.end())};
-        if (blob.name == "embedding") {
-            std::vector<float> row(shipped.embedding(0).begin(), shipped.embedding(0).end());
-            row[0] += 0.1F;
-            const model::testing::Bytes added = model::testing::bytesOf(row);
-            content.bytes.insert(content.bytes.end(), added.begin(), added.end());
-            ++content.shape[0];
-        }
-        if (blob.name == "pieces") {
-            content.bytes.resize(content.bytes.size() + bytes.size() / static_cast<std::size_t>(content.shape[0]));
-            ++content.shape[0];
-        }
-        builder.blobs.push_back(content);
+    model::testing::ModelBuilder builder = inference::testing::builderOf(shipped);
+    std::vector<float> row(shipped.embedding(0).begin(), shipped.embedding(0).end());
+    row[0] += 0.1F;
+    const std::size_t pieceBytes = blobOf(builder, "pieces").bytes.size() / shipped.header().labels.size();
+    for (const auto& [name, added] : {std::pair("embedding", model::testing::bytesOf(row)),
+                                      std::pair("pieces", model::testing::Bytes(pieceBytes))}) {
+        model::testing::BlobContent& blob = blobOf(builder, name);
+        blob.bytes.insert(blob.bytes.end(), added.begin(), added.end());
+        ++blob.shape[0];
     }
     nlohmann::json denim = model::testing::validMaterial("00000000");
     denim["embedding_row"] = shipped.header().labels.size();
@@ -193,7 +178,7 @@ TEST_F(AddedLabelTest, AnAddedLabelDoesNotChangeTheOutputOfOtherLabels) {
     EXPECT_EQ(model::spaceOf(added_.header()), model::spaceOf(shipped_.header()));
     for (const std::uint32_t label : {0U, 8U, 13U}) {
         const std::vector<float> before = rendered(shipped_, label, label + 1);
-        EXPECT_GT(haptoflow::testing::peak(before), 0.0F);
+        EXPECT_GT(testing::peak(before), 0.0F);
         EXPECT_EQ(rendered(added_, label, label + 1), before) << label;
     }
 }
@@ -202,7 +187,7 @@ TEST_F(AddedLabelTest, AnAddedLabelSoundsAtItsOwnLevel) {
     const auto denim = static_cast<std::uint32_t>(shipped_.header().labels.size());
     const std::vector<float> own = rendered(added_, denim, denim);
     // At 0.112 m/s and 1 N, the level is e^1.08 m/s^2 plus 3 dB; the tone adds 1 to 9 dB.
-    const double decibels = haptoflow::testing::levelDecibels(std::span(own).first(48000)) + 20.0 * std::log10(200.0);
+    const double decibels = testing::levelDecibels(std::span(own).first(48000)) + 20.0 * std::log10(200.0);
     EXPECT_GT(decibels, 20.0 * std::log10(std::exp(1.08)) + 3.0 - 4.0);
     EXPECT_LT(decibels, 20.0 * std::log10(std::exp(1.08)) + 3.0 + 9.0);
 }

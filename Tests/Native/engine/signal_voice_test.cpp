@@ -123,8 +123,7 @@ TEST_F(SignalVoiceTest, MutePausePanicAndMissingStatesInterruptTheSignal) {
     play(0.1, sliding());
     EXPECT_TRUE(isSilent());
     EXPECT_EQ(device_.voice().channels.silence, Silence::panic);
-    ContactState next = sliding();
-    next.touchCounter = 2;
+    const ContactState next = touch(2);
     play(0.1, next);
     EXPECT_TRUE(sounds());
     begin_ = device_.output.size();

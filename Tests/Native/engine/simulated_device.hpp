@@ -11,7 +11,6 @@
 
 #include <array>
 #include <atomic>
-#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -148,8 +147,7 @@ private:
         if (!workerAlive || !voice_.planner.wake()) {
             return;
         }
-        const inference::SegmentRequest& request = voice_.planner.request();
-        if (!generate(request)) {
+        if (!generate(voice_.planner.request())) {
             return;
         }
         pending_ = true;
@@ -202,6 +200,17 @@ inline ContactState sliding(float speedMps = 0.1F, float forceNewtons = 1.0F) {
     return state;
 }
 
+/// The same of a tip on a plane at a known place along x.
+inline ContactState slidingAt(double metres, float speedMps = 0.1F) {
+    ContactState state = sliding(speedMps);
+    state.hasPlace = 1;
+    state.surfaceSeed = 3;
+    state.placeMetres = {static_cast<float>(metres), 0.0F, 0.0F};
+    state.firstAxis = {1.0F, 0.0F, 0.0F};
+    state.secondAxis = {0.0F, 1.0F, 0.0F};
+    return state;
+}
+
 inline ContactState lifted(std::uint32_t touchCounter = 1) {
     ContactState state;
     state.touchCounter = touchCounter;
@@ -209,6 +218,7 @@ inline ContactState lifted(std::uint32_t touchCounter = 1) {
 }
 
 using haptoflow::testing::largestStep;
+using haptoflow::testing::levelDecibels;
 using haptoflow::testing::peak;
 
 /// A state for each update of a hand, the first at time 0.
@@ -231,6 +241,12 @@ struct SoundingModel {
 class DeviceTest : public ::testing::Test {
 protected:
     static std::optional<ContactState> slide(double) { return sliding(); }
+    static ContactState touch(std::uint32_t number, std::uint32_t label = 0) {
+        ContactState state = sliding();
+        state.touchCounter = number;
+        state.material.labels[0] = label;
+        return state;
+    }
     /// The output from a frame on.
     static std::span<const float> from(const SimulatedDevice& device, std::size_t frame) {
         return std::span<const float>(device.output).subspan(frame);

@@ -80,14 +80,13 @@ TEST(SamplesSincePublishedTest, TheOutputsDelayIsAddedAndNoMoreThanAQuarterOfASe
 PublishedContact contactAt(const std::array<float, 3>& placeMetres, const std::array<float, 2>& velocityMps) {
     PublishedContact contact;
     contact.touch = 1;
-    ContactState& state = contact.state;
-    state.touching = 1;
-    state.velocityMps = velocityMps;
-    state.hasPlace = 1;
-    state.surfaceSeed = 5;
-    state.placeMetres = placeMetres;
-    state.firstAxis = {0.0F, 0.0F, 1.0F};
-    state.secondAxis = {1.0F, 0.0F, 0.0F};
+    contact.state = {.touching = 1,
+                     .velocityMps = velocityMps,
+                     .hasPlace = 1,
+                     .surfaceSeed = 5,
+                     .placeMetres = placeMetres,
+                     .firstAxis = {0.0F, 0.0F, 1.0F},
+                     .secondAxis = {1.0F, 0.0F, 0.0F}};
     contact.ranged.motion = {velocityMps[0], velocityMps[1], 1.0F};
     return contact;
 }

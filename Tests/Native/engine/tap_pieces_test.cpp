@@ -53,15 +53,12 @@ TEST(TapPiecesTest, AllPairsOfTapsButTheNamedOnesDifferNoticeablyInFrequencyOrDe
 TEST(TapPiecesTest, AThickerAStifferAndASmallerPlateSoundHigher) {
     const TapPiece plate = pieceNamed("wood");
     const float before = tapOn(plate).modes[0].frequencyHz;
-    TapPiece thicker = plate;
-    thicker.thicknessMetres *= 1.5;
-    EXPECT_GT(tapOn(thicker).modes[0].frequencyHz, before);
-    TapPiece stiffer = plate;
-    stiffer.youngPa *= 1.5;
-    EXPECT_GT(tapOn(stiffer).modes[0].frequencyHz, before);
-    TapPiece smaller = plate;
-    smaller.sideMetres *= 0.8;
-    EXPECT_GT(tapOn(smaller).modes[0].frequencyHz, before);
+    for (const auto& [property, factor] :
+         {std::pair(&TapPiece::thicknessMetres, 1.5), {&TapPiece::youngPa, 1.5}, {&TapPiece::sideMetres, 0.8}}) {
+        TapPiece changed = plate;
+        changed.*property *= factor;
+        EXPECT_GT(tapOn(changed).modes[0].frequencyHz, before);
+    }
 }
 
 TEST(TapPiecesTest, AHeavyPlateOfFarLowerFrequencyThanItsContactRingsAtItsOwnMode) {
@@ -115,7 +112,6 @@ TEST(TapPiecesTest, ALabelHasThePieceOfItsNameElseOfItsCategoryAndStiffness) {
     EXPECT_EQ(tapPieceOf(label), nullptr);
 }
 
-}  // namespace
 TEST(TapPiecesTest, ACategoryOfThePublishedDataSetHasThePiecesOfItsMaterials) {
     const auto pieceOf = [](const char* category, double stiffness) {
         model::Label label;
@@ -132,8 +128,6 @@ TEST(TapPiecesTest, ACategoryOfThePublishedDataSetHasThePiecesOfItsMaterials) {
     EXPECT_EQ(pieceOf("composite", 3000.0), "sandpaper");
     EXPECT_EQ(pieceOf("composite", 800.0), "plastic");
 }
-
-namespace {
 
 model::Label labelOf(double stiffness) {
     model::Label label;

@@ -23,7 +23,7 @@ inline model::ModelFile smallModel() {
 inline model::ModelFile calmSkeletonModel() {
     auto builder = skeleton::testing::skeletonModel({.seed = 5, .strength = 0.3F});
     for (const std::string part : {"weight", "bias"}) {
-        auto& bytes = skeleton::testing::blobOf(builder, "skeleton.4." + part).bytes;
+        auto& bytes = blobOf(builder, "skeleton.4." + part).bytes;
         constexpr std::size_t impulseShare = 2 * skeleton::thresholdCount * skeleton::atomCount;
         std::ranges::fill(
             bytes.end() - static_cast<std::ptrdiff_t>(bytes.size() * impulseShare / skeleton::output::count),

@@ -1,9 +1,5 @@
-#include "engine/live_engine.hpp"
-#include "engine/offline_renderer.hpp"
-#include "engine/range_law.hpp"
 #include "model/material_builder.hpp"
 #include "simulated_device.hpp"
-#include "small_library.hpp"
 
 #include <gtest/gtest.h>
 
@@ -23,27 +19,15 @@ using testing::lifted;
 using testing::SimulatedDevice;
 using testing::sliding;
 
-/// A material with a tone of `gainDb` at every frequency: from 1 N on, or at every force.
-model::MaterialFile materialOf(const model::ModelFile& model, double gainDb, bool onlyFirm = false) {
+/// A material with a tone of `gainDb` at every frequency.
+model::MaterialFile materialOf(const model::ModelFile& model, double gainDb) {
     json text = model::testing::validMaterial(model::spaceOf(model.header()));
     text["tone"] = {{"speeds_mps", {0.1}}, {"frequencies_hz", {50.0, 500.0}}, {"gains_db", {{gainDb, gainDb}}}};
-    if (onlyFirm) {
-        text["tone"]["forces_newtons"] = {0.25, 1.0};
-        text["tone"]["gains_db"] = {{0.0, 0.0}, {gainDb, gainDb}};
-    }
     text["level"]["log_levels"] = {0.0, 0.0, 0.0};
     text["level"]["force_exponent"] = 0.0;
     text["level_exponents"] = {{"speed", 0.0}, {"force", 0.0}};
     text["level_offset_db"] = 0.0;
     return model::parseMaterial(text.dump());
-}
-
-double rms(std::span<const float> samples) {
-    double squares = 0.0;
-    for (const float sample : samples) {
-        squares += static_cast<double>(sample) * static_cast<double>(sample);
-    }
-    return std::sqrt(squares / static_cast<double>(samples.size()));
 }
 
 class ToneVoiceTest : public testing::DeviceTest {
@@ -53,11 +37,7 @@ protected:
             on.library.add(materialOf(model_, gainDb), [this]() -> inference::LevelEstimator& { return tone_; }));
     }
     static const EffectCounters& toneOf(const SimulatedDevice& on) { return of(on, EffectKind::tone); }
-    static ContactState on(std::uint32_t label) {
-        ContactState state = sliding();
-        state.material.labels[0] = label;
-        return state;
-    }
+    static ContactState on(std::uint32_t label) { return touch(1, label); }
 };
 
 TEST_F(ToneVoiceTest, WithoutAToneTheFilterDoesNotRun) {
@@ -81,7 +61,8 @@ TEST_F(ToneVoiceTest, ATiltChangesTheGainAtTheSoundingFrequency) {
     const double octaves = std::log2(testing::toneHz / 150.0);
     const std::span<const float> played(plain.waveform.samples);
     const std::span<const float> tilted(dark.waveform.samples);
-    EXPECT_NEAR(20.0 * std::log10(rms(tilted.last(1000)) / rms(played.last(1000))), 6.0 * octaves, 0.5);
+    EXPECT_NEAR(testing::levelDecibels(tilted.last(1000)) - testing::levelDecibels(played.last(1000)), 6.0 * octaves,
+                0.5);
 }
 
 TEST_F(ToneVoiceTest, AMaterialsToneAppliesFromTheSeedsFirstSampleAndNotToThePast) {
@@ -96,7 +77,7 @@ TEST_F(ToneVoiceTest, AMaterialsToneAppliesFromTheSeedsFirstSampleAndNotToThePas
     for (std::size_t i = 0; i < plain.waveform.samples.size(); ++i) {
         ASSERT_NEAR(toned.waveform.samples[i], gain * plain.waveform.samples[i], 1e-3F) << i;
     }
-    EXPECT_NEAR(rms(toned.output) / rms(plain.output), static_cast<double>(gain), 0.05);
+    EXPECT_NEAR(testing::levelDecibels(toned.output) - testing::levelDecibels(plain.output), 12.0, 0.1);
     const EffectCounters& tone = toneOf(toned);
     EXPECT_EQ(tone.prepared, 1U);
     EXPECT_GT(tone.runs, 100U);
@@ -109,17 +90,11 @@ TEST_F(ToneVoiceTest, ANewTouchDoesNotUseTheToneOfTheTouchBefore) {
     SimulatedDevice twice(model_, tone_);
     const std::uint32_t first = registered(once, 12.0);
     ASSERT_EQ(registered(twice, 12.0), first);
-    const auto touch = [first](std::uint32_t counter, std::uint32_t label) {
-        ContactState state = on(label);
-        state.material.labels[0] = label == 99 ? first : label;
-        state.touchCounter = counter;
-        return state;
-    };
-    once.run(0.05, [&](double) { return touch(1, 99); });
+    once.run(0.05, [&](double) { return touch(1, first); });
     twice.run(0.5, [&](double) { return touch(1, 0); });
     twice.run(0.3, [](double) { return lifted(1); });
     const std::size_t begin = twice.waveform.samples.size();
-    twice.run(0.05, [&](double) { return touch(2, 99); });
+    twice.run(0.05, [&](double) { return touch(2, first); });
     const std::span<const float> again = std::span<const float>(twice.waveform.samples).subspan(begin);
     // Only the samples before the first generated segment, whose start depends on the time of a block.
     constexpr std::size_t compared = 20;
@@ -127,40 +102,6 @@ TEST_F(ToneVoiceTest, ANewTouchDoesNotUseTheToneOfTheTouchBefore) {
     for (std::size_t i = 0; i < compared; ++i) {
         ASSERT_NEAR(again[i], once.waveform.samples[i], 1e-4F) << i;
     }
-}
-
-}  // namespace
-}  // namespace haptoflow::engine
-
-// The spatial scale of a surface: features that are larger by a factor are generated for a speed divided by it, at the
-// level of the actual speed.
-
-namespace haptoflow::engine {
-namespace {
-
-using testing::FakeGenerator;
-using testing::SimulatedDevice;
-using testing::sliding;
-
-TEST(SpatialScaleLawTest, TheNetworkUsesTheScaledSpeedAndTheLevelTheActualSpeed) {
-    const testing::SmallLibrary small;
-    const Material oak = resolveMaterial(small.ingredients({{0, 1.0F}}));
-    const model::ModelHeader& header = small.model.header();
-    const RangedMotion larger = applyRangeLaw(header, oak, {0.08F, -0.06F}, 1.0F, 2.0F);
-    EXPECT_FLOAT_EQ(larger.motion[0], 0.04F);
-    EXPECT_FLOAT_EQ(larger.motion[1], -0.03F);
-    EXPECT_FLOAT_EQ(larger.levelMotion[0], 0.08F);
-    EXPECT_FLOAT_EQ(larger.levelMotion[1], -0.06F);
-    EXPECT_EQ(larger.levelGain, 1.0);
-    EXPECT_EQ(larger.readingRate, 1.0);
-    // The small model's range ends at 0.4 m/s; beyond it the reading rate grows with the square root of the speed.
-    const RangedMotion smaller = applyRangeLaw(header, oak, {0.4F, 0.0F}, 1.0F, 0.25F);
-    EXPECT_FLOAT_EQ(smaller.motion[0], 0.4F);
-    EXPECT_NEAR(smaller.levelGain, 1.0, 1e-6) << "the actual speed is within the range";
-    EXPECT_NEAR(smaller.readingRate, 2.0, 1e-6);
-    const RangedMotion fast = applyRangeLaw(header, oak, {0.8F, 0.0F}, 1.0F, 2.0F);
-    EXPECT_NEAR(fast.readingRate, 1.0, 1e-6) << "half the speed is within the range";
-    EXPECT_NEAR(fast.levelGain, std::sqrt(2.0), 1e-6);
 }
 
 }  // namespace

@@ -173,9 +173,7 @@ TEST_F(VoiceEffectsTest, ALandingWithinATouchGivesAnImpactAndTheTextureContinues
 
 TEST_F(VoiceEffectsTest, AnImpactWhileSlidingAddsToTheTexture) {
     const auto play = [this](float approachSpeedMps) {
-        testing::DeviceSettings settings;
-        settings.fixedLeadSamples = 16;
-        SimulatedDevice device(model_, tone_, settings);
+        SimulatedDevice device(model_, tone_, {.fixedLeadSamples = 16});
         device.run(0.4, [approachSpeedMps](double seconds) {
             ContactState state = testing::sliding();
             state.effects = texture | impact;
@@ -360,18 +358,20 @@ TEST_F(ProcessorsTest, AVoiceForWhichNoneWasSetGetsNone) {
     EXPECT_EQ(of(device, EffectKind::compensation).prepared, 0U);
 }
 
-TEST_F(ProcessorsTest, MutePausePanicMissingStatesAndCeilingActAfterTheDelay) {
+TEST_F(ProcessorsTest, MutePausePanicMissingStatesCeilingAndAnEndedWorkerActAfterTheDelay) {
     struct Stop {
         const char* name;
         std::function<void(SimulatedDevice&)> begin;
         bool isPublished = true;
         double afterSeconds = 0.0;
+        bool isInferring = false;
     };
     const Stop stops[] = {
         {"mute", [](SimulatedDevice& device) { device.controls().muted = true; }},
         {"pause", [](SimulatedDevice& device) { device.controls().paused = true; }},
-        {"ceiling", [](SimulatedDevice& device) { device.controls().ceiling = 0.0F; }},
+        {"ceiling", [](SimulatedDevice& device) { device.controls().ceiling = 0.0F; }, true, 0.0, true},
         {"panic", [](SimulatedDevice& device) { device.voice().channels.panic(); }},
+        {"ended worker", [](SimulatedDevice& device) { device.workerAlive = false; }},
         {"missing states", [](SimulatedDevice&) {}, false, Staleness::minimumSeconds + 1.0 / 72.0},
     };
     for (const Stop& stop : stops) {
@@ -382,12 +382,14 @@ TEST_F(ProcessorsTest, MutePausePanicMissingStatesAndCeilingActAfterTheDelay) {
         ASSERT_GT(testing::peak(from(device, device.output.size() - 480)), 0.1F / 60.0F);
         stop.begin(device);
         const std::size_t begin = device.output.size();
-        device.run(1.0, [&](double) -> std::optional<ContactState> {
-            return stop.isPublished ? std::optional(testing::sliding()) : std::nullopt;
-        });
+        const auto hand = [&](double) { return stop.isPublished ? slide(0.0) : std::nullopt; };
+        device.run(0.5, hand);
+        const std::uint64_t inferences = device.counters().inferences;
+        device.run(0.5, hand);
         // The block in which it is noticed, and 5 ms.
         const auto until = static_cast<std::size_t>(stop.afterSeconds * 48000.0) + 256 + 240;
         EXPECT_EQ(testing::peak(from(device, begin + until)), 0.0F) << stop.name;
+        EXPECT_EQ(device.counters().inferences > inferences, stop.isInferring) << stop.name;
     }
 }
 

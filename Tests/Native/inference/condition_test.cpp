@@ -14,55 +14,16 @@
 #include <random>
 #include <vector>
 
-namespace haptoflow::skeleton {
+namespace haptoflow::skeleton::testing {
 namespace {
 
-TEST(MotionFeaturesTest, TheFeaturesOfASlantedStrokeAsWorkedOutByHand) {
-    // Speed .05 m/s: ln(.0505 / .06) and, at 1 N, ln(1.02).
-    const Motion motion{0.03F, -0.04F, 1.0F};
-    const double speed = std::log(0.0505 / 0.06);
-    const double force = std::log(1.02);
-    EXPECT_NEAR(logMotionOf(motion).speed, speed, 1e-6);
-    EXPECT_NEAR(logMotionOf(motion).force, force, 1e-6);
-    const double x = 0.03 / 0.052;
-    const double y = -0.04 / 0.052;
-    const std::array<double, smoothFeatures> smooth{0.5 * speed,
-                                                    0.5 * force,
-                                                    x,
-                                                    y,
-                                                    x * x - y * y,
-                                                    2.0 * x * y,
-                                                    std::sin(0.5 * speed),
-                                                    std::cos(0.5 * speed),
-                                                    std::sin(speed),
-                                                    std::cos(speed),
-                                                    0.05,
-                                                    0.2};
-    for (std::size_t i = 0; i < smooth.size(); ++i) {
-        EXPECT_NEAR(smoothFeaturesOf(motion).at(i), smooth.at(i), 1e-6) << i;
-    }
-    const auto fine = fineFeaturesOf(motion);
-    EXPECT_NEAR(fine[6], std::sin(0.5 * speed), 1e-6);
-    EXPECT_NEAR(fine[14], std::sin(8.0 * speed), 1e-6);
-    EXPECT_NEAR(fine[15], std::cos(8.0 * speed), 1e-6);
-    EXPECT_NEAR(fine[17], 0.2, 1e-6);
-}
+using ::testing::AllOf;
+using ::testing::HasSubstr;
 
 TEST(MotionFeaturesTest, RestAndANegativeForceAreFinite) {
     const auto logarithms = logMotionOf({0.0F, 0.0F, -3.0F});
     EXPECT_NEAR(logarithms.speed, std::log(0.0005 / 0.06), 1e-6);
     EXPECT_NEAR(logarithms.force, std::log(0.02), 1e-6);
-}
-
-TEST(ConditionTest, TheRatesEndItAsSizeAndDirectionAndTheTurnsDoNotMatter) {
-    const std::array<float, embeddingSize> embedding{};
-    const Motion motion{0.03F, -0.04F, 1.0F};
-    const Condition condition = conditionOf(embedding, motion, {0.1F, 0.2F, 0.3F, 60.0F, -20.0F, 0.0F});
-    const std::array<double, rateFeatures> expected{0.25 * std::log(61.0), 0.25 * std::log(21.0), 0.0, 0.75, -0.5, 0.0};
-    for (std::size_t i = 0; i < expected.size(); ++i) {
-        EXPECT_NEAR(condition.at(embeddingSize + fineFeatures + i), expected.at(i), 1e-6) << i;
-    }
-    EXPECT_EQ(condition, conditionOf(embedding, motion, {0.9F, 0.0F, 0.5F, 60.0F, -20.0F, 0.0F}));
 }
 
 TEST(ConditionTest, NumbersThatAreNotFiniteCountAsZero) {
@@ -109,23 +70,6 @@ TEST(LinearLayerTest, EveryNumberOfOutputsGivesTheProductOfMatrixAndVector) {
     }
 }
 
-TEST(PerceptronTest, ThreeLayersWithSiluBetweenThemAsWorkedOutByHand) {
-    const auto silu = [](double x) { return x / (1.0 + std::exp(-x)); };
-    const std::array<float, 2> first{1.0F, -2.0F};
-    const std::array<float, 1> firstBias{0.5F};
-    const std::array<float, 1> second{3.0F};
-    const std::array<float, 1> secondBias{-1.0F};
-    const std::array<float, 2> last{2.0F, -1.0F};
-    const std::array<float, 2> lastBias{0.25F, 0.0F};
-    const Perceptron perceptron({{first, firstBias}, {second, secondBias}}, {last, lastBias});
-    const std::array<float, 2> x{0.75F, 0.25F};
-    std::array<float, 2> y{};
-    perceptron.run(x, y);
-    const double hidden = silu(3.0 * silu(0.75) - 1.0);
-    EXPECT_NEAR(y[0], 2.0 * hidden + 0.25, 1e-6);
-    EXPECT_NEAR(y[1], -hidden, 1e-6);
-}
-
 TEST(PerceptronTest, HugeInputsStayFinite) {
     const std::array<float, 1> weight{1e6F};
     const std::array<float, 1> bias{0.0F};
@@ -136,15 +80,6 @@ TEST(PerceptronTest, HugeInputsStayFinite) {
         EXPECT_TRUE(std::isfinite(y[0])) << x;
     }
 }
-
-}  // namespace
-}  // namespace haptoflow::skeleton
-
-namespace haptoflow::skeleton::testing {
-namespace {
-
-using ::testing::AllOf;
-using ::testing::HasSubstr;
 
 /// The message with which reading the skeleton or the level is refused.
 std::string refusalOf(const model::testing::ModelBuilder& builder) {

@@ -81,13 +81,4 @@ inline model::ModelFile read(const model::testing::ModelBuilder& builder) {
     return model::ModelFile::parse(builder.build());
 }
 
-/// The blob of this name, to change.
-inline model::testing::BlobContent& blobOf(model::testing::ModelBuilder& builder, const std::string& name) {
-    const auto found = std::ranges::find(builder.blobs, name, &model::testing::BlobContent::name);
-    if (found == builder.blobs.end()) {
-        throw std::runtime_error("the builder has no blob " + name);
-    }
-    return *found;
-}
-
 }  // namespace haptoflow::skeleton::testing

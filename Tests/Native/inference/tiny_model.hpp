@@ -6,8 +6,9 @@
 #include "inference/segment_generator.hpp"
 #include "model/model_file.hpp"
 
+#include <onnxruntime_c_api.h>
+
 #include <algorithm>
-#include <array>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -18,6 +19,22 @@ namespace haptoflow::inference::testing {
 inline std::shared_ptr<const Runtime> testRuntime() {
     static const std::shared_ptr<const Runtime> runtime = Runtime::open(HAPTOFLOW_TEST_ONNXRUNTIME);
     return runtime;
+}
+
+/// Runs of graphs by the runtime below, probe runs included.
+inline int graphRuns = 0;
+
+/// The test's ONNX Runtime, which counts the runs of its graphs in `graphRuns`.
+inline std::shared_ptr<const Runtime> countingRuntime() {
+    static OrtApi api = testRuntime()->api();
+    api.RunWithBinding = [](OrtSession* session, const OrtRunOptions* options,
+                            const OrtIoBinding* binding) noexcept -> OrtStatus* {
+        ++graphRuns;
+        return testRuntime()->api().RunWithBinding(session, options, binding);
+    };
+    static const OrtApiBase base{[](std::uint32_t) noexcept -> const OrtApi* { return &api; },
+                                 []() noexcept -> const char* { return "1.22.0"; }};
+    return Runtime::fromApiBase(&base);
 }
 
 inline const model::ModelFile& tinyModel() {

@@ -236,21 +236,18 @@ Json measured(double spectralDistanceDb, double levelErrorDb) {
     return {{"lsd_db", spectralDistanceDb}, {"level_error_p90_db", levelErrorDb}, {"gfc_recording", 0.99}};
 }
 
+using Order = std::vector<std::size_t>;
+
 TEST(TierAccuracyTest, TheSmallestSumOfSpectralDistanceAndLevelErrorIsTheMostAccurate) {
-    using Order = std::vector<std::size_t>;
     EXPECT_EQ(orderOf({measured(3.0, 1.0), measured(2.0, 1.0), measured(1.0, 1.0)}), (Order{0, 1, 2}));
     EXPECT_EQ(orderOf({measured(1.26, 0.98), measured(1.195, 0.76), measured(1.1925, 1.01)}), (Order{0, 2, 1}))
         << "a negligibly better spectrum does not outweigh the level";
     EXPECT_EQ(orderOf({measured(1.0, 0.5), measured(1.0, 1.0), measured(2.0, 1.0)}), (Order{2, 1, 0}));
-}
-
-TEST(TierAccuracyTest, EquallyAccurateTiersKeepTheFilesOrder) {
-    using Order = std::vector<std::size_t>;
-    EXPECT_EQ(orderOf({measured(1.0, 1.0), measured(1.0, 1.0), measured(3.0, 1.0)}), (Order{2, 0, 1}));
+    EXPECT_EQ(orderOf({measured(1.0, 1.0), measured(1.0, 1.0), measured(3.0, 1.0)}), (Order{2, 0, 1}))
+        << "equally accurate tiers keep the file's order";
 }
 
 TEST(TierAccuracyTest, AllTiersKeepTheFilesOrderIfOneWasNotMeasured) {
-    using Order = std::vector<std::size_t>;
     const Json best = measured(1.0, 1.0);
     for (const Json& unknown :
          {Json::object(), Json{{"lsd_db", 2.0}}, Json{{"lsd_db", 2.0}, {"level_error_p90_db", "1"}},
@@ -261,7 +258,6 @@ TEST(TierAccuracyTest, AllTiersKeepTheFilesOrderIfOneWasNotMeasured) {
 
 // The keys of models whose tiers use a skeleton.
 
-using Json = nlohmann::json;
 using skeleton::testing::refinedModel;
 
 void expectSkeletonRefusal(const std::function<void(ModelBuilder&)>& change, const std::string& part) {
@@ -384,9 +380,6 @@ TEST(LabelTest, StickSlipAndTheWanderOfRibsAreReadAndMissingOnesAreEmpty) {
 }
 
 TEST(LabelTest, StickSlipAndTheWanderOfRibsOutOfRangeAreRefused) {
-    const auto expectLabelRefusal = [](const char* key, const Json& value, const std::string& part) {
-        expectHeaderRefusal([&](Json& header) { header["labels"][0][key] = value; }, part);
-    };
     const Json slip{{"length_metres", 0.0011}, {"wander", 0.25}, {"wander_metres", 0.004}};
     for (const char* key : {"length_metres", "wander", "wander_metres"}) {
         Json changed = slip;

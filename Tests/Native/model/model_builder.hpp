@@ -7,14 +7,12 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <span>
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace haptoflow::model::testing {
@@ -202,5 +200,14 @@ private:
                 {"level", "onnx", {}, Bytes(37, std::byte{0x33})}};
     }
 };
+
+/// The blob of this name, to change.
+inline BlobContent& blobOf(ModelBuilder& builder, const std::string& name) {
+    const auto found = std::ranges::find(builder.blobs, name, &BlobContent::name);
+    if (found == builder.blobs.end()) {
+        throw std::runtime_error("the builder has no blob " + name);
+    }
+    return *found;
+}
 
 }  // namespace haptoflow::model::testing

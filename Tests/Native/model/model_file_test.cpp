@@ -1,40 +1,14 @@
 #include "model/model_file.hpp"
 
+#include "model/file_layout.hpp"
 #include "refusal.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 
 namespace haptoflow::model::testing {
 namespace {
-
-class TemporaryFile {
-public:
-    explicit TemporaryFile(const std::string& name)
-        : path_(std::filesystem::temp_directory_path() / ("haptoflow_" + name + '_' + uniqueSuffix())) {}
-    TemporaryFile(const TemporaryFile&) = delete;
-    TemporaryFile& operator=(const TemporaryFile&) = delete;
-    ~TemporaryFile() {
-        std::error_code ignored;
-        std::filesystem::remove(path_, ignored);
-    }
-
-    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-    void write(const Bytes& bytes) const {
-        std::ofstream stream(path_, std::ios::binary);
-        stream.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    }
-
-private:
-    static std::string uniqueSuffix() {
-        return std::to_string(
-                   reinterpret_cast<std::uintptr_t>(::testing::UnitTest::GetInstance()->current_test_info())) +
-               std::to_string(std::filesystem::file_time_type::clock::now().time_since_epoch().count());
-    }
-
-    std::filesystem::path path_;
-};
 
 TEST(ModelFileTest, EveryValueOfAValidModelIsRead) {
     const ModelFile model = ModelFile::parse(ModelBuilder().build());
@@ -109,16 +83,12 @@ TEST(ModelFileTest, SeedsAreReturnedRowByRow) {
     EXPECT_THROW((void)model.seed(3), std::out_of_range);
 }
 
-TEST(ModelFileTest, BlobsAreFoundByName) {
+TEST(ModelFileTest, BlobsAndTiersAreFoundByName) {
     const ModelFile model = ModelFile::parse(ModelBuilder().build());
     EXPECT_EQ(model.blob("field").size(), 100U);
     EXPECT_EQ(model.blob("field")[99], std::byte{0x5A});
     EXPECT_EQ(model.blob("level").size(), 37U);
     EXPECT_THROW((void)model.blob("nothing"), std::out_of_range);
-}
-
-TEST(ModelFileTest, TiersAreFoundByName) {
-    const ModelFile model = ModelFile::parse(ModelBuilder().build());
     ASSERT_NE(model.findTier("draft"), nullptr);
     EXPECT_EQ(model.findTier("draft")->steps, 1);
     EXPECT_EQ(model.findTier("fine"), nullptr);
@@ -139,63 +109,42 @@ TEST(ModelFileTest, TheHeaderTextHasNoPadding) {
     EXPECT_EQ(nlohmann::json::parse(model.headerText())["name"], "test model");
 }
 
-TEST(ModelFileTest, AFileIsReadFromDisk) {
-    const TemporaryFile file("valid.haptoflow");
-    const Bytes bytes = ModelBuilder().build();
-    file.write(bytes);
-    const ModelFile model = ModelFile::read(file.path());
-    EXPECT_EQ(model.byteCount(), bytes.size());
-    EXPECT_EQ(model.checksum(), crc32(bytes));
+/// The path of a file of these bytes, made longer by a hole if `bytes` is above their number.
+std::filesystem::path written(const Bytes& content, std::uintmax_t bytes = 0) {
+    const std::filesystem::path path =
+        ::testing::TempDir() + "haptoflow_" + std::to_string(::testing::UnitTest::GetInstance()->start_timestamp());
+    std::ofstream(path, std::ios::binary)
+        .write(reinterpret_cast<const char*>(content.data()), static_cast<std::streamsize>(content.size()));
+    std::filesystem::resize_file(path, std::max<std::uintmax_t>(bytes, content.size()));
+    return path;
 }
 
-TEST(ModelFileTest, TheErrorForAMissingFileNamesItsPath) {
-    const TemporaryFile file("missing.haptoflow");
-    try {
-        (void)ModelFile::read(file.path());
-        FAIL() << "a missing file was read";
-    } catch (const ModelError& error) {
-        EXPECT_EQ(error.status(), ModelStatus::unreadable);
-        EXPECT_THAT(error.what(), ::testing::StartsWith(file.path().string()));
-    }
-}
-
-TEST(ModelFileTest, TheErrorForADamagedFileNamesItsPathAndKeepsItsStatus) {
-    const TemporaryFile file("damaged.haptoflow");
-    Bytes bytes = ModelBuilder().build();
-    bytes[50] ^= std::byte{2};
-    file.write(bytes);
-    try {
-        (void)ModelFile::read(file.path());
-        FAIL() << "a damaged file was read";
-    } catch (const ModelError& error) {
-        EXPECT_EQ(error.status(), ModelStatus::damaged);
-        EXPECT_THAT(error.what(), ::testing::StartsWith(file.path().string()));
-    }
-}
-
-TEST(ModelFileTest, AFolderIsRefused) {
-    try {
-        (void)ModelFile::read(std::filesystem::temp_directory_path());
-        FAIL() << "a folder was read";
-    } catch (const ModelError& error) {
-        EXPECT_EQ(error.status(), ModelStatus::unreadable);
-    }
-}
-
-TEST(ModelFileTest, AFileAboveTheLimitIsRefusedWithoutReadingIt) {
-    const TemporaryFile file("huge.haptoflow");
-    file.write({});
-    std::filesystem::resize_file(file.path(), 268'435'457);
-    try {
-        (void)ModelFile::read(file.path());
-        FAIL() << "a huge file was read";
-    } catch (const ModelError& error) {
-        EXPECT_EQ(error.status(), ModelStatus::oversized);
-    }
+TEST(ModelFileTest, TheErrorForAFileThatCannotBeReadNamesItsPathAndKeepsItsStatus) {
+    const auto refuse = [](const std::filesystem::path& path, ModelStatus status) {
+        try {
+            (void)ModelFile::read(path);
+            ADD_FAILURE() << path << " was read";
+        } catch (const ModelError& error) {
+            EXPECT_EQ(error.status(), status) << path;
+            EXPECT_THAT(error.what(), ::testing::StartsWith(path.string()));
+        }
+    };
+    refuse("/no/such/model.haptoflow", ModelStatus::unreadable);
+    refuse(::testing::TempDir(), ModelStatus::unreadable);
+    Bytes damaged = ModelBuilder().build();
+    damaged[50] ^= std::byte{2};
+    refuse(written(damaged), ModelStatus::damaged);
+    const std::filesystem::path huge = written({}, 268'435'457);
+    refuse(huge, ModelStatus::oversized);
+    std::filesystem::remove(huge);
 }
 
 TEST(ModelFileTest, AFileWrittenByPythonIsRead) {
-    const ModelFile model = ModelFile::read(HAPTOFLOW_TEST_GOLDEN_DIR "/model/tiny.haptoflow");
+    const std::filesystem::path path = HAPTOFLOW_TEST_GOLDEN_DIR "/model/tiny.haptoflow";
+    const ModelFile model = ModelFile::read(path);
+    const Bytes bytes = readFile(path, maximumFileBytes);
+    EXPECT_EQ(model.byteCount(), bytes.size());
+    EXPECT_EQ(model.checksum(), crc32(bytes));
     EXPECT_EQ(model.header().name, "tiny");
     ASSERT_EQ(model.header().labels.size(), 2U);
     EXPECT_EQ(model.header().labels[1].name, "ruled");

@@ -31,12 +31,13 @@ public:
     WebGraphSession& operator=(const WebGraphSession&) = delete;
     ~WebGraphSession() override { hapto_ort_release(handle_); }
 
-private:
-    void execute() override {
+    void run() override {
         if (hapto_ort_run(handle_, tensors_.data(), static_cast<int>(tensors_.size())) != 0) {
             throw InferenceError(name_ + ": " + lastError());
         }
     }
+
+private:
     void bind(std::size_t batch) override;
     void matchSignature();
     void probe(const LoadLimits& limits);
@@ -85,7 +86,7 @@ void WebGraphSession::probe(const LoadLimits& limits) {
     limits.check();
     setBatch(maximumBatch_);
     const auto began = std::chrono::steady_clock::now();
-    execute();
+    run();
     const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - began;
     const std::size_t parts = (maximumBatch_ + probeBatch - 1) / probeBatch;
     const double limitMs = limits.probeLimitMs * static_cast<double>(parts);

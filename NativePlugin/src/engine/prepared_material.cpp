@@ -1,9 +1,11 @@
-#include "engine/onset_levels.hpp"
+#include "engine/prepared_material.hpp"
+
+#include "skeleton/gaussian_noise.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
-#include <unordered_map>
 
 namespace haptoflow::engine {
 namespace {
@@ -26,6 +28,34 @@ Between between(double place, std::size_t points) noexcept {
 Between betweenAround(double place, std::size_t points) noexcept {
     const auto lower = static_cast<std::size_t>(place) % points;
     return {lower, (lower + 1) % points, place - std::floor(place)};
+}
+
+// Keeps the logarithm finite.
+constexpr float minimumMps2 = 1e-9F;
+using inference::levelBatch;
+constexpr std::array<float, inference::segmentSamples> silence{};
+
+constexpr float largestDeviation = 2.5F;
+// Of a standard normal number that is limited to that. With the density p and the distribution P, its variance is
+// 2 P(2.5) - 1 - 5 p(2.5) + 2 * 2.5^2 (1 - P(2.5)).
+constexpr double limitedDeviation = 0.988716;
+// Voices are numbered from 0.
+constexpr std::uint32_t noVoice = std::numeric_limits<std::uint32_t>::max();
+
+// Added to speed and force before taking logarithms, because smaller differences cannot be felt.
+constexpr double restMps = 0.002;
+constexpr double restNewtons = 0.05;
+constexpr double forceShare = 0.5;
+constexpr double directionShare = 0.1;
+
+double distance(const Seed& seed, const std::array<float, 3>& motion) {
+    const double speed = std::hypot(motion[0], motion[1]);
+    const double seedSpeed = std::hypot(seed.velocityMps[0], seed.velocityMps[1]);
+    const double speedGap = std::log((speed + restMps) / (seedSpeed + restMps));
+    const double forceGap = std::log((motion[2] + restNewtons) / (seed.forceNewtons + restNewtons));
+    const double along =
+        (seed.velocityMps[0] * motion[0] + seed.velocityMps[1] * motion[1]) / (speed * seedSpeed + restMps * restMps);
+    return speedGap * speedGap + forceShare * forceGap * forceGap + directionShare * (1.0 - along * along);
 }
 
 }  // namespace
@@ -73,15 +103,6 @@ double LevelGrid::at(Table table, const std::array<float, 3>& motion) const noex
     return std::lerp(overDirection(speed.lower), overDirection(speed.upper), speed.share);
 }
 
-namespace {
-
-// Keeps the logarithm finite.
-constexpr float minimumMps2 = 1e-9F;
-using inference::levelBatch;
-constexpr std::array<float, inference::segmentSamples> silence{};
-
-}  // namespace
-
 std::vector<float> tabulateLevels(const LevelGrid& grid,
                                   std::span<const std::span<const float, model::embeddingSize>> embeddings,
                                   inference::LevelEstimator& estimator, const inference::LoadLimits& limits) {
@@ -107,24 +128,56 @@ std::vector<float> tabulateLevels(const LevelGrid& grid,
     return logLevels;
 }
 
-OnsetLevels::OnsetLevels(const model::ModelFile& model, inference::LevelEstimator& estimator,
-                         const inference::LoadLimits& limits)
-    : grid_(model.header()) {
-    std::vector<std::span<const float, model::embeddingSize>> embeddings;
-    std::unordered_map<std::size_t, std::size_t> tableOfRow;
-    const auto& labels = model.header().labels;
-    for (std::size_t label = 0; label < labels.size(); ++label) {
-        const auto [known, isNew] = tableOfRow.emplace(labels[label].embeddingRow, embeddings.size());
-        if (isNew) {
-            embeddings.push_back(model.embedding(label));
+const Seed* retrieveSeed(std::span<const Seed> seeds, const std::array<float, 3>& motion) noexcept {
+    double nearest = std::numeric_limits<double>::infinity();
+    const Seed* chosen = nullptr;
+    for (const Seed& seed : seeds) {
+        const double gap = distance(seed, motion);
+        if (gap < nearest) {
+            nearest = gap;
+            chosen = &seed;
         }
-        tables_.push_back(known->second * LevelGrid::points);
     }
-    logLevels_ = tabulateLevels(grid_, embeddings, estimator, limits);
+    return chosen;
 }
 
-LevelGrid::Table OnsetLevels::table(std::size_t label) const noexcept {
-    return std::span(logLevels_).subspan(tables_[label]).first<LevelGrid::points>();
+double PreparedMaterial::logLevel(const std::array<float, 3>& motion) const noexcept {
+    const double offset = label->levelOffsetDb * dsp::nepersPerDecibel;
+    if (!label->level) {
+        return grid->at(*graphLevels, motion) + offset;
+    }
+    const double own = label->level->logLevel(std::hypot(motion[0], motion[1]), motion[2], label->speedLevelExponent);
+    return std::clamp(own + offset, -inference::maximumLogLevel, inference::maximumLogLevel);
+}
+
+double PreparedMaterial::forceExponent() const noexcept {
+    return label->level ? label->level->forceExponent : label->forceLevelExponent;
+}
+
+std::array<float, model::embeddingSize> embeddingOf(const PreparedMaterial& material, ObjectIdentity object) noexcept {
+    std::array<float, model::embeddingSize> embedding{};
+    std::ranges::copy(material.embedding, embedding.begin());
+    const std::size_t pieces = std::min(material.pieceOffsets.size() / model::textureSize, model::maximumPieces);
+    if (object.variation == 0.0F || pieces < 2) {
+        return embedding;
+    }
+    std::array<float, model::maximumPieces> numbers{};
+    const auto drawn = std::span(numbers).first(pieces);
+    skeleton::fillStandardNormal({.seed = object.surfaceSeed, .voice = noVoice}, drawn);
+    std::array<double, model::textureSize> offset{};
+    for (std::size_t piece = 0; piece < pieces; ++piece) {
+        const auto number = static_cast<double>(std::clamp(drawn[piece], -largestDeviation, largestDeviation));
+        const auto own = material.pieceOffsets.subspan(piece * model::textureSize).first<model::textureSize>();
+        for (std::size_t j = 0; j < offset.size(); ++j) {
+            offset[j] += number * static_cast<double>(own[j]);
+        }
+    }
+    const double scale =
+        static_cast<double>(object.variation) / (limitedDeviation * std::sqrt(static_cast<double>(pieces - 1)));
+    for (std::size_t j = 0; j < offset.size(); ++j) {
+        embedding[j] = static_cast<float>(static_cast<double>(embedding[j]) + scale * offset[j]);
+    }
+    return embedding;
 }
 
 }  // namespace haptoflow::engine

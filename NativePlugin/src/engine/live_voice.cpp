@@ -1,6 +1,5 @@
-#include "engine/inference_round.hpp"
+#include "engine/live_voice.hpp"
 
-#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <exception>
