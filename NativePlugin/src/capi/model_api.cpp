@@ -230,13 +230,15 @@ haptoflow_status haptoflow_generator_create(const haptoflow_generator_options* o
         const auto runtime = runtimeOf(given.runtime);
         const auto open = models().get(given.model);
         const model::Tier& tier = tierNamed(open->model, given.tier);
-        const auto tierSolver = inference::defaultSolver(tier);
         const uint32_t batch = given.maximum_batch != 0 ? given.maximum_batch : defaultBatch;
-        auto loaded = inference::makeGenerator(runtime, open->model, tier, tierSolver, batch,
-                                               loadLimits(given.cancellation, given.probe_limit_ms), open->native);
+        auto opened = std::make_shared<OpenGenerator>();
+        opened->tierSolver = inference::defaultSolver(tier);
+        opened->generator =
+            inference::makeGenerator(runtime, open->model, tier, opened->tierSolver, batch,
+                                     loadLimits(given.cancellation, given.probe_limit_ms), open->native);
         const bool isLatent = tier.representation == model::TierRepresentation::latent;
-        *generator = generators().open(std::shared_ptr<OpenGenerator>(
-            new OpenGenerator{{}, tierSolver, std::move(loaded), isLatent ? inference::pointSize(tier) : 0}));
+        opened->latentSize = isLatent ? inference::pointSize(tier) : 0;
+        *generator = generators().open(std::move(opened));
     });
 }
 
