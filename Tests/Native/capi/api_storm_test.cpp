@@ -478,6 +478,7 @@ protected:
             storms.emplace_back(handles, modelBytes, static_cast<std::uint32_t>(i + 1));
         }
         std::vector<std::thread> threads;
+        threads.reserve(storms.size());
         for (Storm& each : storms) {
             threads.emplace_back([&each, calls] { each.run(calls); });
         }
