@@ -78,10 +78,10 @@ std::vector<float> slowLoop(std::span<const float> loop) {
 
 /// What a voice coil plays of a loop: by the loudness law, +-1.
 std::vector<float> onDevice(std::span<const float> loop) {
-    effects::DeviceWave device(rateHz);
+    effects::EnvelopeGain device = effects::deviceWave(rateHz);
     std::vector<float> rounds = repeated(loop, 3);
     device.process(rounds);
-    const auto delay = static_cast<std::ptrdiff_t>(effects::DeviceWave::latencySeconds * rateHz);
+    const auto delay = static_cast<std::ptrdiff_t>(effects::EnvelopeGain::latencySeconds * rateHz);
     const auto first = rounds.begin() + static_cast<std::ptrdiff_t>(loop.size()) + delay;
     return {first, first + static_cast<std::ptrdiff_t>(loop.size())};
 }

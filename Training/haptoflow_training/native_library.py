@@ -50,8 +50,6 @@ class _RuntimeOptions(ctypes.Structure):
         ("struct_size", ctypes.c_uint32),
         ("ort_api_base", ctypes.c_void_p),
         ("library_path", ctypes.c_char_p),
-        ("log", ctypes.c_void_p),
-        ("log_context", ctypes.c_void_p),
     ]
 
 

@@ -4,14 +4,14 @@
  * Conventions
  *
  * - Every function that can fail returns a haptoflow_status. Any of them may return HAPTOFLOW_INVALID_ARGUMENT; its
- *   comment names the other errors. After a status other than HAPTOFLOW_OK,
- *   haptoflow_last_message() describes the error, on the thread that made the call. A call that fails leaves its
- *   outputs unchanged, unless its comment says otherwise.
+ *   comment names the other errors. After a status other than HAPTOFLOW_OK, haptoflow_last_message() describes the
+ *   error, on the thread that made the call. A call that fails leaves its outputs unchanged, unless its comment says
+ *   otherwise.
  * - Every descriptor begins with struct_size, which the caller sets to sizeof the struct before each call; any other
  *   size is refused.
  * - Before 1.0 no two versions are compatible. A caller that could meet a library of another version than this header
  *   compares haptoflow_version() with HAPTOFLOW_VERSION_TEXT; one that declares the structs itself, in another
- * language, also compares its sizes with haptoflow_struct_size.
+ *   language, also compares its sizes with haptoflow_struct_size.
  * - Handles are opaque and never reused. A call with a closed handle, or with anything else that is not an open handle
  *   of that kind, returns HAPTOFLOW_INVALID_ARGUMENT. An open handle keeps alive the objects that it was created from.
  * - Text is UTF-8 and ends with a zero byte. Text that the library returns belongs to the library.
@@ -20,16 +20,17 @@
  *
  * Thread tags, one on every function
  *
- * [any-thread]     May be called from any thread, at any time, also concurrently with other calls. With a handle it
- * blocks while another thread opens or closes one. [loader-thread]  May be called from any thread that can wait: it
- * reads files, allocates memory, or builds networks. Never call it from an audio callback; call it from a main thread
- * only while the application loads. [worker-thread]  May be called from any thread that can wait for a network: it
- * allocates inside ONNX Runtime and takes up to milliseconds. Never call it from an audio callback. Calls on one
- * generator wait for each other. [publisher]      May be called from any thread that is not an audio callback; takes
- * microseconds and never waits for other threads. Two threads must not publish on one voice at the same time: the
- * second call is refused. [audio-callback] For the audio callback: takes microseconds, never allocates, locks, logs or
- * makes a system call. May be called from any thread. Two threads must not render one voice at the same time: the
- * second call is refused and gets silence.
+ * - [any-thread]: any thread, at any time, also concurrently with other calls. With a handle it blocks while another
+ *   thread opens or closes one.
+ * - [loader-thread]: any thread that can wait, because it reads files, allocates memory, or builds networks. Never call
+ *   it from an audio callback; call it from a main thread only while the application loads.
+ * - [worker-thread]: any thread that can wait for a network: it allocates inside ONNX Runtime and takes up to
+ *   milliseconds. Never call it from an audio callback. Calls on one generator wait for each other.
+ * - [publisher]: any thread that is not an audio callback; takes microseconds and never waits for other threads. Two
+ *   threads must not publish on one voice at the same time: the second call is refused.
+ * - [audio-callback]: for the audio callback, but allowed on any thread: takes microseconds, never allocates, locks,
+ *   logs or makes a system call. Two threads must not render one voice at the same time: the second call is refused and
+ *   gets silence.
  */
 #ifndef HAPTOFLOW_H
 #define HAPTOFLOW_H
@@ -158,13 +159,6 @@ HAPTOFLOW_API const char* haptoflow_last_message(void);
 
 typedef struct haptoflow_runtime haptoflow_runtime;
 
-/* The severity of a message; the numbers are ONNX Runtime's. */
-enum { HAPTOFLOW_LOG_WARNING = 2, HAPTOFLOW_LOG_ERROR = 3, HAPTOFLOW_LOG_FATAL = 4 };
-
-/* Receives a warning or an error. message is valid during the call only. Called from loading threads and from workers,
- * possibly several at the same time, never from an audio callback. It must not call this library. */
-typedef void (*haptoflow_log_callback)(void* context, int32_t severity, const char* message);
-
 /* Exactly one of ort_api_base and library_path must be set. */
 typedef struct haptoflow_runtime_options {
     uint32_t struct_size;
@@ -173,12 +167,6 @@ typedef struct haptoflow_runtime_options {
     const void* ort_api_base;
     /* Or the path of an ONNX Runtime library, which then stays loaded until the process ends. */
     const char* library_path;
-    /* Receives ONNX Runtime's messages about the graphs that this runtime loads and runs; null for the standard error
-     * stream. It is not called after haptoflow_runtime_close has returned. ONNX Runtime 1.16 has a single log for the
-     * process: that of its first user. */
-    haptoflow_log_callback log;
-    /* Passed to log. */
-    void* log_context;
 } haptoflow_runtime_options;
 
 /* Makes ONNX Runtime available; one runtime is enough for a process. Close it with haptoflow_runtime_close. Errors:
@@ -187,8 +175,7 @@ HAPTOFLOW_API haptoflow_status haptoflow_runtime_open(const haptoflow_runtime_op
                                                       haptoflow_runtime** runtime);
 
 /* Closes *runtime and sets it to null; a null handle is allowed. Generators and engines created with it stay usable.
- * Its log callback is not called after this call has returned. [loader-thread] Blocks while ONNX Runtime frees its
- * memory and until a running call of the log returns. */
+ * [loader-thread] Blocks while ONNX Runtime frees its memory. */
 HAPTOFLOW_API haptoflow_status haptoflow_runtime_close(haptoflow_runtime** runtime);
 
 /* ------------------------------------------------------------------------------------------------- cancellations */
@@ -249,11 +236,6 @@ typedef struct haptoflow_label_info {
     double friction_coefficient;
     /* 0 unless the label is periodic. */
     double wavelength_metres;
-    /* How level and waveform rate continue beyond the trained range: exponents of the level over speed and over force,
-     * and of the waveform's rate over speed. */
-    double speed_level_exponent;
-    double force_level_exponent;
-    double frequency_exponent;
 } haptoflow_label_info;
 
 typedef struct haptoflow_tier_info {
@@ -556,8 +538,8 @@ HAPTOFLOW_API haptoflow_status haptoflow_engine_replace_material(haptoflow_engin
 /* Returns the number of registered materials, without the model's labels. [any-thread] */
 HAPTOFLOW_API haptoflow_status haptoflow_engine_material_count(const haptoflow_engine* engine, uint32_t* count);
 
-/* Fills info for the registered material at index, the one that contact states use. [any-thread] Blocks while
- * another thread opens or closes a handle, or registers a material. */
+/* Fills info for the registered material at index, the one that contact states use. [any-thread] Blocks while another
+ * thread registers a material. */
 HAPTOFLOW_API haptoflow_status haptoflow_engine_material(const haptoflow_engine* engine, uint32_t index,
                                                          haptoflow_label_info* info);
 
@@ -565,20 +547,18 @@ HAPTOFLOW_API haptoflow_status haptoflow_engine_material(const haptoflow_engine*
  * [worker-thread] */
 HAPTOFLOW_API haptoflow_status haptoflow_engine_step(haptoflow_engine* engine);
 
-/* Fills the engine's statistics. [any-thread] Blocks while another thread opens or closes a handle, never for
- * inference. */
+/* Fills the engine's statistics. [any-thread] Never blocks for inference. */
 HAPTOFLOW_API haptoflow_status haptoflow_engine_get_statistics(const haptoflow_engine* engine,
                                                                haptoflow_engine_statistics* statistics);
 
-/* Fills times for the tier at index, in the model's order. [any-thread] Blocks while another thread opens or closes
- * a handle, never for inference. */
+/* Fills times for the tier at index, in the model's order. [any-thread] Never blocks for inference. */
 HAPTOFLOW_API haptoflow_status haptoflow_engine_tier_times(const haptoflow_engine* engine, uint32_t index,
                                                            haptoflow_tier_times* times);
 
 /* Writes the message of the newest failure, of a round of inference or of the worker itself, into text: at most
  * capacity bytes including the final zero byte; "" if nothing has failed. *length receives the length of the whole
- * message without that byte. text may be null if capacity is 0. Errors: OUT_OF_MEMORY. [any-thread] Blocks while
- * another thread opens or closes a handle, or while the worker records a failure. */
+ * message without that byte. text may be null if capacity is 0. Errors: OUT_OF_MEMORY. [any-thread] Blocks while the
+ * worker records a failure. */
 HAPTOFLOW_API haptoflow_status haptoflow_engine_last_failure(const haptoflow_engine* engine, char* text,
                                                              uint64_t capacity, uint64_t* length);
 
@@ -648,14 +628,13 @@ HAPTOFLOW_API haptoflow_status haptoflow_relief_create(const haptoflow_relief_op
                                                        haptoflow_relief* relief);
 
 /* Destroys the relief and sets *relief to 0; 0 is allowed. A voice that plays it goes on until its next contact state.
- * Errors: INVALID_ARGUMENT. [any-thread] */
+ * [any-thread] */
 HAPTOFLOW_API haptoflow_status haptoflow_relief_destroy(haptoflow_relief* relief);
 
 /* Writes the heights in metres of a normal map, columns * rows, row by row, of which the lowest is 0. normals: three
  * numbers for each texel, of any length: along the columns, along the rows, out of the surface. size_metres: length of
  * the map along its columns and its rows. The heights are those whose slopes differ least from the normals' (Frankot
- * and Chellappa 1988); a map that is not tiled is mirrored at its rims for that. Errors: INVALID_ARGUMENT,
- * OUT_OF_MEMORY. [any-thread] */
+ * and Chellappa 1988); a map that is not tiled is mirrored at its rims for that. Errors: OUT_OF_MEMORY. [any-thread] */
 HAPTOFLOW_API haptoflow_status haptoflow_relief_heights_of_normals(const float* normals, uint32_t columns,
                                                                    uint32_t rows, const float* size_metres,
                                                                    uint32_t is_tiled, float* heights_metres);
@@ -995,8 +974,8 @@ typedef struct haptoflow_clip_info {
     const char* omitted;
 } haptoflow_clip_info;
 
-/* Makes the clip of a wave. Close it with haptoflow_clip_close. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. [any-thread]
- * Takes about 2 us per ms of wave. */
+/* Makes the clip of a wave. Close it with haptoflow_clip_close. Errors: OUT_OF_MEMORY. [any-thread] Takes about 2 us
+ * per ms of wave. */
 HAPTOFLOW_API haptoflow_status haptoflow_clip_create(const haptoflow_clip_options* options, haptoflow_clip** clip);
 
 /* Reads a clip file's text of length bytes; the format is recognised by its keys. Close the clip with
@@ -1031,8 +1010,8 @@ HAPTOFLOW_API haptoflow_status haptoflow_clip_wave(const haptoflow_clip* clip, d
  * 4. is_loop: 1 to play it until another one or null. A voice plays one clip at a time. Strength, delay, compensation,
  * exposure guard and limiter act on it as on the other effects; mute, pause, panic, missing states and a change of the
  * device's rate end it; while the voice is silent for one of these, or plays a signal, a clip is not played. Errors:
- * INVALID_ARGUMENT, OUT_OF_MEMORY, BUSY (another thread publishes on this voice now). [publisher] The first play of a
- * clip takes about 1 us per ms of it. */
+ * OUT_OF_MEMORY, BUSY (another thread publishes on this voice now). [publisher] The first play of a clip takes about 1
+ * us per ms of it. */
 HAPTOFLOW_API haptoflow_status haptoflow_voice_play_clip(haptoflow_voice voice, const haptoflow_clip* clip, float gain,
                                                          uint32_t is_loop);
 
@@ -1180,26 +1159,24 @@ typedef struct haptoflow_recording_info {
     const char* provenance;
 } haptoflow_recording_info;
 
-/* Reads a recording. Close *recording with haptoflow_recording_close. Errors: INVALID_ARGUMENT, RECORDING_UNUSABLE (the
- * message names the file, the line and column or the key, what was found and what is expected), OUT_OF_MEMORY.
- * [loader-thread] Blocks for the disk; allocates. */
+/* Reads a recording. Close *recording with haptoflow_recording_close. Errors: RECORDING_UNUSABLE (the message names the
+ * file, the line and column or the key, what was found and what is expected), OUT_OF_MEMORY. [loader-thread] Blocks for
+ * the disk; allocates. */
 HAPTOFLOW_API haptoflow_status haptoflow_recording_read(const haptoflow_recording_options* options,
                                                         haptoflow_recording** recording);
 
 /* Copies a recording from memory: the samples, the constants and the texts of *info; its tracks are not read. Close
- * *recording with haptoflow_recording_close. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. [any-thread] Blocks while another
- * thread opens or closes a handle; allocates. */
+ * *recording with haptoflow_recording_close. Errors: OUT_OF_MEMORY. [any-thread] Allocates. */
 HAPTOFLOW_API haptoflow_status haptoflow_recording_create(const haptoflow_recording_info* info,
                                                           haptoflow_recording** recording);
 
-/* Fills *info. Errors: INVALID_ARGUMENT. [any-thread] Blocks while another thread opens or closes a handle. */
+/* Fills *info. [any-thread] */
 HAPTOFLOW_API haptoflow_status haptoflow_recording_get_info(const haptoflow_recording* recording,
                                                             haptoflow_recording_info* info);
 
 /* Combines the beginning of a recording into one axis of 10 to 1000 Hz at 2000 Hz, as learning does before it removes
- * the noise. Writes wave_count samples in m/s^2, zeros beyond the end of the recording. Errors: INVALID_ARGUMENT,
- * OUT_OF_MEMORY. [any-thread] Blocks while another thread opens or closes a handle; allocates; takes about 10 ms per
- * second of wave. */
+ * the noise. Writes wave_count samples in m/s^2, zeros beyond the end of the recording. Errors: OUT_OF_MEMORY.
+ * [any-thread] Allocates; takes about 10 ms per second of wave. */
 HAPTOFLOW_API haptoflow_status haptoflow_recording_wave(const haptoflow_recording* recording, float* wave_mps2,
                                                         uint64_t wave_count);
 
@@ -1217,22 +1194,20 @@ enum {
 /* Removes the noise of the sensor from a wave of one axis at 2 kHz in m/s^2, in place, as learning does: its power is
  * subtracted at every time and frequency. The wave keeps every bit where no noise is found. A number that is not finite
  * separates two recordings of one sensor. velocity_mps: vx and vy for each sample; force_newtons: one for each. Sets
- * *source to where the noise was found, and *noise_mps2 to the RMS of what was removed. Errors: INVALID_ARGUMENT,
- * RECORDING_UNUSABLE (the wave is no stronger where the tip slides than where it rests, so it holds only noise),
- * OUT_OF_MEMORY.
- * [any-thread] Never blocks; allocates; takes about 0.5 ms per second of recording. */
+ * *source to where the noise was found, and *noise_mps2 to the RMS of what was removed. Errors: RECORDING_UNUSABLE (the
+ * wave is no stronger where the tip slides than where it rests, so it holds only noise), OUT_OF_MEMORY. [any-thread]
+ * Never blocks; allocates; takes about 0.5 ms per second of recording. */
 HAPTOFLOW_API haptoflow_status haptoflow_recording_remove_noise(float* vibration_mps2, const float* velocity_mps,
                                                                 const float* force_newtons, uint64_t sample_count,
                                                                 haptoflow_noise_source* source, double* noise_mps2);
 
 /* Resamples a waveform without delay: flat to 95 % of half of the lower rate, -66 dB 5 % above it. Both rates: 1000 to
- * 192000 Hz. Writes wave_count samples, zeros beyond the end. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY.
- * [any-thread] Never blocks; allocates; takes about 10 ms per second of waveform at 48 kHz. */
+ * 192000 Hz. Writes wave_count samples, zeros beyond the end. Errors: OUT_OF_MEMORY. [any-thread] Never blocks;
+ * allocates; takes about 10 ms per second of waveform at 48 kHz. */
 HAPTOFLOW_API haptoflow_status haptoflow_resample(const float* samples, uint64_t sample_count, double sample_rate_hz,
                                                   float* wave, uint64_t wave_count, double wave_rate_hz);
 
-/* Closes *recording and sets it to null; a null handle is allowed. Errors: INVALID_ARGUMENT.
- * [any-thread] Blocks while another thread opens or closes a handle. */
+/* Closes *recording and sets it to null; a null handle is allowed. [any-thread] */
 HAPTOFLOW_API haptoflow_status haptoflow_recording_close(haptoflow_recording** recording);
 
 /* ----------------------------------------------------------------------------------------------------- learning */
@@ -1283,9 +1258,9 @@ typedef struct haptoflow_learning_options {
 } haptoflow_learning_options;
 
 /* Learns a material and returns when it is done. Close *learning with haptoflow_learning_close. Errors:
- * INVALID_ARGUMENT, RECORDING_UNUSABLE (no speed or no force, too short, silent, nothing but noise, clipped, not
- * finite, no motion, or a speed, force or level that no hand reaches: the message says which), CANCELLED,
- * MODEL_INCONSISTENT, INFERENCE_FAILED, TIER_TOO_SLOW, OUT_OF_MEMORY. [loader-thread] Blocks for seconds; allocates. */
+ * RECORDING_UNUSABLE (no speed or no force, too short, silent, nothing but noise, clipped, not finite, no motion, or a
+ * speed, force or level that no hand reaches: the message says which), CANCELLED, MODEL_INCONSISTENT, INFERENCE_FAILED,
+ * TIER_TOO_SLOW, OUT_OF_MEMORY. [loader-thread] Blocks for seconds; allocates. */
 HAPTOFLOW_API haptoflow_status haptoflow_learn_material(const haptoflow_learning_options* options,
                                                         haptoflow_learning** learning);
 
@@ -1297,21 +1272,18 @@ HAPTOFLOW_API haptoflow_status haptoflow_learn_material(const haptoflow_learning
  * force_newtons, level_exponents, wave_vectors, turn_degrees (from the recording's first axis to the material's first
  * axis, which is perpendicular to its most distinct ribs), sensor_noise (mps2, and from: "rest", "quiet part" or
  * "none"; it was removed before), seeds (only of a model without a skeleton), segments, seconds, stopped_early,
- * record_next, warnings and more. Both are valid until the learning is closed. Errors: INVALID_ARGUMENT. [any-thread]
- * Blocks while another thread opens or closes a handle. */
+ * record_next, warnings and more. Both are valid until the learning is closed. [any-thread] */
 HAPTOFLOW_API haptoflow_status haptoflow_learning_results(const haptoflow_learning* learning, const char** material,
                                                           const char** report);
 
-/* Closes *learning and sets it to null; a null handle is allowed. Errors: INVALID_ARGUMENT.
- * [any-thread] Blocks while another thread opens or closes a handle. */
+/* Closes *learning and sets it to null; a null handle is allowed. [any-thread] */
 HAPTOFLOW_API haptoflow_status haptoflow_learning_close(haptoflow_learning** learning);
 
 /* Finds the wave vectors of ribs or threads in a wave of one axis at 2 kHz. Ribs are lines of the spectrum whose
  * frequency grows with the speed across them. vibration_mps2: sample_count numbers; a number that is not finite
  * separates two recordings. velocity_mps: vx and vy for each sample. Writes four numbers, k1x, k1y, k2x, k2y, to
  * wave_vectors, in cycles per millimetre along the axes of the velocity, the most distinct vector first, zeros for
- * none. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. [loader-thread] Computes for about a second per minute of recording;
- * allocates. */
+ * none. Errors: OUT_OF_MEMORY. [loader-thread] Computes for about a second per minute of recording; allocates. */
 HAPTOFLOW_API haptoflow_status haptoflow_find_wave_vectors(const float* vibration_mps2, const float* velocity_mps,
                                                            uint64_t sample_count, double* wave_vectors);
 

@@ -6,7 +6,6 @@
 #include "effects/wave_features.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstring>
 #include <memory>
@@ -62,20 +61,6 @@ auto withClipErrors(Action&& action) {
     }
 }
 
-std::string textOrEmpty(const char* text) {
-    return text == nullptr ? std::string() : std::string(text);
-}
-
-std::size_t factorOf(std::uint32_t sampleRateHz) {
-    constexpr auto featureHz = static_cast<std::uint32_t>(effects::WaveFeatures::sampleRateHz);
-    const std::uint32_t factor = sampleRateHz / featureHz;
-    if (factor == 0 || factor > effects::WaveDecimation::maximumFactor || sampleRateHz % featureHz != 0) {
-        throw std::invalid_argument("options: sample_rate_hz is " + std::to_string(sampleRateHz) +
-                                    "; expected a multiple of 2000 up to 192000, or 0 for 2000");
-    }
-    return factor;
-}
-
 /// Copies a result of `count` elements to a caller's array, unless the capacity is 0.
 template <typename Element>
 void copyOut(std::span<const Element> result, Element* target, std::uint64_t capacity, std::uint64_t* count,
@@ -99,15 +84,14 @@ haptoflow_status haptoflow_clip_create(const haptoflow_clip_options* options, ha
         (void)require(clip, "clip");
         const std::size_t count = countOf(given.sample_count, "sample_count");
         const std::span wave(count > 0 ? require(given.wave_mps2, "wave_mps2") : given.wave_mps2, count);
-        const std::vector<float> slow =
-            effects::decimated(wave, given.sample_rate_hz == 0 ? 1 : factorOf(given.sample_rate_hz));
+        const std::vector<float> slow = effects::decimated(wave, decimationOf(given.sample_rate_hz));
         *clip = openClips().open(withClipErrors([&] {
             return std::make_shared<OpenClip>(clips::ReadClip{
                 .clip = clips::clipOf(slow, {.isLoop = given.is_loop != 0,
-                                             .origin = {.title = textOrEmpty(given.title),
-                                                        .description = textOrEmpty(given.description),
+                                             .origin = {.title = textOf(given.title),
+                                                        .description = textOf(given.description),
                                                         .editor = std::string("HaptoFlow ") + haptoflow_version(),
-                                                        .source = textOrEmpty(given.source)}})});
+                                                        .source = textOf(given.source)}})});
         }));
     });
 }

@@ -80,6 +80,11 @@ void writeDescriptor(Descriptor* target, Descriptor content, const char* name) {
     *target = content;
 }
 
+/// A caller's text; empty for null.
+[[nodiscard]] inline std::string textOf(const char* text) {
+    return text != nullptr ? text : "";
+}
+
 /// A caller's path, which is UTF-8 on every platform.
 [[nodiscard]] inline std::filesystem::path utf8Path(const char* text) {
     return {std::u8string(text, text + std::strlen(text))};
@@ -184,63 +189,52 @@ struct OpenEngine {
 /// The info of a label for C callers; its texts are valid as long as the label.
 [[nodiscard]] haptoflow_label_info describe(const model::Label& label);
 
-using RuntimeTable = HandleTable<haptoflow_runtime, const inference::Runtime>;
-using CancellationTable = HandleTable<haptoflow_cancellation, inference::Cancellation>;
-using ModelTable = HandleTable<haptoflow_model, const OpenModel>;
-using GeneratorTable = HandleTable<haptoflow_generator, OpenGenerator>;
-using EngineTable = HandleTable<haptoflow_engine, OpenEngine>;
-struct OpenWaveFeatures;
-using WaveFeaturesTable = HandleTable<haptoflow_wave_features, OpenWaveFeatures>;
-struct OpenDeviceWave;
-using DeviceWaveTable = HandleTable<haptoflow_device_wave, OpenDeviceWave>;
-struct OpenRecording;
 struct OpenClip;
-using ClipTable = HandleTable<haptoflow_clip, OpenClip>;
-using RecordingTable = HandleTable<haptoflow_recording, const OpenRecording>;
+struct OpenDeviceWave;
 struct OpenLearning;
-using LearningTable = HandleTable<haptoflow_learning, const OpenLearning>;
-using MaterialTable = HandleTable<haptoflow_material, const model::MaterialFile>;
+struct OpenRecording;
+struct OpenWaveFeatures;
 
-/// The only table of its type. It is never destroyed, because ONNX Runtime may be unloaded before static objects are
-/// destroyed.
-template <typename Table>
-[[nodiscard]] Table& lastingTable(const char* name) {
-    static auto& table = *new Table(name);
+/// The only table of its kind of handle. It is never destroyed, because ONNX Runtime may be unloaded before static
+/// objects are destroyed.
+template <typename Handle, typename Object>
+[[nodiscard]] HandleTable<Handle, Object>& lastingTable(const char* kind) {
+    static auto& table = *new HandleTable<Handle, Object>(kind);
     return table;
 }
 
-[[nodiscard]] inline RuntimeTable& runtimes() {
-    return lastingTable<RuntimeTable>("runtime");
+[[nodiscard]] inline auto& runtimes() {
+    return lastingTable<haptoflow_runtime, const inference::Runtime>("runtime");
 }
-[[nodiscard]] inline CancellationTable& cancellations() {
-    return lastingTable<CancellationTable>("cancellation");
+[[nodiscard]] inline auto& cancellations() {
+    return lastingTable<haptoflow_cancellation, inference::Cancellation>("cancellation");
 }
-[[nodiscard]] inline ModelTable& models() {
-    return lastingTable<ModelTable>("model");
+[[nodiscard]] inline auto& models() {
+    return lastingTable<haptoflow_model, const OpenModel>("model");
 }
-[[nodiscard]] inline GeneratorTable& generators() {
-    return lastingTable<GeneratorTable>("generator");
+[[nodiscard]] inline auto& generators() {
+    return lastingTable<haptoflow_generator, OpenGenerator>("generator");
 }
-[[nodiscard]] inline EngineTable& engines() {
-    return lastingTable<EngineTable>("engine");
+[[nodiscard]] inline auto& engines() {
+    return lastingTable<haptoflow_engine, OpenEngine>("engine");
 }
-[[nodiscard]] inline WaveFeaturesTable& waveFeatures() {
-    return lastingTable<WaveFeaturesTable>("wave features");
+[[nodiscard]] inline auto& waveFeatures() {
+    return lastingTable<haptoflow_wave_features, OpenWaveFeatures>("wave features");
 }
-[[nodiscard]] inline DeviceWaveTable& deviceWaves() {
-    return lastingTable<DeviceWaveTable>("device wave");
+[[nodiscard]] inline auto& deviceWaves() {
+    return lastingTable<haptoflow_device_wave, OpenDeviceWave>("device wave");
 }
-[[nodiscard]] inline ClipTable& openClips() {
-    return lastingTable<ClipTable>("clip");
+[[nodiscard]] inline auto& openClips() {
+    return lastingTable<haptoflow_clip, OpenClip>("clip");
 }
-[[nodiscard]] inline RecordingTable& openRecordings() {
-    return lastingTable<RecordingTable>("recording");
+[[nodiscard]] inline auto& openRecordings() {
+    return lastingTable<haptoflow_recording, const OpenRecording>("recording");
 }
-[[nodiscard]] inline LearningTable& learnings() {
-    return lastingTable<LearningTable>("learning");
+[[nodiscard]] inline auto& learnings() {
+    return lastingTable<haptoflow_learning, const OpenLearning>("learning");
 }
-[[nodiscard]] inline MaterialTable& materials() {
-    return lastingTable<MaterialTable>("material");
+[[nodiscard]] inline auto& materials() {
+    return lastingTable<haptoflow_material, const model::MaterialFile>("material");
 }
 
 /// The runtime that a handle stands for, and null for a null handle. Throws std::invalid_argument for a handle that is
@@ -250,6 +244,9 @@ template <typename Table>
 /// The tier of this name, or the model's default tier if `name` is null. Throws std::invalid_argument for an unknown
 /// name.
 [[nodiscard]] const model::Tier& tierNamed(const model::ModelFile& model, const char* name);
+
+/// How many samples of a wave at this rate become one at 2000 Hz; a rate of 0 is 2000 Hz. Throws std::invalid_argument.
+[[nodiscard]] std::size_t decimationOf(uint32_t sampleRateHz);
 
 /// The limits of a load from the options: a null cancellation means none, a limit of 0 the default. Throws
 /// std::invalid_argument.

@@ -22,6 +22,9 @@
 using namespace haptoflow;
 using namespace haptoflow::capi;
 
+static_assert(static_cast<int>(recordings::NoiseSource::rest) == HAPTOFLOW_NOISE_REST);
+static_assert(static_cast<int>(recordings::NoiseSource::quietPart) == HAPTOFLOW_NOISE_QUIET_PART);
+
 namespace haptoflow::capi {
 
 struct OpenRecording {
@@ -45,12 +48,8 @@ namespace {
 constexpr double maximumLimitSeconds = 3600.0;
 constexpr double unknownNumber = std::numeric_limits<double>::quiet_NaN();
 
-std::string textOrNone(const char* text) {
-    return text != nullptr ? text : "";
-}
-
 std::string textOr(const char* text, const std::string& otherwise) {
-    const std::string given = textOrNone(text);
+    const std::string given = textOf(text);
     return given.empty() ? otherwise : given;
 }
 
@@ -146,12 +145,12 @@ OpenRecording copyOf(const haptoflow_recording_info& given) {
         recording.constantForceNewtons = given.constant_force_newtons;
     }
     recordings::checkSizes(recording.view());
-    recording.description.label = textOrNone(given.label);
-    recording.description.licence = textOrNone(given.licence);
-    recording.description.source = textOrNone(given.source);
-    open.notes = textOrNone(given.notes);
-    open.materialName = textOrNone(given.material_name);
-    open.provenance = textOrNone(given.provenance);
+    recording.description.label = textOf(given.label);
+    recording.description.licence = textOf(given.licence);
+    recording.description.source = textOf(given.source);
+    open.notes = textOf(given.notes);
+    open.materialName = textOf(given.material_name);
+    open.provenance = textOf(given.provenance);
     return open;
 }
 
@@ -175,11 +174,11 @@ learning::LearningSettings settingsOf(const haptoflow_learning_options& given, c
                                       const inference::Cancellation* cancellation) {
     learning::LearningSettings settings;
     settings.name = textOr(given.name, recording.materialName);
-    settings.category = textOrNone(given.category);
-    settings.description = textOrNone(given.description);
+    settings.category = textOf(given.category);
+    settings.description = textOf(given.description);
     settings.licence = textOr(given.licence, recording.recording.description.licence);
     settings.recordings = recording.provenance;
-    settings.keptLabel = textOrNone(given.label);
+    settings.keptLabel = textOf(given.label);
     settings.seed = given.seed;
     if (given.seconds_limit != 0.0) {
         if (!(given.seconds_limit > 0.0 && given.seconds_limit <= maximumLimitSeconds)) {
@@ -198,18 +197,6 @@ learning::LearningSettings settingsOf(const haptoflow_learning_options& given, c
     }
     settings.cancellation = cancellation;
     return settings;
-}
-
-haptoflow_noise_source sourceOf(recordings::NoiseSource source) {
-    switch (source) {
-        case recordings::NoiseSource::rest:
-            return HAPTOFLOW_NOISE_REST;
-        case recordings::NoiseSource::quietPart:
-            return HAPTOFLOW_NOISE_QUIET_PART;
-        case recordings::NoiseSource::none:
-            break;
-    }
-    return HAPTOFLOW_NOISE_NONE;
 }
 
 template <typename Number>
@@ -298,7 +285,7 @@ haptoflow_status haptoflow_recording_remove_noise(float* vibration_mps2, const f
         for (std::size_t i = 0; i < count; ++i) {
             wave[i] = isUsable[i] != 0 ? known[i] : wave[i];
         }
-        *source = sourceOf(noise.source);
+        *source = static_cast<haptoflow_noise_source>(noise.source);
         *noise_mps2 = noise.rmsMps2;
     });
 }

@@ -40,26 +40,15 @@ haptoflow_status haptoflow_runtime_open(const haptoflow_runtime_options* options
         if ((given.ort_api_base == nullptr) == (given.library_path == nullptr)) {
             throw std::invalid_argument("options: exactly one of ort_api_base and library_path must be set");
         }
-        const auto log =
-            given.log != nullptr ? std::make_shared<inference::LogSink>(given.log, given.log_context) : nullptr;
-        *runtime = runtimes().open(
-            given.ort_api_base != nullptr
-                ? inference::Runtime::fromApiBase(static_cast<const OrtApiBase*>(given.ort_api_base), log)
-                : inference::Runtime::open(utf8Path(given.library_path), log));
+        *runtime =
+            runtimes().open(given.ort_api_base != nullptr
+                                ? inference::Runtime::fromApiBase(static_cast<const OrtApiBase*>(given.ort_api_base))
+                                : inference::Runtime::open(utf8Path(given.library_path)));
     });
 }
 
 haptoflow_status haptoflow_runtime_close(haptoflow_runtime** runtime) {
-    return guarded([&] {
-        if (*require(runtime, "runtime") == nullptr) {
-            return;
-        }
-        const auto open = runtimes().get(*runtime);
-        closeHandle(runtimes(), runtime, "runtime");
-        if (open->log() != nullptr) {
-            open->log()->close();
-        }
-    });
+    return guarded([&] { closeHandle(runtimes(), runtime, "runtime"); });
 }
 
 static_assert(std::string_view(HAPTOFLOW_VERSION_TEXT) == HAPTOFLOW_VERSION,
@@ -167,25 +156,8 @@ haptoflow_status report(haptoflow_status status, const char* text) noexcept {
     return status;
 }
 
-haptoflow_status statusOf(model::ModelStatus status) noexcept {
-    switch (status) {
-        case model::ModelStatus::unreadable:
-            return HAPTOFLOW_MODEL_UNREADABLE;
-        case model::ModelStatus::notAModel:
-            return HAPTOFLOW_NOT_A_MODEL;
-        case model::ModelStatus::truncated:
-            return HAPTOFLOW_MODEL_TRUNCATED;
-        case model::ModelStatus::tooNew:
-            return HAPTOFLOW_MODEL_TOO_NEW;
-        case model::ModelStatus::oversized:
-            return HAPTOFLOW_MODEL_OVERSIZED;
-        case model::ModelStatus::damaged:
-            return HAPTOFLOW_MODEL_DAMAGED;
-        case model::ModelStatus::inconsistent:
-            return HAPTOFLOW_MODEL_INCONSISTENT;
-    }
-    return HAPTOFLOW_INTERNAL_ERROR;
-}
+static_assert(HAPTOFLOW_MODEL_UNREADABLE + static_cast<int>(model::ModelStatus::inconsistent) ==
+              HAPTOFLOW_MODEL_INCONSISTENT);
 
 }  // namespace
 
@@ -193,7 +165,7 @@ haptoflow_status reportCurrentException() noexcept {
     try {
         throw;
     } catch (const model::ModelError& error) {
-        return report(statusOf(error.status()), error.what());
+        return report(HAPTOFLOW_MODEL_UNREADABLE + static_cast<int>(error.status()), error.what());
     } catch (const model::MaterialError& error) {
         return report(HAPTOFLOW_MATERIAL_INVALID, error.what());
     } catch (const model::MaterialMismatch& error) {
@@ -261,9 +233,6 @@ haptoflow_label_info describe(const model::Label& label) {
     info.stiffness_newtons_per_metre = label.stiffnessNewtonsPerMetre;
     info.friction_coefficient = label.frictionCoefficient;
     info.wavelength_metres = label.wavelengthMetres.value_or(0.0);
-    info.speed_level_exponent = label.speedLevelExponent;
-    info.force_level_exponent = label.forceLevelExponent;
-    info.frequency_exponent = label.frequencyExponent;
     return info;
 }
 

@@ -17,6 +17,9 @@
 using namespace haptoflow;
 using namespace haptoflow::capi;
 
+static_assert(HAPTOFLOW_SOLVER_EULER + static_cast<int>(model::SolverKind::midpoint) == HAPTOFLOW_SOLVER_MIDPOINT);
+static_assert(HAPTOFLOW_SOLVER_EULER + static_cast<int>(model::SolverKind::heun) == HAPTOFLOW_SOLVER_HEUN);
+
 namespace {
 
 model::ModelFile openModel(const haptoflow_model_options& options) {
@@ -44,18 +47,6 @@ const Element& elementAt(const std::vector<Element>& elements, uint32_t index, c
     return elements[index];
 }
 
-haptoflow_solver solverOf(model::SolverKind solver) {
-    switch (solver) {
-        case model::SolverKind::euler:
-            return HAPTOFLOW_SOLVER_EULER;
-        case model::SolverKind::heun:
-            return HAPTOFLOW_SOLVER_HEUN;
-        case model::SolverKind::midpoint:
-            break;
-    }
-    return HAPTOFLOW_SOLVER_MIDPOINT;
-}
-
 haptoflow_model_info describe(const model::ModelHeader& header) {
     haptoflow_model_info info{};
     info.name = header.name.c_str();
@@ -80,7 +71,7 @@ haptoflow_tier_info describe(const model::Tier& tier, bool isDefault) {
     info.kind = model::kindName(tier.kind).data();
     info.accuracy_json = tier.accuracyJson.c_str();
     info.cost_json = tier.costJson.c_str();
-    info.solver = solverOf(tier.solver);
+    info.solver = HAPTOFLOW_SOLVER_EULER + static_cast<int>(tier.solver);
     info.is_default = isDefault ? 1 : 0;
     info.parameter_count = tier.parameters;
     return info;
@@ -101,17 +92,11 @@ haptoflow_status haptoflow_model_close(haptoflow_model** model) {
 }
 
 haptoflow_status haptoflow_model_header(const haptoflow_model* model, const char** header_json) {
-    return guarded([&] {
-        const auto open = models().get(model);
-        *require(header_json, "header_json") = open->headerText.c_str();
-    });
+    return guarded([&] { *require(header_json, "header_json") = models().get(model)->headerText.c_str(); });
 }
 
 haptoflow_status haptoflow_model_describe(const haptoflow_model* model, haptoflow_model_info* info) {
-    return guarded([&] {
-        const auto open = models().get(model);
-        writeDescriptor(info, describe(open->model.header()), "info");
-    });
+    return guarded([&] { writeDescriptor(info, describe(models().get(model)->model.header()), "info"); });
 }
 
 haptoflow_status haptoflow_model_label_count(const haptoflow_model* model, uint32_t* count) {
@@ -146,10 +131,7 @@ haptoflow_status haptoflow_model_nearest_label(const haptoflow_model* model, con
 }
 
 haptoflow_status haptoflow_model_space(const haptoflow_model* model, const char** space) {
-    return guarded([&] {
-        const auto open = models().get(model);
-        *require(space, "space") = open->space.c_str();
-    });
+    return guarded([&] { *require(space, "space") = models().get(model)->space.c_str(); });
 }
 
 haptoflow_status haptoflow_model_tier_count(const haptoflow_model* model, uint32_t* count) {
@@ -187,21 +169,16 @@ float requireLevel(float levelMps2) {
 
 inference::SolverSettings solverSettings(haptoflow_solver solver, int32_t steps,
                                          const inference::SolverSettings& tierSolver) {
-    switch (solver) {
-        case HAPTOFLOW_SOLVER_OF_TIER:
-            if (steps != 0) {
-                throw std::invalid_argument("steps must be 0 with HAPTOFLOW_SOLVER_OF_TIER");
-            }
-            return tierSolver;
-        case HAPTOFLOW_SOLVER_EULER:
-            return {inference::SolverKind::euler, steps};
-        case HAPTOFLOW_SOLVER_MIDPOINT:
-            return {inference::SolverKind::midpoint, steps};
-        case HAPTOFLOW_SOLVER_HEUN:
-            return {inference::SolverKind::heun, steps};
-        default:
-            throw std::invalid_argument("solver is " + std::to_string(solver) + "; expected 0 to 3");
+    if (solver < HAPTOFLOW_SOLVER_OF_TIER || solver > HAPTOFLOW_SOLVER_HEUN) {
+        throw std::invalid_argument("solver is " + std::to_string(solver) + "; expected 0 to 3");
     }
+    if (solver != HAPTOFLOW_SOLVER_OF_TIER) {
+        return {static_cast<inference::SolverKind>(solver - HAPTOFLOW_SOLVER_EULER), steps};
+    }
+    if (steps != 0) {
+        throw std::invalid_argument("steps must be 0 with HAPTOFLOW_SOLVER_OF_TIER");
+    }
+    return tierSolver;
 }
 
 std::span<const float, inference::segmentSamples> waveformAt(const float* waveforms, std::size_t index) {
@@ -253,13 +230,15 @@ haptoflow_status haptoflow_generator_create(const haptoflow_generator_options* o
         const auto runtime = runtimeOf(given.runtime);
         const auto open = models().get(given.model);
         const model::Tier& tier = tierNamed(open->model, given.tier);
-        const auto tierSolver = inference::defaultSolver(tier);
         const uint32_t batch = given.maximum_batch != 0 ? given.maximum_batch : defaultBatch;
-        auto loaded = inference::makeGenerator(runtime, open->model, tier, tierSolver, batch,
-                                               loadLimits(given.cancellation, given.probe_limit_ms), open->native);
+        auto opened = std::make_shared<OpenGenerator>();
+        opened->tierSolver = inference::defaultSolver(tier);
+        opened->generator =
+            inference::makeGenerator(runtime, open->model, tier, opened->tierSolver, batch,
+                                     loadLimits(given.cancellation, given.probe_limit_ms), open->native);
         const bool isLatent = tier.representation == model::TierRepresentation::latent;
-        *generator = generators().open(std::shared_ptr<OpenGenerator>(
-            new OpenGenerator{{}, tierSolver, std::move(loaded), isLatent ? inference::pointSize(tier) : 0}));
+        opened->latentSize = isLatent ? inference::pointSize(tier) : 0;
+        *generator = generators().open(std::move(opened));
     });
 }
 
@@ -287,9 +266,6 @@ haptoflow_status haptoflow_generator_generate(haptoflow_generator* generator, co
         open->generator->generate(requests, segments);
     });
 }
-
-using namespace haptoflow;
-using namespace haptoflow::capi;
 
 static_assert(engine::MaterialLibrary::maximumRegistered == HAPTOFLOW_MAXIMUM_MATERIALS);
 
@@ -354,10 +330,7 @@ haptoflow_status haptoflow_material_describe(const haptoflow_material* material,
 }
 
 haptoflow_status haptoflow_material_embedding(const haptoflow_material* material, float* embedding) {
-    return guarded([&] {
-        const auto open = materials().get(material);
-        std::ranges::copy(open->embedding, require(embedding, "embedding"));
-    });
+    return guarded([&] { std::ranges::copy(materials().get(material)->embedding, require(embedding, "embedding")); });
 }
 
 haptoflow_status haptoflow_engine_register_material(haptoflow_engine* engine, const char* json, uint64_t length,

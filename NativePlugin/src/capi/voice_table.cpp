@@ -141,18 +141,6 @@ std::size_t VoiceTable::placeOf(haptoflow_voice handle) noexcept {
 
 namespace {
 
-/// Calls `action` with the samples of each frame that belong to the target.
-template <typename Action>
-void forEachFrame(const ChannelTarget& target, std::size_t firstFrame, std::size_t frames, Action action) noexcept {
-    const std::size_t channels = target.channelCount;
-    const bool isAll = target.channel == HAPTOFLOW_ALL_CHANNELS;
-    const std::size_t width = isAll ? channels : 1;
-    float* sample = target.interleaved + firstFrame * channels + (isAll ? 0 : static_cast<std::size_t>(target.channel));
-    for (std::size_t frame = 0; frame < frames; ++frame, sample += channels) {
-        action(frame, std::span(sample, width));
-    }
-}
-
 /// Exclusive use of a voice's renderer for one call; afterwards a closed voice that has become silent ends.
 class RenderTurn {
 public:
@@ -178,8 +166,8 @@ private:
 };
 
 void silence(const ChannelTarget& target) noexcept {
-    forEachFrame(target, 0, target.frameCount,
-                 [](std::size_t, std::span<float> frame) { std::ranges::fill(frame, 0.0F); });
+    target.forEachFrame(0, target.frameCount,
+                        [](std::size_t, std::span<float> frame) { std::ranges::fill(frame, 0.0F); });
 }
 
 /// Renders blocks that fit into the voice's own, each finished by `finish`, into the target.
@@ -190,8 +178,9 @@ void renderBlocks(OpenVoice& open, const ChannelTarget& target, double sampleRat
         const auto block = std::span(open.block).first(std::min(open.block.size(), target.frameCount - done));
         open.voice->renderer.render(block, sampleRateHz, limit);
         finish(block);
-        forEachFrame(target, done, block.size(),
-                     [block](std::size_t index, std::span<float> frame) { std::ranges::fill(frame, block[index]); });
+        target.forEachFrame(done, block.size(), [block](std::size_t index, std::span<float> frame) {
+            std::ranges::fill(frame, block[index]);
+        });
     }
 }
 

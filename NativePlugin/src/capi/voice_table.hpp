@@ -124,6 +124,18 @@ struct ChannelTarget {
     std::int32_t channel = HAPTOFLOW_ALL_CHANNELS;
 
     [[nodiscard]] bool isValid() const noexcept;
+
+    /// Calls `action(index, samples)` for each of these frames, with the samples of it that belong to the target.
+    template <typename Action>
+    void forEachFrame(std::size_t firstFrame, std::size_t frames, Action action) const noexcept {
+        const std::size_t channels = channelCount;
+        const bool isAll = channel == HAPTOFLOW_ALL_CHANNELS;
+        const std::size_t width = isAll ? channels : 1;
+        float* sample = interleaved + firstFrame * channels + (isAll ? 0 : static_cast<std::size_t>(channel));
+        for (std::size_t frame = 0; frame < frames; ++frame, sample += channels) {
+            action(frame, std::span(sample, width));
+        }
+    }
 };
 
 // RealtimeSanitizer checks that functions with this attribute, and their callees, do only what an audio callback may

@@ -17,10 +17,10 @@ using namespace haptoflow::capi;
 namespace haptoflow::capi {
 
 struct OpenDeviceWave {
-    explicit OpenDeviceWave(double sampleRateHz) : wave(sampleRateHz) {}
+    explicit OpenDeviceWave(double sampleRateHz) : wave(effects::deviceWave(sampleRateHz)) {}
 
     std::mutex mutex;
-    effects::DeviceWave wave;
+    effects::EnvelopeGain wave;
 };
 
 }  // namespace haptoflow::capi
@@ -78,6 +78,17 @@ haptoflow_status haptoflow_device_wave_process(haptoflow_device_wave* wave, floa
 
 namespace haptoflow::capi {
 
+std::size_t decimationOf(uint32_t sampleRateHz) {
+    constexpr auto featureHz = static_cast<uint32_t>(effects::WaveFeatures::sampleRateHz);
+    const uint32_t rateHz = sampleRateHz != 0 ? sampleRateHz : featureHz;
+    const uint32_t factor = rateHz / featureHz;
+    if (factor == 0 || factor > effects::WaveDecimation::maximumFactor || rateHz % featureHz != 0) {
+        throw std::invalid_argument("options: sample_rate_hz is " + std::to_string(sampleRateHz) +
+                                    "; expected a multiple of 2000 up to 192000, or 0 for 2000");
+    }
+    return factor;
+}
+
 struct OpenWaveFeatures {
     OpenWaveFeatures(const effects::WaveFeatureOptions& options, std::size_t factor)
         : features(options), decimation(factor) {}
@@ -98,16 +109,6 @@ effects::WaveFeatureOptions featureOptions(const haptoflow_wave_features_options
     take(options.minFrequencyHz, given.minimum_frequency_hz);
     take(options.maxFrequencyHz, given.maximum_frequency_hz);
     return options;
-}
-
-std::size_t decimationOf(double sampleRateHz) {
-    const double rateHz = sampleRateHz != 0.0 ? sampleRateHz : effects::WaveFeatures::sampleRateHz;
-    const double factor = rateHz / effects::WaveFeatures::sampleRateHz;
-    if (!(factor >= 1.0 && factor <= effects::WaveDecimation::maximumFactor && factor == std::floor(factor))) {
-        throw std::invalid_argument("options: sample_rate_hz is " + std::to_string(sampleRateHz) +
-                                    "; expected a multiple of 2000 up to 192000, or 0 for 2000");
-    }
-    return static_cast<std::size_t>(factor);
 }
 
 haptoflow_wave_frame frameOf(const effects::WaveFrame& frame) {

@@ -82,22 +82,23 @@ void extend(std::vector<ClipPoint>& points, double durationSeconds) {
 
 /// Which points stay: from each, as far as a straight line stays within the tolerance of all points passed.
 std::vector<std::size_t> keptWithin(std::span<const ClipPoint> points, double ratio, double floor) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
     std::vector<std::size_t> kept{0};
     std::size_t anchor = 0;
-    double lowest = -std::numeric_limits<double>::infinity();
-    double highest = std::numeric_limits<double>::infinity();
+    double lowest = -infinity;
+    double highest = infinity;
+    const auto restartAt = [&](std::size_t index) {
+        anchor = index;
+        lowest = -infinity;
+        highest = infinity;
+    };
     for (std::size_t i = 1; i < points.size(); ++i) {
-        const auto restart = [&] {
-            anchor = i - 1;
-            kept.push_back(anchor);
-            lowest = -std::numeric_limits<double>::infinity();
-            highest = std::numeric_limits<double>::infinity();
-        };
         double run = points[i].seconds - points[anchor].seconds;
         if (anchor + 1 < i) {
             const double slope = (points[i].value - points[anchor].value) / run;
             if (slope < lowest || slope > highest) {
-                restart();
+                kept.push_back(i - 1);
+                restartAt(i - 1);
                 run = points[i].seconds - points[anchor].seconds;
             }
         }
@@ -106,9 +107,7 @@ std::vector<std::size_t> keptWithin(std::span<const ClipPoint> points, double ra
             if (points[i].value != points[anchor].value) {
                 kept.push_back(i);
             }
-            anchor = i;
-            lowest = -std::numeric_limits<double>::infinity();
-            highest = std::numeric_limits<double>::infinity();
+            restartAt(i);
             continue;
         }
         const double room = std::max(points[i].value, floor) * (ratio - 1.0);

@@ -3,7 +3,6 @@
 #include "dsp/sample_rates.hpp"
 
 #include <cmath>
-#include <stdexcept>
 
 namespace haptoflow::effects {
 namespace {
@@ -13,11 +12,8 @@ constexpr double tailSeconds = 0.0005;
 }  // namespace
 
 ClipSound::ClipSound(double sampleRateHz)
-    : step_(waveRateHz / sampleRateHz), decay_(static_cast<float>(std::exp(-1.0 / (tailSeconds * sampleRateHz)))) {
-    if (!dsp::isOutputRate(sampleRateHz)) {
-        throw std::invalid_argument("the output rate is outside 8-192 kHz");
-    }
-}
+    : step_(waveRateHz / dsp::requireOutputRate(sampleRateHz)),
+      decay_(static_cast<float>(std::exp(-1.0 / (tailSeconds * sampleRateHz)))) {}
 
 void ClipSound::start(std::span<const float> waveMps2, float gain, bool isLoop) noexcept {
     leave();

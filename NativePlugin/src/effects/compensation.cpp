@@ -199,10 +199,6 @@ Compensation::Compensation(const ActuatorProfile& profile, double sampleRateHz, 
     const double power = broadbandPower([this](std::size_t point) { return std::abs(filter_->response(hzAt(point))); });
     filter_->scale(asFactor(-excess) / std::sqrt(std::max(power, 1.0)));
     tailSeconds_ = filter_->tailSeconds(dsp::SoftLimiter::defaultFullScaleMps2, imperceptibleMps2);
-    measureLatency();
-}
-
-void Compensation::measureLatency() noexcept {
     for (std::size_t point = 0; point < points; ++point) {
         if (hzAt(point) >= bandHz_[0] && hzAt(point) <= bandHz_[1]) {
             latencySeconds_ = std::max(latencySeconds_, groupDelaySeconds(hzAt(point)));
@@ -230,10 +226,6 @@ void Compensation::reset() noexcept {
         filter_->reset();
     }
     isIdle_ = true;
-}
-
-bool Compensation::isIdle() const noexcept {
-    return isIdle_;
 }
 
 double Compensation::gainDecibels(double frequencyHz) const noexcept {

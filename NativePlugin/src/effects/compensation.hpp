@@ -40,7 +40,7 @@ public:
 
     void process(std::span<float> samplesMps2) noexcept override;
     void reset() noexcept override;
-    [[nodiscard]] bool isIdle() const noexcept override;
+    [[nodiscard]] bool isIdle() const noexcept override { return isIdle_; }
 
     /// True if the profile needs no compensation: `process` leaves every sample unchanged.
     [[nodiscard]] bool isTransparent() const noexcept { return !filter_.has_value(); }
@@ -56,8 +56,6 @@ public:
     [[nodiscard]] std::array<double, 2> bandHz() const noexcept { return bandHz_; }
 
 private:
-    void measureLatency() noexcept;
-
     std::array<double, 2> bandHz_;
     double levelDecibels_ = 0.0;
     double latencySeconds_ = 0.0;

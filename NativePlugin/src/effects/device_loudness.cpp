@@ -113,10 +113,7 @@ float gainOf(float envelopeMps2) noexcept {
 
 // A first-order shelf (1 + s / w1) / (1 + s / w2) by the bilinear transform, with both corners prewarped.
 Listen::Listen(double sampleRateHz, double fullScaleMps2)
-    : fullScaleMps2_(static_cast<float>(fullScaleMps2)), gain_(sampleRateHz, gainOf) {
-    if (!dsp::isOutputRate(sampleRateHz)) {
-        throw std::invalid_argument("listen: expected a rate of 8 to 192 kHz");
-    }
+    : fullScaleMps2_(static_cast<float>(fullScaleMps2)), gain_(dsp::requireOutputRate(sampleRateHz), gainOf) {
     if (!(std::isfinite(fullScaleMps2) && fullScaleMps2 > 0.0)) {
         throw std::invalid_argument("listen: expected a full scale above 0");
     }
@@ -208,6 +205,8 @@ float deviceShare(DeviceKind kind, float amplitudeMps2) noexcept {
     return std::min(static_cast<float>(share), std::nextafter(1.0F, 0.0F));
 }
 
-DeviceWave::DeviceWave(double sampleRateHz) : gain_(sampleRateHz, waveGain) {}
+EnvelopeGain deviceWave(double sampleRateHz) {
+    return {sampleRateHz, waveGain};
+}
 
 }  // namespace haptoflow::effects

@@ -132,20 +132,8 @@ inline constexpr double middleShare = 0.35;
 /// Any thread; allocates nothing. An amplitude that is not above 0 gives 0, infinity the largest float below 1.
 [[nodiscard]] float deviceShare(DeviceKind kind, float amplitudeMps2) noexcept;
 
-/// The wave in m/s^2 to a device's +-1: a compressing gain that follows the envelope by `deviceShare`.
-class DeviceWave {
-public:
-    static constexpr double latencySeconds = EnvelopeGain::latencySeconds;
-
-    /// Throws std::invalid_argument for a rate outside 2-192 kHz.
-    explicit DeviceWave(double sampleRateHz);
-
-    /// In place: m/s^2 in, +-1 out. Allocates nothing.
-    void process(std::span<float> samples) noexcept { gain_.process(samples); }
-    void reset() noexcept { gain_.reset(); }
-
-private:
-    EnvelopeGain gain_;
-};
+/// A compressing gain that follows the envelope by `deviceShare` of the waveform: m/s^2 in, a device's +-1 out. Throws
+/// std::invalid_argument for a rate outside 2-192 kHz.
+[[nodiscard]] EnvelopeGain deviceWave(double sampleRateHz);
 
 }  // namespace haptoflow::effects

@@ -25,14 +25,8 @@ namespace {
 template <typename Type>
 using OrtHandle = std::unique_ptr<Type, void (*)(Type*)>;
 
-constexpr std::uint32_t apiWithSessionLog = 17;
 constexpr std::uint32_t apiWithLoadCancellation = 22;
 constexpr auto retryInterval = std::chrono::milliseconds(1);
-
-void ORT_API_CALL writeLog(void* sink, OrtLoggingLevel severity, const char* category, const char* /*log*/,
-                           const char* /*location*/, const char* message) {
-    static_cast<LogSink*>(sink)->write(static_cast<int>(severity), category, message);
-}
 
 OrtHandle<OrtSessionOptions> createOptions(const Runtime& runtime, bool usesSharedArena) {
     const OrtApi& api = runtime.api();
@@ -51,10 +45,6 @@ OrtHandle<OrtSessionOptions> createOptions(const Runtime& runtime, bool usesShar
     configure("session.load_model_format", "ONNX");
     configure("session.use_env_allocators", usesSharedArena ? "1" : "0");
     runtime.check(api.SetSessionGraphOptimizationLevel(created, ORT_ENABLE_ALL), "session options");
-    if (runtime.log() != nullptr && runtime.apiVersion() >= apiWithSessionLog) {
-        runtime.check(api.SetUserLoggingFunction(created, writeLog, runtime.log()), "session options");
-        runtime.check(api.SetSessionLogSeverityLevel(created, ORT_LOGGING_LEVEL_WARNING), "session options");
-    }
     return options;
 }
 

@@ -6,8 +6,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <utility>
-#include <vector>
 
 #ifdef _WIN32
 #ifndef NOMINMAX
@@ -37,38 +35,6 @@ std::uint32_t apiOfVersion(const std::string& version) {
     }
     return std::clamp(minor, minimumApi, maximumApi);
 }
-
-/// The log of libraries older than 1.17, which have one log per process instead of one per session.
-class SharedLog {
-public:
-    static SharedLog& instance() {
-        // Never destroyed, because the library may write while the process ends.
-        static auto* log = new SharedLog;
-        return *log;
-    }
-    void add(const std::shared_ptr<LogSink>& sink) {
-        const std::lock_guard lock(mutex_);
-        std::erase_if(sinks_, [](const auto& each) { return each.expired(); });
-        sinks_.push_back(sink);
-    }
-    static void ORT_API_CALL write(void* /*context*/, OrtLoggingLevel severity, const char* category,
-                                   const char* /*log*/, const char* /*location*/, const char* message) {
-        std::vector<std::weak_ptr<LogSink>> sinks;
-        {
-            const std::lock_guard lock(instance().mutex_);
-            sinks = instance().sinks_;
-        }
-        for (const auto& each : sinks) {
-            if (const auto sink = each.lock()) {
-                sink->write(static_cast<int>(severity), category, message);
-            }
-        }
-    }
-
-private:
-    std::mutex mutex_;
-    std::vector<std::weak_ptr<LogSink>> sinks_;
-};
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& reason) {
     const std::u8string name = path.u8string();
@@ -115,16 +81,16 @@ private:
 
 }  // namespace
 
-std::shared_ptr<const Runtime> Runtime::fromApiBase(const OrtApiBase* base, std::shared_ptr<LogSink> log) {
-    return std::shared_ptr<const Runtime>(new Runtime(base, std::move(log)));
+std::shared_ptr<const Runtime> Runtime::fromApiBase(const OrtApiBase* base) {
+    return std::shared_ptr<const Runtime>(new Runtime(base));
 }
 
-std::shared_ptr<const Runtime> Runtime::open(const std::filesystem::path& library, std::shared_ptr<LogSink> log) {
+std::shared_ptr<const Runtime> Runtime::open(const std::filesystem::path& library) {
     const auto getApiBase = reinterpret_cast<GetApiBase>(loadSymbol(library, "OrtGetApiBase"));
-    return fromApiBase(getApiBase(), std::move(log));
+    return fromApiBase(getApiBase());
 }
 
-Runtime::Runtime(const OrtApiBase* base, std::shared_ptr<LogSink> log) : log_(std::move(log)) {
+Runtime::Runtime(const OrtApiBase* base) {
     if (base == nullptr || base->GetApi == nullptr || base->GetVersionString == nullptr) {
         throw RuntimeUnavailable("ONNX Runtime's OrtGetApiBase returned nothing");
     }
@@ -139,7 +105,7 @@ Runtime::Runtime(const OrtApiBase* base, std::shared_ptr<LogSink> log) : log_(st
         throw RuntimeUnavailable("ONNX Runtime " + version_ + " is too old: 1.16 or newer is needed");
     }
     try {
-        check(createEnvironment(), "creating the environment");
+        check(api_->CreateEnv(ORT_LOGGING_LEVEL_ERROR, "haptoflow", &environment_), "creating the environment");
         check(api_->DisableTelemetryEvents(environment_), "switching telemetry off");
     } catch (const InferenceError& error) {
         if (environment_ != nullptr) {
@@ -147,16 +113,6 @@ Runtime::Runtime(const OrtApiBase* base, std::shared_ptr<LogSink> log) : log_(st
         }
         throw RuntimeUnavailable("ONNX Runtime " + version_ + ": " + error.what());
     }
-}
-
-OrtStatus* Runtime::createEnvironment() {
-    // From 1.17 on, each session writes to the log of its own runtime, independent of the environment.
-    if (log_ == nullptr || apiVersion_ >= 17) {
-        return api_->CreateEnv(ORT_LOGGING_LEVEL_ERROR, "haptoflow", &environment_);
-    }
-    SharedLog::instance().add(log_);
-    return api_->CreateEnvWithCustomLogger(SharedLog::write, nullptr, ORT_LOGGING_LEVEL_WARNING, "haptoflow",
-                                           &environment_);
 }
 
 Runtime::~Runtime() {

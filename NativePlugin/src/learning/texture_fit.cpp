@@ -9,8 +9,8 @@ namespace {
 
 constexpr std::size_t maximumBins = 6;
 constexpr std::size_t pastSamples = inference::segmentSamples;
-constexpr std::size_t warmSamples = 200;
-constexpr std::size_t chainSamples = 512;
+constexpr std::size_t warmSamples = LoopSettings{}.warmSamples;
+constexpr std::size_t chainSamples = LoopSettings{}.samples;
 constexpr std::size_t frameHop = 64;
 constexpr std::size_t hopAt72Hz = 28;
 constexpr std::size_t mostDirections = 12;
@@ -233,13 +233,8 @@ std::vector<TextureFigures> TextureFit::figuresOf(const Embedding& embedding, fl
     constexpr std::size_t chainsOfEachSpeed = 8;
     constexpr std::uint64_t ownRound = 3'000'000;
     const std::vector<Chain> chains = chainsOf(chainsOfEachSpeed * bins_.count(), ownRound);
-    const std::vector<float> waves = loop_.run(std::span(&embedding, 1), chains,
-                                               {.hopSamples = 100,
-                                                .warmSamples = warmSamples,
-                                                .samples = chainSamples,
-                                                .seed = seed_,
-                                                .round = ownRound,
-                                                .impulseGain = impulseGain});
+    const std::vector<float> waves =
+        loop_.run(std::span(&embedding, 1), chains, {.seed = seed_, .round = ownRound, .impulseGain = impulseGain});
     TextureMeter meter(bins_.count());
     for (std::size_t k = 0; k < chains.size(); ++k) {
         measure(meter, std::span(waves).subspan(k * chainSamples, chainSamples), chains[k].start + warmSamples);
@@ -258,9 +253,7 @@ std::vector<double> TextureFit::distances(std::span<const Embedding> embeddings,
             all.push_back(chain);
         }
     }
-    const std::vector<float> waves = loop_.run(
-        embeddings, all,
-        {.hopSamples = 100, .warmSamples = warmSamples, .samples = chainSamples, .seed = seed_, .round = round});
+    const std::vector<float> waves = loop_.run(embeddings, all, {.seed = seed_, .round = round});
     std::vector<double> result;
     for (std::size_t e = 0; e < embeddings.size(); ++e) {
         TextureMeter meter(bins_.count());
@@ -290,13 +283,9 @@ std::vector<SpectrumFrame> TextureFit::generatedFrames(const Embedding& embeddin
             chains.push_back({0, starts[place * starts.size() / places], static_cast<std::uint32_t>(k)});
         }
     }
-    const std::vector<float> waves = loop_.run(std::span(&embedding, 1), chains,
-                                               {.hopSamples = hopAt72Hz,
-                                                .warmSamples = warmSamples,
-                                                .samples = chainSamples,
-                                                .seed = seed_,
-                                                .round = 1'000'000,
-                                                .impulseGain = impulseGain});
+    const std::vector<float> waves =
+        loop_.run(std::span(&embedding, 1), chains,
+                  {.hopSamples = hopAt72Hz, .seed = seed_, .round = 1'000'000, .impulseGain = impulseGain});
     std::vector<SpectrumFrame> frames;
     for (std::size_t k = 0; k < chains.size(); ++k) {
         addFrames(frames, std::span(waves).subspan(k * chainSamples, chainSamples), chains[k].start + warmSamples);
@@ -350,7 +339,6 @@ std::vector<SpectrumFrame> TextureFit::steadyFrames(const Embedding& embedding, 
     }
     const std::vector<float> waves = loop_.run(std::span(&embedding, 1), chains,
                                                {.hopSamples = hopAt72Hz,
-                                                .warmSamples = warmSamples,
                                                 .samples = steadySamples,
                                                 .seed = seed_,
                                                 .round = 2'000'000,

@@ -63,28 +63,22 @@ private:
     }
 
     void leaveOutNonFinite() {
-        std::size_t after = 0;
-        bool isOpen = false;
-        std::size_t first = 0;
         const auto allFinite = [](std::span<const float> values) {
             return std::ranges::all_of(values, [](float value) { return std::isfinite(value); });
         };
-        for (std::size_t i = 0; i < samples_; ++i) {
-            const bool isFinite =
-                allFinite(recording_.accelerationMps2.subspan(i * recording_.axisCount, recording_.axisCount)) &&
-                (recording_.velocityMps.empty() || allFinite(recording_.velocityMps.subspan(2 * i, 2))) &&
-                (recording_.forceNewtons.empty() || std::isfinite(recording_.forceNewtons[i]));
-            if (!isFinite && !isOpen) {
-                isOpen = true;
-                first = i;
-            } else if (isFinite && isOpen) {
-                isOpen = false;
-                leaveOut(first, i - 1);
+        const auto isFinite = [&](std::size_t i) {
+            return allFinite(recording_.accelerationMps2.subspan(i * recording_.axisCount, recording_.axisCount)) &&
+                   (recording_.velocityMps.empty() || allFinite(recording_.velocityMps.subspan(2 * i, 2))) &&
+                   (recording_.forceNewtons.empty() || std::isfinite(recording_.forceNewtons[i]));
+        };
+        std::size_t first = 0;
+        for (std::size_t i = 0; i <= samples_; ++i) {
+            if (i == samples_ || isFinite(i)) {
+                if (i > first) {
+                    leaveOut(first, i - 1);
+                }
+                first = i + 1;
             }
-            after = i;
-        }
-        if (isOpen) {
-            leaveOut(first, after);
         }
     }
 

@@ -126,11 +126,7 @@ constexpr std::array keys{"label",      "full_scale_mps2",    "speed_mps", "velo
                           "source"};
 
 std::string allKeys() {
-    std::string text;
-    for (const char* key : keys) {
-        text += (text.empty() ? "" : ", ") + std::string(key);
-    }
-    return text;
+    return joined({keys.begin(), keys.end()});
 }
 
 [[noreturn]] void fail(const fs::path& file, const std::string& found, const std::string& expected) {

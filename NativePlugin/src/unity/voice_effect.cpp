@@ -293,13 +293,10 @@ void VoiceEffect::applyGain(const capi::ChannelTarget& target) noexcept {
     if (gain_.isSettledAt(1.0F)) {
         return;
     }
-    const bool isAll = target.channel == HAPTOFLOW_ALL_CHANNELS;
-    const std::size_t width = isAll ? target.channelCount : 1;
-    float* samples = target.interleaved + (isAll ? 0 : target.channel);
-    for (std::uint32_t frame = 0; frame < target.frameCount; ++frame, samples += target.channelCount) {
+    target.forEachFrame(0, target.frameCount, [this](std::size_t, std::span<float> samples) {
         const float gain = gain_.next();
-        std::for_each_n(samples, width, [gain](float& sample) { sample *= gain; });
-    }
+        std::ranges::for_each(samples, [gain](float& sample) { sample *= gain; });
+    });
 }
 
 }  // namespace haptoflow::unity

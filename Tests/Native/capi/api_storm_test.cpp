@@ -6,8 +6,8 @@
 #include <array>
 #include <cstdint>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
+#include <deque>
+#include <functional>
 #include <limits>
 #include <mutex>
 #include <random>
@@ -70,7 +70,7 @@ struct StormHandles {
 
 class Storm {
 public:
-    Storm(StormHandles& handles, const std::vector<char>& modelBytes, std::uint32_t seed)
+    Storm(StormHandles& handles, const std::string& modelBytes, std::uint32_t seed)
         : handles_(handles), modelBytes_(modelBytes), random_(seed) {}
 
     /// Makes at least `calls` calls and continues until a block of this thread has sounded, because on a busy machine
@@ -87,27 +87,110 @@ private:
     /// A kind of call and its share of all calls in thousandths.
     struct Kind {
         std::uint32_t share;
-        haptoflow_status (Storm::*call)();
+        std::function<haptoflow_status()> call;
     };
 
+    std::vector<Kind> makeKinds() {
+        return {
+            {430, [this] { return render(); }},
+            {304, [this] { return publish(); }},
+            {30, [this] { return createVoice(); }},
+            {15, [this] { return closed(handles_.voices, haptoflow_voice_destroy); }},
+            {8, [this] { return createEngine(); }},
+            {2, [this] { return closed(handles_.engines, haptoflow_engine_close); }},
+            {6, [this] { return openModel(); }},
+            {2, [this] { return closed(handles_.models, haptoflow_model_close); }},
+            {4, [this] { return openRuntime(); }},
+            {1, [this] { return closed(handles_.runtimes, haptoflow_runtime_close); }},
+            {8, [this] { return createGenerator(); }},
+            {2, [this] { return closed(handles_.generators, haptoflow_generator_close); }},
+            {11, [this] { return generate(); }},
+            {6, [this] { return haptoflow_generator_set_solver(generator(), solver(), steps()); }},
+            {6, [this] { return opened(handles_.cancellations, haptoflow_cancellation_create); }},
+            {2, [this] { return haptoflow_cancellation_cancel(handles_.cancellations.any(next())); }},
+            {2, [this] { return closed(handles_.cancellations, haptoflow_cancellation_close); }},
+            {12, [this] { return createRelief(); }},
+            {8, [this] { return closed(handles_.reliefs, haptoflow_relief_destroy); }},
+            {6, [this] { return createClip(); }},
+            {6, [this] { return readClip(); }},
+            {8, [this] { return closed(handles_.clips, haptoflow_clip_close); }},
+            {16, [this] { return playClip(); }},
+            {3, [this] { return haptoflow_model_header(model(), result<const char*>()); }},
+            {3, [this] { return haptoflow_model_label_count(model(), result<uint32_t>()); }},
+            {4, [this] { return haptoflow_model_label(model(), index(), result<haptoflow_label_info>()); }},
+            {4, [this] { return haptoflow_model_embedding(model(), index(), orNull(embedding_.data())); }},
+            {3, [this] { return haptoflow_model_tier_count(model(), result<uint32_t>()); }},
+            {3, [this] { return haptoflow_model_tier(model(), index(), result<haptoflow_tier_info>()); }},
+            {6, [this] { return useMaterial(); }},
+            {3, [this] { return haptoflow_engine_material_count(engine(), result<uint32_t>()); }},
+            {3, [this] { return haptoflow_engine_material(engine(), index(), result<haptoflow_label_info>()); }},
+            {5, [this] { return haptoflow_voice_set_strength(voice(), wildFloat()); }},
+            {5, [this] { return haptoflow_voice_set_ceiling(voice(), wildFloat()); }},
+            {5, [this] { return haptoflow_voice_set_muted(voice(), next() % 2); }},
+            {5, [this] { return haptoflow_voice_set_paused(voice(), next() % 2); }},
+            {5, [this] { return haptoflow_voice_panic(voice()); }},
+            {5, [] { return haptoflow_panic(); }},
+            {5, [this] { return haptoflow_voice_get_statistics(voice(), result<haptoflow_voice_statistics>()); }},
+            {4, [this] { return haptoflow_voice_set_signal(voice(), 1000.0 * wildFloat(), 100.0 * wildFloat()); }},
+            {4, [this] { return haptoflow_voice_signal_statistics(voice(), result<haptoflow_signal_statistics>()); }},
+            {4, [this] { return place(); }},
+            {4, [this] { return haptoflow_engine_set_quality(engine(), quality()); }},
+            {5, [this] { return haptoflow_engine_step(engine()); }},
+            {5, [this] { return haptoflow_engine_get_statistics(engine(), result<haptoflow_engine_statistics>()); }},
+            {4, [this] { return haptoflow_engine_tier_times(engine(), index(), result<haptoflow_tier_times>()); }},
+            {4, [this] { return haptoflow_struct_size("haptoflow_batch", result<uint32_t>()); }},
+            {4, [this] { return readTexts(); }},
+        };
+    }
+
     haptoflow_status once() {
-        static constexpr std::array<Kind, 22> kinds{
-            {{430, &Storm::render},      {304, &Storm::publish},       {30, &Storm::createVoice},
-             {15, &Storm::destroyVoice}, {8, &Storm::createEngine},    {2, &Storm::closeEngine},
-             {6, &Storm::openModel},     {2, &Storm::closeModel},      {4, &Storm::openRuntime},
-             {1, &Storm::closeRuntime},  {8, &Storm::createGenerator}, {2, &Storm::closeGenerator},
-             {17, &Storm::useGenerator}, {20, &Storm::askModel},       {73, &Storm::command},
-             {12, &Storm::useMaterials}, {10, &Storm::cancel},         {12, &Storm::createRelief},
-             {8, &Storm::destroyRelief}, {12, &Storm::createClip},     {8, &Storm::closeClip},
-             {16, &Storm::playClip}}};
         std::uint32_t choice = next() % 1000;
-        for (const Kind& kind : kinds) {
+        for (const Kind& kind : kinds_) {
             if (choice < kind.share) {
-                return (this->*kind.call)();
+                return kind.call();
             }
             choice -= kind.share;
         }
         return HAPTOFLOW_INTERNAL_ERROR;
+    }
+
+    haptoflow_voice voice() { return handles_.voices.any(next()); }
+    haptoflow_engine* engine() { return handles_.engines.any(next()); }
+    haptoflow_model* model() { return handles_.models.any(next()); }
+    haptoflow_generator* generator() { return handles_.generators.any(next()); }
+    haptoflow_quality quality() { return static_cast<haptoflow_quality>(next() % 5); }
+    haptoflow_solver solver() { return static_cast<haptoflow_solver>(next() % 5); }
+    std::int32_t steps() { return static_cast<std::int32_t>(next() % 20) - 1; }
+    std::uint32_t index() { return oneIn(8) ? next() : next() % 8; }
+
+    /// Where a call may write what it returns; sometimes nowhere, or with a wrong size.
+    template <typename Result>
+    Result* result() {
+        thread_local Result written;
+        if constexpr (requires { written.struct_size; }) {
+            written.struct_size = sizeOf(sizeof(Result));
+        }
+        return orNull(&written);
+    }
+    template <typename Type>
+    Type* orNull(Type* pointer) {
+        return oneIn(16) ? nullptr : pointer;
+    }
+
+    /// Calls open(Handle*) and keeps what it opens.
+    template <typename Handle, typename Open>
+    haptoflow_status opened(SharedHandles<Handle>& pool, Open open) {
+        Handle handle{};
+        const haptoflow_status status = open(orNull(&handle));
+        if (status == HAPTOFLOW_OK) {
+            pool.put(handle);
+        }
+        return status;
+    }
+    template <typename Handle>
+    haptoflow_status closed(SharedHandles<Handle>& pool, haptoflow_status (*close)(Handle*)) {
+        Handle handle = pool.any(next());
+        return close(orNull(&handle));
     }
 
     std::uint32_t next() { return static_cast<std::uint32_t>(random_()); }
@@ -189,9 +272,9 @@ private:
         const std::uint32_t channels = oneIn(16) ? next() % 70 : 1 + next() % 4;
         const std::int32_t channel = static_cast<std::int32_t>(next() % (channels + 3)) - 2;
         std::vector<float> block(std::size_t{frames} * channels + 1);
-        float* const samples = oneIn(32) ? nullptr : block.data();
+        float* const samples = orNull(block.data());
         std::array<haptoflow_voice, 3> voices{};
-        std::ranges::generate(voices, [this] { return handles_.voices.any(next()); });
+        std::ranges::generate(voices, [this] { return voice(); });
         const haptoflow_status status =
             oneIn(2) ? haptoflow_voice_render(voices[0], samples, frames, channels, channel, rateHz())
                      : haptoflow_voices_render(voices.data(), next() % 4, samples, frames, channels, channel, rateHz());
@@ -202,109 +285,85 @@ private:
 
     haptoflow_status publish() {
         const haptoflow_contact_state state = wildState();
-        return haptoflow_voice_publish(handles_.voices.any(next()), oneIn(50) ? nullptr : &state);
+        return haptoflow_voice_publish(voice(), orNull(&state));
     }
 
     haptoflow_status createVoice() {
-        haptoflow_voice voice = 0;
-        const haptoflow_status status =
-            haptoflow_voice_create(handles_.engines.any(next()), rateHz(), oneIn(16) ? nullptr : &voice);
-        return kept(status, voice, handles_.voices);
+        return opened(handles_.voices,
+                      [this](auto* created) { return haptoflow_voice_create(engine(), rateHz(), created); });
     }
 
-    template <typename Handle>
-    haptoflow_status closed(SharedHandles<Handle>& pool, haptoflow_status (*close)(Handle*)) {
-        Handle handle = pool.any(next());
-        return close(oneIn(16) ? nullptr : &handle);
+    haptoflow_status place() {
+        std::uint32_t place = 0;
+        const haptoflow_status status = haptoflow_voice_place(voice(), orNull(&place));
+        isSound_ = isSound_ && place < HAPTOFLOW_MAXIMUM_VOICES;
+        return status;
+    }
+
+    haptoflow_status readTexts() {
+        isSound_ = isSound_ && haptoflow_last_message() != nullptr &&
+                   haptoflow_status_name(static_cast<haptoflow_status>(next())) != nullptr;
+        return HAPTOFLOW_OK;
     }
 
     haptoflow_status createRelief() {
-        const std::uint32_t columns = oneIn(16) ? next() : 1 + next() % 40;
         std::vector<float> heights = wildFloats(std::size_t{40} * 3);
         haptoflow_relief_options options{};
         options.struct_size = sizeOf(sizeof(options));
-        options.columns = columns;
+        options.columns = oneIn(16) ? next() : 1 + next() % 40;
         options.rows = oneIn(16) ? next() : 1 + next() % 3;
         // Counts beyond what is there are refused only by their size.
         if (std::size_t{options.columns} * options.rows > heights.size()) {
             options.columns = options.rows = UINT32_MAX;
         }
         options.is_tiled = next() % 2;
-        options.heights_metres = oneIn(32) ? nullptr : heights.data();
+        options.heights_metres = orNull(heights.data());
         options.size_metres[0] = wildFloat();
         options.size_metres[1] = 0.1F;
         options.depth_metres = wildFloat();
         options.tip_radius_metres = oneIn(4) ? wildFloat() : 0.0005F;
-        haptoflow_relief relief = 0;
-        const haptoflow_status status = haptoflow_relief_create(&options, oneIn(16) ? nullptr : &relief);
-        return kept(status, relief, handles_.reliefs);
+        return opened(handles_.reliefs, [&options](auto* relief) { return haptoflow_relief_create(&options, relief); });
     }
 
-    haptoflow_status destroyRelief() { return closed(handles_.reliefs, haptoflow_relief_destroy); }
-
-    /// Makes a clip of a wave, or reads one that may be cut.
     haptoflow_status createClip() {
-        haptoflow_clip* clip = nullptr;
-        if (oneIn(2)) {
-            static const std::string text =
-                R"({"version":{"major":1,"minor":0,"patch":0},"signals":{"continuous":{"envelopes":{"amplitude":[)"
-                R"({"time":0,"amplitude":0.5,"emphasis":{"amplitude":1,"frequency":0.5}},{"time":0.3,"amplitude":0.5}]}}}})";
-            return kept(haptoflow_clip_read(text.data(), oneIn(8) ? next() % text.size() : text.size(), &clip), clip,
-                        handles_.clips);
-        }
         const std::vector<float> wave = wildFloats(500);
         haptoflow_clip_options options{};
         options.struct_size = sizeOf(sizeof(options));
-        options.wave_mps2 = oneIn(16) ? nullptr : wave.data();
+        options.wave_mps2 = orNull(wave.data());
         options.sample_count = next() % wave.size();
         options.is_loop = next() % 2;
-        const haptoflow_status status = haptoflow_clip_create(&options, oneIn(16) ? nullptr : &clip);
-        return kept(status, clip, handles_.clips);
+        return opened(handles_.clips, [&options](auto* clip) { return haptoflow_clip_create(&options, clip); });
     }
 
-    haptoflow_status closeClip() { return closed(handles_.clips, haptoflow_clip_close); }
+    /// Reads a clip's text that may be cut.
+    haptoflow_status readClip() {
+        static const std::string text =
+            R"({"version":{"major":1,"minor":0,"patch":0},"signals":{"continuous":{"envelopes":{"amplitude":[)"
+            R"({"time":0,"amplitude":0.5,"emphasis":{"amplitude":1,"frequency":0.5}},{"time":0.3,"amplitude":0.5}]}}}})";
+        const std::size_t length = oneIn(8) ? next() % text.size() : text.size();
+        return opened(handles_.clips, [&](auto* clip) { return haptoflow_clip_read(text.data(), length, clip); });
+    }
 
     haptoflow_status playClip() {
         haptoflow_clip* clip = oneIn(4) ? nullptr : handles_.clips.any(next());
-        return haptoflow_voice_play_clip(handles_.voices.any(next()), clip, wildFloat(), next() % 2);
+        return haptoflow_voice_play_clip(voice(), clip, wildFloat(), next() % 2);
     }
-
-    haptoflow_status destroyVoice() { return closed(handles_.voices, haptoflow_voice_destroy); }
 
     haptoflow_status createEngine() {
         haptoflow_engine_options options{};
         options.struct_size = sizeOf(sizeof(options));
-        options.quality = static_cast<haptoflow_quality>(next() % 5);
+        options.quality = quality();
         options.runtime = handles_.runtimes.any(next());
-        options.model = handles_.models.any(next());
+        options.model = model();
         options.without_worker = oneIn(3) ? 1 : 0;
         options.update_rate_hz = oneIn(8) ? rateHz() : 0.0;
         options.cancellation = oneIn(3) ? handles_.cancellations.any(next()) : nullptr;
-        haptoflow_engine* engine = nullptr;
-        const haptoflow_status status = haptoflow_engine_create(&options, oneIn(16) ? nullptr : &engine);
-        return kept(status, engine, handles_.engines);
+        return opened(handles_.engines, [&options](auto* engine) { return haptoflow_engine_create(&options, engine); });
     }
-
-    /// Creates a cancellation, or cancels or closes one.
-    haptoflow_status cancel() {
-        haptoflow_cancellation* cancellation = nullptr;
-        switch (next() % 4) {
-            case 0:
-                return haptoflow_cancellation_cancel(handles_.cancellations.any(next()));
-            case 1:
-                return closed(handles_.cancellations, haptoflow_cancellation_close);
-            default: {
-                const haptoflow_status status = haptoflow_cancellation_create(oneIn(16) ? nullptr : &cancellation);
-                return kept(status, cancellation, handles_.cancellations);
-            }
-        }
-    }
-
-    haptoflow_status closeEngine() { return closed(handles_.engines, haptoflow_engine_close); }
 
     /// Opens the whole file, a part of it, or the file with a changed byte.
     haptoflow_status openModel() {
-        std::vector<char> bytes = modelBytes_;
+        std::string bytes = modelBytes_;
         if (oneIn(4)) {
             bytes[next() % bytes.size()] ^= 1;
         }
@@ -313,51 +372,38 @@ private:
         }
         haptoflow_model_options options{};
         options.struct_size = sizeOf(sizeof(options));
-        options.bytes = oneIn(16) ? nullptr : bytes.data();
+        options.bytes = orNull(bytes.data());
         options.byte_count = bytes.size();
-        haptoflow_model* model = nullptr;
-        const haptoflow_status status = haptoflow_model_open(&options, oneIn(16) ? nullptr : &model);
+        const haptoflow_status status =
+            opened(handles_.models, [&options](auto* model) { return haptoflow_model_open(&options, model); });
         const bool isRefusal = status >= HAPTOFLOW_NOT_A_MODEL && status <= HAPTOFLOW_MODEL_INCONSISTENT;
-        return isRefusal ? HAPTOFLOW_OK : kept(status, model, handles_.models);
+        return isRefusal ? HAPTOFLOW_OK : status;
     }
-
-    haptoflow_status closeModel() { return closed(handles_.models, haptoflow_model_close); }
 
     haptoflow_status openRuntime() {
         const bool isThere = !oneIn(4);
         haptoflow_runtime_options options{};
         options.struct_size = sizeOf(sizeof(options));
         options.library_path = isThere ? HAPTOFLOW_TEST_ONNXRUNTIME : "/nowhere/libonnxruntime.so";
-        haptoflow_runtime* runtime = nullptr;
-        const haptoflow_status status = haptoflow_runtime_open(&options, oneIn(16) ? nullptr : &runtime);
-        return !isThere && status == HAPTOFLOW_RUNTIME_UNAVAILABLE ? HAPTOFLOW_OK
-                                                                   : kept(status, runtime, handles_.runtimes);
+        const haptoflow_status status =
+            opened(handles_.runtimes, [&options](auto* runtime) { return haptoflow_runtime_open(&options, runtime); });
+        return !isThere && status == HAPTOFLOW_RUNTIME_UNAVAILABLE ? HAPTOFLOW_OK : status;
     }
-
-    haptoflow_status closeRuntime() { return closed(handles_.runtimes, haptoflow_runtime_close); }
 
     haptoflow_status createGenerator() {
         constexpr std::array<const char*, 4> tiers{"draft", "standard", nullptr, "no such tier"};
         haptoflow_generator_options options{};
         options.struct_size = sizeOf(sizeof(options));
         options.runtime = handles_.runtimes.any(next());
-        options.model = handles_.models.any(next());
+        options.model = model();
         options.tier = tiers[next() % tiers.size()];
         options.maximum_batch = oneIn(8) ? next() : next() % 4;
         options.cancellation = oneIn(3) ? handles_.cancellations.any(next()) : nullptr;
-        haptoflow_generator* generator = nullptr;
-        const haptoflow_status status = haptoflow_generator_create(&options, oneIn(16) ? nullptr : &generator);
-        return kept(status, generator, handles_.generators);
+        return opened(handles_.generators,
+                      [&options](auto* generator) { return haptoflow_generator_create(&options, generator); });
     }
 
-    haptoflow_status closeGenerator() { return closed(handles_.generators, haptoflow_generator_close); }
-
-    haptoflow_status useGenerator() {
-        haptoflow_generator* generator = handles_.generators.any(next());
-        if (oneIn(3)) {
-            return haptoflow_generator_set_solver(generator, static_cast<haptoflow_solver>(next() % 5),
-                                                  static_cast<std::int32_t>(next() % 20) - 1);
-        }
+    haptoflow_status generate() {
         const std::uint32_t count = next() % 4;
         const std::vector<float> embeddings = wildFloats(std::size_t{count} * HAPTOFLOW_EMBEDDING_SIZE);
         const std::vector<float> motions = wildFloats(std::size_t{count} * HAPTOFLOW_MOTION_SIZE);
@@ -378,124 +424,17 @@ private:
             batch.motions = nullptr;
         }
         std::vector<float> results(waveforms.size());
-        float* const target = oneIn(16) ? nullptr : results.data();
-        const haptoflow_status status = haptoflow_generator_generate(generator, &batch, target);
+        const haptoflow_status status = haptoflow_generator_generate(generator(), &batch, orNull(results.data()));
         isSound_ = isSound_ && (status != HAPTOFLOW_OK || allFinite(results));
         return status == HAPTOFLOW_INFERENCE_FAILED ? HAPTOFLOW_OK : status;
     }
 
-    haptoflow_status askModel() {
-        const haptoflow_model* model = handles_.models.any(next());
-        const std::uint32_t index = oneIn(8) ? next() : next() % 3;
-        std::uint32_t count = 0;
-        const char* header = nullptr;
-        haptoflow_label_info label{};
-        label.struct_size = sizeOf(sizeof(label));
-        haptoflow_tier_info tier{};
-        tier.struct_size = sizeOf(sizeof(tier));
-        std::array<float, HAPTOFLOW_EMBEDDING_SIZE> embedding{};
-        const bool isNull = oneIn(16);
-        switch (next() % 6) {
-            case 0:
-                return haptoflow_model_header(model, isNull ? nullptr : &header);
-            case 1:
-                return haptoflow_model_label_count(model, isNull ? nullptr : &count);
-            case 2:
-                return haptoflow_model_label(model, index, isNull ? nullptr : &label);
-            case 3:
-                return haptoflow_model_embedding(model, index, isNull ? nullptr : embedding.data());
-            case 4:
-                return haptoflow_model_tier_count(model, isNull ? nullptr : &count);
-            default:
-                return haptoflow_model_tier(model, index, isNull ? nullptr : &tier);
-        }
-    }
-
-    haptoflow_status useMaterials() {
-        haptoflow_engine* engine = handles_.engines.any(next());
-        // A valid material of the tiny model, or a text that is cut.
-        static const std::string material = [] {
-            std::ifstream stream(HAPTOFLOW_TEST_GOLDEN_DIR "/material/ribbed.haptomaterial");
-            return std::string(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
-        }();
+    /// Registers a valid material of the tiny model, or a text that is cut, or replaces one by it.
+    haptoflow_status useMaterial() {
+        static const std::string material = textOf(HAPTOFLOW_TEST_GOLDEN_DIR "/material/ribbed.haptomaterial");
         const std::uint64_t length = oneIn(8) ? next() % material.size() : material.size();
-        const std::uint32_t index = next() % 8;
-        std::uint32_t found = 0;
-        haptoflow_label_info info{};
-        info.struct_size = sizeOf(sizeof(info));
-        switch (next() % 4) {
-            case 0:
-                return haptoflow_engine_register_material(engine, material.data(), length,
-                                                          oneIn(16) ? nullptr : &found);
-            case 1:
-                return haptoflow_engine_replace_material(engine, index, material.data(), length);
-            case 2:
-                return haptoflow_engine_material_count(engine, oneIn(16) ? nullptr : &found);
-            default:
-                return haptoflow_engine_material(engine, index, oneIn(16) ? nullptr : &info);
-        }
-    }
-
-    haptoflow_status command() {
-        const haptoflow_voice voice = handles_.voices.any(next());
-        haptoflow_engine* engine = handles_.engines.any(next());
-        haptoflow_voice_statistics statistics{};
-        statistics.struct_size = sizeOf(sizeof(statistics));
-        haptoflow_engine_statistics engineStatistics{};
-        engineStatistics.struct_size = sizeOf(sizeof(engineStatistics));
-        haptoflow_signal_statistics signal{};
-        signal.struct_size = sizeOf(sizeof(signal));
-        haptoflow_tier_times times{};
-        times.struct_size = sizeOf(sizeof(times));
-        std::uint32_t place = 0;
-        const bool isNull = oneIn(16);
-        switch (next() % 16) {
-            case 14:
-                return haptoflow_voice_set_signal(voice, 1000.0 * wildFloat(), 100.0 * wildFloat());
-            case 15:
-                return haptoflow_voice_signal_statistics(voice, isNull ? nullptr : &signal);
-            case 0:
-                return haptoflow_voice_set_strength(voice, wildFloat());
-            case 1:
-                return haptoflow_voice_set_muted(voice, next() % 2);
-            case 2:
-                return haptoflow_voice_set_paused(voice, next() % 2);
-            case 3:
-                return haptoflow_voice_panic(voice);
-            case 4:
-                return haptoflow_voice_get_statistics(voice, isNull ? nullptr : &statistics);
-            case 5:
-                return haptoflow_engine_set_quality(engine, static_cast<haptoflow_quality>(next() % 5));
-            case 6:
-                return haptoflow_engine_step(engine);
-            case 7:
-                return haptoflow_engine_get_statistics(engine, isNull ? nullptr : &engineStatistics);
-            case 8:
-                return haptoflow_voice_set_ceiling(voice, wildFloat());
-            case 9: {
-                const haptoflow_status status = haptoflow_voice_place(voice, isNull ? nullptr : &place);
-                isSound_ = isSound_ && place < HAPTOFLOW_MAXIMUM_VOICES;
-                return status;
-            }
-            case 10:
-                return haptoflow_engine_tier_times(engine, oneIn(8) ? next() : next() % 6, isNull ? nullptr : &times);
-            case 11:
-                return haptoflow_struct_size(isNull ? nullptr : "haptoflow_batch", &place);
-            case 12:
-                isSound_ = isSound_ && haptoflow_last_message() != nullptr &&
-                           haptoflow_status_name(static_cast<haptoflow_status>(next())) != nullptr;
-                return HAPTOFLOW_OK;
-            default:
-                return haptoflow_panic();
-        }
-    }
-
-    template <typename Handle>
-    static haptoflow_status kept(haptoflow_status status, Handle handle, SharedHandles<Handle>& handles) {
-        if (status == HAPTOFLOW_OK) {
-            handles.put(handle);
-        }
-        return status;
+        return oneIn(2) ? haptoflow_engine_register_material(engine(), material.data(), length, result<uint32_t>())
+                        : haptoflow_engine_replace_material(engine(), index(), material.data(), length);
     }
 
     void check(haptoflow_status status) {
@@ -505,8 +444,10 @@ private:
     }
 
     StormHandles& handles_;
-    const std::vector<char>& modelBytes_;
+    const std::string& modelBytes_;
     std::mt19937 random_;
+    std::array<float, HAPTOFLOW_EMBEDDING_SIZE> embedding_{};
+    const std::vector<Kind> kinds_ = makeKinds();
     bool isSound_ = true;
     bool hasSounded_ = false;
 };
@@ -520,13 +461,19 @@ protected:
         return given != nullptr ? std::atoi(given) : usual;
     }
 
+    template <typename Type>
+    static void closeAll(SharedHandles<Type*>& handles, haptoflow_status (*close)(Type**)) {
+        for (Type* handle : handles.all()) {
+            (void)close(&handle);
+        }
+    }
+
     static void storm(int threadCount, int calls) {
-        const std::vector<char> modelBytes = tinyModelBytes();
+        const std::string modelBytes = textOf(tinyModelPath);
         StormHandles handles;
         handles.runtimes.put(openRuntime());
-        handles.models.put(openTinyModel());
-        std::vector<Storm> storms;
-        storms.reserve(static_cast<std::size_t>(threadCount));
+        handles.models.put(openModel(tinyModelPath));
+        std::deque<Storm> storms;
         for (int i = 0; i < threadCount; ++i) {
             storms.emplace_back(handles, modelBytes, static_cast<std::uint32_t>(i + 1));
         }
@@ -543,21 +490,11 @@ protected:
             EXPECT_TRUE(each.hasSounded()) << "a storm without sound proves little";
         }
         // Objects that the storm left open are closed here; handles that it closed are refused.
-        for (haptoflow_engine* engine : handles.engines.all()) {
-            (void)haptoflow_engine_close(&engine);
-        }
-        for (haptoflow_generator* generator : handles.generators.all()) {
-            (void)haptoflow_generator_close(&generator);
-        }
-        for (haptoflow_cancellation* cancellation : handles.cancellations.all()) {
-            (void)haptoflow_cancellation_close(&cancellation);
-        }
-        for (haptoflow_model* model : handles.models.all()) {
-            (void)haptoflow_model_close(&model);
-        }
-        for (haptoflow_runtime* runtime : handles.runtimes.all()) {
-            (void)haptoflow_runtime_close(&runtime);
-        }
+        closeAll(handles.engines, haptoflow_engine_close);
+        closeAll(handles.generators, haptoflow_generator_close);
+        closeAll(handles.cancellations, haptoflow_cancellation_close);
+        closeAll(handles.models, haptoflow_model_close);
+        closeAll(handles.runtimes, haptoflow_runtime_close);
     }
 };
 

@@ -26,14 +26,13 @@ TEST(LibraryApiTest, TheVersionIsThatOfTheProject) {
 }
 
 TEST(LibraryApiTest, EveryStatusHasANameAndOtherNumbersHaveNone) {
+    const std::string text = textOf(HAPTOFLOW_TEST_HEADER);
+    const std::string statuses = text.substr(0, text.find("typedef int32_t haptoflow_solver"));
+    const std::regex constant(R"(\n    (HAPTOFLOW_[A-Z_]+) = (\d+))");
+    for (std::sregex_iterator match(statuses.begin(), statuses.end(), constant), end; match != end; ++match) {
+        EXPECT_EQ(haptoflow_status_name(std::stoi((*match)[2])), (*match)[1].str());
+    }
     EXPECT_STREQ(haptoflow_status_name(HAPTOFLOW_OK), "HAPTOFLOW_OK");
-    EXPECT_STREQ(haptoflow_status_name(HAPTOFLOW_MODEL_TOO_NEW), "HAPTOFLOW_MODEL_TOO_NEW");
-    EXPECT_STREQ(haptoflow_status_name(HAPTOFLOW_INFERENCE_FAILED), "HAPTOFLOW_INFERENCE_FAILED");
-    EXPECT_STREQ(haptoflow_status_name(HAPTOFLOW_CANCELLED), "HAPTOFLOW_CANCELLED");
-    EXPECT_STREQ(haptoflow_status_name(HAPTOFLOW_TIER_TOO_SLOW), "HAPTOFLOW_TIER_TOO_SLOW");
-    EXPECT_STREQ(haptoflow_status_name(HAPTOFLOW_MATERIAL_MISMATCH), "HAPTOFLOW_MATERIAL_MISMATCH");
-    EXPECT_STREQ(haptoflow_status_name(HAPTOFLOW_MATERIAL_INVALID), "HAPTOFLOW_MATERIAL_INVALID");
-    EXPECT_STREQ(haptoflow_status_name(HAPTOFLOW_RECORDING_UNUSABLE), "HAPTOFLOW_RECORDING_UNUSABLE");
     for (const haptoflow_status status : {-1, 5, 9, 24, INT32_MAX, INT32_MIN}) {
         EXPECT_STREQ(haptoflow_status_name(status), "HAPTOFLOW_UNKNOWN_STATUS");
     }
@@ -65,7 +64,7 @@ TEST(LibraryApiTest, AMessageThatIsTooLongIsCut) {
 }
 
 TEST(LibraryApiTest, TheSizeOfEveryStructOfTheHeaderIsKnown) {
-    const std::string text = headerText();
+    const std::string text = textOf(HAPTOFLOW_TEST_HEADER);
     const std::regex declaration(R"(typedef struct (haptoflow_\w+) \{)");
     std::size_t count = 0;
     for (std::sregex_iterator match(text.begin(), text.end(), declaration), end; match != end; ++match, ++count) {
@@ -108,79 +107,58 @@ void callWithNulls(NullCalls& calls, const char* name, haptoflow_status (*functi
     callAtPlaces(calls, name, function, std::tuple<Parameters...>(valid...), std::index_sequence_for<Parameters...>{});
 }
 
-template <typename Descriptor>
-Descriptor sized() {
-    Descriptor descriptor{};
-    descriptor.struct_size = sizeof(Descriptor);
-    return descriptor;
+/// Somewhere to write a result to, which is not read.
+template <typename Result>
+Result* anywhere() {
+    static Result result;
+    if constexpr (requires { result.struct_size; }) {
+        result.struct_size = sizeof(Result);
+    }
+    return &result;
+}
+
+/// Expects that no call has opened anything.
+template <typename... Handles>
+void expectNothingOpened() {
+    EXPECT_TRUE(((*anywhere<Handles*>() == nullptr) && ...));
 }
 
 TEST(ArgumentTest, NullPointersAreRefusedByEveryFunction) {
     OpenEngine open(tinyModelPath);
-    const haptoflow_runtime_options runtimeOptions{sizeof(runtimeOptions), nullptr, HAPTOFLOW_TEST_ONNXRUNTIME, nullptr,
-                                                   nullptr};
+    auto runtimeOptions = sized<haptoflow_runtime_options>();
+    runtimeOptions.library_path = HAPTOFLOW_TEST_ONNXRUNTIME;
     const haptoflow_model_options modelOptions{sizeof(modelOptions), nullptr, 0, tinyModelPath.c_str()};
-    auto generatorOptions = sized<haptoflow_generator_options>();
-    generatorOptions.runtime = open.runtime;
-    generatorOptions.model = open.model;
-    auto engineOptions = sized<haptoflow_engine_options>();
-    engineOptions.runtime = open.runtime;
-    engineOptions.model = open.model;
-    haptoflow_generator* generator = nullptr;
-    ASSERT_EQ(haptoflow_generator_create(&generatorOptions, &generator), HAPTOFLOW_OK) << message();
+    const auto generatorChoice = generatorOptions(open.runtime, open.model);
+    const auto engineChoice = engineOptions(open.runtime, open.model);
+    GeneratorHandle generator;
+    ASSERT_EQ(haptoflow_generator_create(&generatorChoice, generator.out()), HAPTOFLOW_OK) << message();
     std::vector<float> numbers(HAPTOFLOW_SEGMENT_SAMPLES);
     float* const data = numbers.data();
     const haptoflow_batch batch{sizeof(batch), 1, data, data, data, data, nullptr, nullptr, nullptr};
     const haptoflow_contact_state state = slidingState();
     const auto featureOptions = sized<haptoflow_wave_features_options>();
-    haptoflow_wave_features* features = nullptr;
-    ASSERT_EQ(haptoflow_wave_features_create(&featureOptions, &features), HAPTOFLOW_OK) << message();
-    haptoflow_device_wave* deviceWave = nullptr;
-    ASSERT_EQ(haptoflow_device_wave_create(8000.0, &deviceWave), HAPTOFLOW_OK) << message();
+    Handle<haptoflow_wave_features, haptoflow_wave_features_close> features;
+    ASSERT_EQ(haptoflow_wave_features_create(&featureOptions, features.out()), HAPTOFLOW_OK) << message();
+    Handle<haptoflow_device_wave, haptoflow_device_wave_close> deviceWave;
+    ASSERT_EQ(haptoflow_device_wave_create(8000.0, deviceWave.out()), HAPTOFLOW_OK) << message();
     const learning::testing::MadeRecording made({}, {.seconds = 4.0});
-    const MadeHandle madeRecording(infoOf(made));
     const haptoflow_recording_info madeInfo = infoOf(made);
-    const haptoflow_learning_options learningOptions = optionsOf(madeRecording.recording, open.runtime, open.model);
+    const RecordingHandle recording(recordingOf(madeInfo));
+    const auto learningChoice = learningOptions(recording, open.runtime, open.model);
     const std::string plain = HAPTOFLOW_TEST_GOLDEN_DIR "/recordings/files/plain.csv";
     auto recordingOptions = sized<haptoflow_recording_options>();
     recordingOptions.path = plain.c_str();
-    auto recordingInfo = sized<haptoflow_recording_info>();
     const std::string json = textOf(HAPTOFLOW_TEST_GOLDEN_DIR "/material/ribbed.haptomaterial");
-    haptoflow_material* material = nullptr;
-    ASSERT_EQ(haptoflow_material_read(json.data(), json.size(), &material), HAPTOFLOW_OK) << message();
-    haptoflow_wave_frame frame{};
-    std::array<double, 4> waveVectors{};
-    haptoflow_noise_source noiseSource = HAPTOFLOW_NOISE_NONE;
-    double noise = 0.0;
-    std::array<char, 8> failure{};
-    uint64_t length = 0;
-    uint32_t count = 0;
-    const char* text = nullptr;
-    auto label = sized<haptoflow_label_info>();
-    auto modelInfo = sized<haptoflow_model_info>();
-    auto materialInfo = sized<haptoflow_material_info>();
-    auto tier = sized<haptoflow_tier_info>();
-    auto times = sized<haptoflow_tier_times>();
-    auto engineStatistics = sized<haptoflow_engine_statistics>();
-    haptoflow_runtime* noRuntime = nullptr;
-    haptoflow_model* noModel = nullptr;
-    haptoflow_generator* noGenerator = nullptr;
-    haptoflow_engine* noEngine = nullptr;
-    haptoflow_wave_features* noFeatures = nullptr;
-    haptoflow_recording* noRecording = nullptr;
-    haptoflow_learning* noLearning = nullptr;
-    haptoflow_material* noMaterial = nullptr;
-    haptoflow_voice noVoice = 0;
-    haptoflow_relief noRelief = 0;
-    haptoflow_clip* noClip = nullptr;
-    auto clipInfo = sized<haptoflow_clip_info>();
+    Handle<haptoflow_material, haptoflow_material_close> material;
+    ASSERT_EQ(haptoflow_material_read(json.data(), json.size(), material.out()), HAPTOFLOW_OK) << message();
+    std::array<char, 8> text{};
     auto clipOptions = sized<haptoflow_clip_options>();
     clipOptions.wave_mps2 = data;
     clipOptions.sample_count = numbers.size();
     clipOptions.title = clipOptions.description = clipOptions.source = "";
     const std::string clipText = R"({"Pattern":[]})";
-    haptoflow_clip* clip = nullptr;
-    ASSERT_EQ(haptoflow_clip_create(&clipOptions, &clip), HAPTOFLOW_OK) << message();
+    ClipHandle clip;
+    ASSERT_EQ(haptoflow_clip_create(&clipOptions, clip.out()), HAPTOFLOW_OK) << message();
     auto reliefOptions = sized<haptoflow_relief_options>();
     reliefOptions.heights_metres = data;
     reliefOptions.columns = reliefOptions.rows = 1;
@@ -188,43 +166,46 @@ TEST(ArgumentTest, NullPointersAreRefusedByEveryFunction) {
     // The outputs of a learning handle: see LearningApiTest.
     const auto* const learning = invented<haptoflow_learning>(1);
 
+    haptoflow_voice noVoice = 0;
+    haptoflow_relief noRelief = 0;
+
     NullCalls called;
 #define REFUSES_NULLS(function, ...) callWithNulls(called, #function, function, __VA_ARGS__)
-    REFUSES_NULLS(haptoflow_runtime_open, &runtimeOptions, &noRuntime);
+    REFUSES_NULLS(haptoflow_runtime_open, &runtimeOptions, anywhere<haptoflow_runtime*>());
     REFUSES_NULLS(haptoflow_runtime_close, nullptr);
     REFUSES_NULLS(haptoflow_cancellation_create, nullptr);
     REFUSES_NULLS(haptoflow_cancellation_cancel, nullptr);
     REFUSES_NULLS(haptoflow_cancellation_close, nullptr);
-    REFUSES_NULLS(haptoflow_model_open, &modelOptions, &noModel);
+    REFUSES_NULLS(haptoflow_model_open, &modelOptions, anywhere<haptoflow_model*>());
     REFUSES_NULLS(haptoflow_model_close, nullptr);
-    REFUSES_NULLS(haptoflow_model_header, open.model, &text);
-    REFUSES_NULLS(haptoflow_model_describe, open.model, &modelInfo);
-    REFUSES_NULLS(haptoflow_model_label_count, open.model, &count);
-    REFUSES_NULLS(haptoflow_model_label, open.model, 0, &label);
+    REFUSES_NULLS(haptoflow_model_header, open.model, anywhere<const char*>());
+    REFUSES_NULLS(haptoflow_model_describe, open.model, anywhere<haptoflow_model_info>());
+    REFUSES_NULLS(haptoflow_model_label_count, open.model, anywhere<uint32_t>());
+    REFUSES_NULLS(haptoflow_model_label, open.model, 0, anywhere<haptoflow_label_info>());
     REFUSES_NULLS(haptoflow_model_embedding, open.model, 0, data);
-    REFUSES_NULLS(haptoflow_model_nearest_label, open.model, data, &count);
-    REFUSES_NULLS(haptoflow_model_space, open.model, &text);
-    REFUSES_NULLS(haptoflow_model_tier_count, open.model, &count);
-    REFUSES_NULLS(haptoflow_model_tier, open.model, 0, &tier);
-    REFUSES_NULLS(haptoflow_material_read, json.data(), json.size(), &noMaterial);
+    REFUSES_NULLS(haptoflow_model_nearest_label, open.model, data, anywhere<uint32_t>());
+    REFUSES_NULLS(haptoflow_model_space, open.model, anywhere<const char*>());
+    REFUSES_NULLS(haptoflow_model_tier_count, open.model, anywhere<uint32_t>());
+    REFUSES_NULLS(haptoflow_model_tier, open.model, 0, anywhere<haptoflow_tier_info>());
+    REFUSES_NULLS(haptoflow_material_read, json.data(), json.size(), anywhere<haptoflow_material*>());
     REFUSES_NULLS(haptoflow_material_close, nullptr);
-    REFUSES_NULLS(haptoflow_material_describe, material, &materialInfo);
+    REFUSES_NULLS(haptoflow_material_describe, material, anywhere<haptoflow_material_info>());
     REFUSES_NULLS(haptoflow_material_embedding, material, data);
-    REFUSES_NULLS(haptoflow_generator_create, &generatorOptions, &noGenerator);
+    REFUSES_NULLS(haptoflow_generator_create, &generatorChoice, anywhere<haptoflow_generator*>());
     REFUSES_NULLS(haptoflow_generator_close, nullptr);
     REFUSES_NULLS(haptoflow_generator_set_solver, nullptr, HAPTOFLOW_SOLVER_EULER, 1);
     REFUSES_NULLS(haptoflow_generator_generate, generator, &batch, data);
-    REFUSES_NULLS(haptoflow_engine_create, &engineOptions, &noEngine);
+    REFUSES_NULLS(haptoflow_engine_create, &engineChoice, anywhere<haptoflow_engine*>());
     REFUSES_NULLS(haptoflow_engine_close, nullptr);
     REFUSES_NULLS(haptoflow_engine_set_quality, nullptr, HAPTOFLOW_QUALITY_DRAFT);
-    REFUSES_NULLS(haptoflow_engine_register_material, open.engine, json.data(), json.size(), &count);
+    REFUSES_NULLS(haptoflow_engine_register_material, open.engine, json.data(), json.size(), anywhere<uint32_t>());
     REFUSES_NULLS(haptoflow_engine_replace_material, open.engine, 0, json.data(), json.size());
-    REFUSES_NULLS(haptoflow_engine_material_count, open.engine, &count);
-    REFUSES_NULLS(haptoflow_engine_material, open.engine, 0, &label);
+    REFUSES_NULLS(haptoflow_engine_material_count, open.engine, anywhere<uint32_t>());
+    REFUSES_NULLS(haptoflow_engine_material, open.engine, 0, anywhere<haptoflow_label_info>());
     REFUSES_NULLS(haptoflow_engine_step, nullptr);
-    REFUSES_NULLS(haptoflow_engine_get_statistics, open.engine, &engineStatistics);
-    REFUSES_NULLS(haptoflow_engine_last_failure, open.engine, failure.data(), failure.size(), &length);
-    REFUSES_NULLS(haptoflow_engine_tier_times, open.engine, 0, &times);
+    REFUSES_NULLS(haptoflow_engine_get_statistics, open.engine, anywhere<haptoflow_engine_statistics>());
+    REFUSES_NULLS(haptoflow_engine_last_failure, open.engine, text.data(), text.size(), anywhere<uint64_t>());
+    REFUSES_NULLS(haptoflow_engine_tier_times, open.engine, 0, anywhere<haptoflow_tier_times>());
     REFUSES_NULLS(haptoflow_voice_create, open.engine, 48000.0, &noVoice);
     REFUSES_NULLS(haptoflow_voice_destroy, nullptr);
     REFUSES_NULLS(haptoflow_voice_publish, open.voice, &state);
@@ -236,39 +217,41 @@ TEST(ArgumentTest, NullPointersAreRefusedByEveryFunction) {
     REFUSES_NULLS(haptoflow_voice_exposure, open.voice, nullptr);
     REFUSES_NULLS(haptoflow_voice_effect_statistics, open.voice, HAPTOFLOW_EFFECT_TEXTURE, nullptr);
     REFUSES_NULLS(haptoflow_voice_place, open.voice, nullptr);
-    REFUSES_NULLS(haptoflow_wave_features_create, &featureOptions, &noFeatures);
+    REFUSES_NULLS(haptoflow_wave_features_create, &featureOptions, anywhere<haptoflow_wave_features*>());
     REFUSES_NULLS(haptoflow_wave_features_close, nullptr);
     REFUSES_NULLS(haptoflow_wave_features_reset, nullptr);
     REFUSES_NULLS(haptoflow_wave_features_set_range, nullptr, 100.0, 200.0);
-    REFUSES_NULLS(haptoflow_wave_features_process, features, data, 1, &frame, 1, &length);
+    REFUSES_NULLS(haptoflow_wave_features_process, features, data, 1, anywhere<haptoflow_wave_frame>(), 1,
+                  anywhere<uint64_t>());
     REFUSES_NULLS(haptoflow_relief_create, &reliefOptions, &noRelief);
     REFUSES_NULLS(haptoflow_relief_destroy, nullptr);
     REFUSES_NULLS(haptoflow_relief_heights_of_normals, data, 1, 1, data, 1, data);
-    REFUSES_NULLS(haptoflow_clip_create, &clipOptions, &noClip);
-    REFUSES_NULLS(haptoflow_clip_read, clipText.data(), clipText.size(), &noClip);
+    REFUSES_NULLS(haptoflow_clip_create, &clipOptions, anywhere<haptoflow_clip*>());
+    REFUSES_NULLS(haptoflow_clip_read, clipText.data(), clipText.size(), anywhere<haptoflow_clip*>());
     REFUSES_NULLS(haptoflow_clip_close, nullptr);
-    REFUSES_NULLS(haptoflow_clip_describe, clip, &clipInfo);
-    REFUSES_NULLS(haptoflow_clip_write, clip, HAPTOFLOW_CLIP_AHAP, "", failure.data(), failure.size(), &length);
+    REFUSES_NULLS(haptoflow_clip_describe, clip, anywhere<haptoflow_clip_info>());
+    REFUSES_NULLS(haptoflow_clip_write, clip, HAPTOFLOW_CLIP_AHAP, "", text.data(), text.size(), anywhere<uint64_t>());
     REFUSES_NULLS(haptoflow_clip_curves, nullptr, 1, data, data);
-    REFUSES_NULLS(haptoflow_clip_wave, clip, 8000.0, data, 1, &length);
+    REFUSES_NULLS(haptoflow_clip_wave, clip, 8000.0, data, 1, anywhere<uint64_t>());
     REFUSES_NULLS(haptoflow_voice_play_clip, 0, nullptr, 1.0F, 0);
     REFUSES_NULLS(haptoflow_device_share, HAPTOFLOW_DEVICE_MOTOR, 1.0F, nullptr);
     REFUSES_NULLS(haptoflow_device_wave_create, 8000.0, nullptr);
     REFUSES_NULLS(haptoflow_device_wave_close, nullptr);
     REFUSES_NULLS(haptoflow_device_wave_reset, nullptr);
     REFUSES_NULLS(haptoflow_device_wave_process, deviceWave, data, 1, 200.0F);
-    REFUSES_NULLS(haptoflow_learn_material, &learningOptions, &noLearning);
-    REFUSES_NULLS(haptoflow_find_wave_vectors, data, data, 1, waveVectors.data());
-    REFUSES_NULLS(haptoflow_recording_read, &recordingOptions, &noRecording);
-    REFUSES_NULLS(haptoflow_recording_create, &madeInfo, &noRecording);
-    REFUSES_NULLS(haptoflow_recording_get_info, madeRecording.recording, &recordingInfo);
-    REFUSES_NULLS(haptoflow_recording_wave, madeRecording.recording, data, 1);
-    REFUSES_NULLS(haptoflow_recording_remove_noise, data, data, data, 1, &noiseSource, &noise);
+    REFUSES_NULLS(haptoflow_learn_material, &learningChoice, anywhere<haptoflow_learning*>());
+    REFUSES_NULLS(haptoflow_find_wave_vectors, data, data, 1, anywhere<double>());
+    REFUSES_NULLS(haptoflow_recording_read, &recordingOptions, anywhere<haptoflow_recording*>());
+    REFUSES_NULLS(haptoflow_recording_create, &madeInfo, anywhere<haptoflow_recording*>());
+    REFUSES_NULLS(haptoflow_recording_get_info, recording, anywhere<haptoflow_recording_info>());
+    REFUSES_NULLS(haptoflow_recording_wave, recording, data, 1);
+    REFUSES_NULLS(haptoflow_recording_remove_noise, data, data, data, 1, anywhere<haptoflow_noise_source>(),
+                  anywhere<double>());
     REFUSES_NULLS(haptoflow_resample, data, 1, 2000.0, data, 1, 8000.0);
     REFUSES_NULLS(haptoflow_recording_close, nullptr);
-    REFUSES_NULLS(haptoflow_learning_results, learning, &text, &text);
+    REFUSES_NULLS(haptoflow_learning_results, learning, anywhere<const char*>(), anywhere<const char*>());
     REFUSES_NULLS(haptoflow_learning_close, nullptr);
-    REFUSES_NULLS(haptoflow_struct_size, "haptoflow_batch", &count);
+    REFUSES_NULLS(haptoflow_struct_size, "haptoflow_batch", anywhere<uint32_t>());
 #undef REFUSES_NULLS
 
     NullCalls declared;
@@ -278,30 +261,20 @@ TEST(ArgumentTest, NullPointersAreRefusedByEveryFunction) {
         }
     }
     EXPECT_EQ(called, declared) << "each pointer of each function of the header has a call";
-    EXPECT_TRUE(noRuntime == nullptr && noModel == nullptr && noGenerator == nullptr && noEngine == nullptr &&
-                noFeatures == nullptr && noRecording == nullptr && noLearning == nullptr && noMaterial == nullptr &&
-                noVoice == 0 && noRelief == 0 && noClip == nullptr);
-    EXPECT_EQ(haptoflow_clip_close(&clip), HAPTOFLOW_OK);
-    EXPECT_EQ(haptoflow_material_close(&material), HAPTOFLOW_OK);
-    EXPECT_EQ(haptoflow_generator_close(&generator), HAPTOFLOW_OK);
-    EXPECT_EQ(haptoflow_wave_features_close(&features), HAPTOFLOW_OK);
-    EXPECT_EQ(haptoflow_device_wave_close(&deviceWave), HAPTOFLOW_OK);
+    expectNothingOpened<haptoflow_runtime, haptoflow_model, haptoflow_generator, haptoflow_engine,
+                        haptoflow_wave_features, haptoflow_recording, haptoflow_learning, haptoflow_material,
+                        haptoflow_clip>();
+    EXPECT_TRUE(noVoice == 0 && noRelief == 0);
 }
 
 TEST(ArgumentTest, ClosingANullHandleIsFine) {
-    haptoflow_runtime* runtime = nullptr;
-    haptoflow_model* model = nullptr;
-    haptoflow_generator* generator = nullptr;
-    haptoflow_engine* engine = nullptr;
-    haptoflow_cancellation* cancellation = nullptr;
+    const RuntimeHandle runtime;
+    const ModelHandle model;
+    const Handle<haptoflow_material, haptoflow_material_close> material;
+    const GeneratorHandle generator;
+    const EngineHandle engine;
+    const CancellationHandle cancellation;
     haptoflow_voice voice = 0;
-    EXPECT_EQ(haptoflow_cancellation_close(&cancellation), HAPTOFLOW_OK);
-    EXPECT_EQ(haptoflow_runtime_close(&runtime), HAPTOFLOW_OK);
-    EXPECT_EQ(haptoflow_model_close(&model), HAPTOFLOW_OK);
-    haptoflow_material* material = nullptr;
-    EXPECT_EQ(haptoflow_material_close(&material), HAPTOFLOW_OK);
-    EXPECT_EQ(haptoflow_generator_close(&generator), HAPTOFLOW_OK);
-    EXPECT_EQ(haptoflow_engine_close(&engine), HAPTOFLOW_OK);
     EXPECT_EQ(haptoflow_voice_destroy(&voice), HAPTOFLOW_OK);
     haptoflow_relief relief = 0;
     EXPECT_EQ(haptoflow_relief_destroy(&relief), HAPTOFLOW_OK);
@@ -314,7 +287,7 @@ TEST_F(HandleTest, InvalidHandlesAreDetectedAndNotDereferenced) {
         uint32_t count = 0;
         EXPECT_EQ(haptoflow_model_label_count(invented<haptoflow_model>(number), &count), HAPTOFLOW_INVALID_ARGUMENT);
         EXPECT_THAT(message(), ::testing::HasSubstr("not an open model handle"));
-        auto options = generatorOptions();
+        auto options = generatorOptions(runtime_, model_);
         options.runtime = invented<haptoflow_runtime>(number);
         haptoflow_generator* generator = nullptr;
         EXPECT_EQ(haptoflow_generator_create(&options, &generator), HAPTOFLOW_INVALID_ARGUMENT);
@@ -324,10 +297,10 @@ TEST_F(HandleTest, InvalidHandlesAreDetectedAndNotDereferenced) {
 }
 
 TEST_F(HandleTest, ACopyOfAClosedHandleIsRefusedEvenAfterAnotherIsOpened) {
-    haptoflow_model* first = openTinyModel();
+    haptoflow_model* first = openModel(tinyModelPath);
     haptoflow_model* copy = first;
     ASSERT_EQ(haptoflow_model_close(&first), HAPTOFLOW_OK);
-    haptoflow_model* second = openTinyModel();
+    haptoflow_model* second = openModel(tinyModelPath);
     uint32_t count = 0;
     EXPECT_EQ(haptoflow_model_label_count(copy, &count), HAPTOFLOW_INVALID_ARGUMENT);
     EXPECT_EQ(haptoflow_model_close(&copy), HAPTOFLOW_INVALID_ARGUMENT);
@@ -337,7 +310,7 @@ TEST_F(HandleTest, ACopyOfAClosedHandleIsRefusedEvenAfterAnotherIsOpened) {
 
 TEST_F(HandleTest, AStructOfAnotherSizeIsRefusedAndKeepsItsContent) {
     haptoflow_tier_info info{};
-    auto options = generatorOptions();
+    auto options = generatorOptions(runtime_, model_);
     for (const std::size_t size : {std::size_t{0}, sizeof(info) + 8, sizeof(options) - 8, sizeof(options) + 16}) {
         options.struct_size = static_cast<uint32_t>(size);
         haptoflow_generator* generator = nullptr;
@@ -353,11 +326,12 @@ TEST_F(HandleTest, AStructOfAnotherSizeIsRefusedAndKeepsItsContent) {
 
 TEST_F(HandleTest, ARuntimeNeedsExactlyOneSource) {
     haptoflow_runtime* runtime = nullptr;
+    auto options = sized<haptoflow_runtime_options>();
+    EXPECT_EQ(haptoflow_runtime_open(&options, &runtime), HAPTOFLOW_INVALID_ARGUMENT);
     const int notAnApi = 0;
-    const haptoflow_runtime_options neither{sizeof(neither), nullptr, nullptr, nullptr, nullptr};
-    EXPECT_EQ(haptoflow_runtime_open(&neither, &runtime), HAPTOFLOW_INVALID_ARGUMENT);
-    const haptoflow_runtime_options both{sizeof(both), &notAnApi, HAPTOFLOW_TEST_ONNXRUNTIME, nullptr, nullptr};
-    EXPECT_EQ(haptoflow_runtime_open(&both, &runtime), HAPTOFLOW_INVALID_ARGUMENT);
+    options.ort_api_base = &notAnApi;
+    options.library_path = HAPTOFLOW_TEST_ONNXRUNTIME;
+    EXPECT_EQ(haptoflow_runtime_open(&options, &runtime), HAPTOFLOW_INVALID_ARGUMENT);
     EXPECT_EQ(runtime, nullptr);
 }
 

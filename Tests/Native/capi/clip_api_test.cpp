@@ -14,23 +14,14 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// A sine of 150 Hz and 20 m/s^2.
 std::vector<float> hum(double seconds, double rateHz = 2000.0) {
-    std::vector<float> wave(static_cast<std::size_t>(seconds * rateHz));
-    for (std::size_t i = 0; i < wave.size(); ++i) {
-        wave[i] = static_cast<float>(20.0 * std::sin(2.0 * std::numbers::pi * 150.0 * static_cast<double>(i) / rateHz));
-    }
-    return wave;
+    return haptoflow::testing::sine(150.0, 20.0, seconds, rateHz);
 }
 
 class ClipApiTest : public ::testing::Test {
 protected:
-    void SetUp() override { humming = create(hum(0.5)); }
-    void TearDown() override { EXPECT_EQ(haptoflow_clip_close(&humming), HAPTOFLOW_OK) << message(); }
-
     static haptoflow_clip* create(const std::vector<float>& wave, uint32_t rateHz = 0) {
-        haptoflow_clip_options options{};
-        options.struct_size = sizeof(options);
+        auto options = sized<haptoflow_clip_options>();
         options.sample_rate_hz = rateHz;
         options.wave_mps2 = wave.data();
         options.sample_count = wave.size();
@@ -41,8 +32,7 @@ protected:
         return clip;
     }
     static haptoflow_clip_info describe(const haptoflow_clip* clip) {
-        haptoflow_clip_info info{};
-        info.struct_size = sizeof(info);
+        auto info = sized<haptoflow_clip_info>();
         EXPECT_EQ(haptoflow_clip_describe(clip, &info), HAPTOFLOW_OK) << message();
         return info;
     }
@@ -57,24 +47,17 @@ protected:
         EXPECT_EQ(haptoflow_voice_play_clip(opened.voice, clip, gain, isLoop), HAPTOFLOW_OK) << message();
     }
     /// Seconds of a stylus in the air.
-    std::vector<float> hover(double seconds) {
-        std::vector<float> output;
-        for (int update = 0; update < static_cast<int>(seconds * 72.0); ++update) {
-            const std::vector<float> next = opened.update(liftedState());
-            output.insert(output.end(), next.begin(), next.end());
-        }
-        return output;
-    }
+    std::vector<float> hover(double seconds) { return opened.play(static_cast<int>(seconds * 72.0), liftedState()); }
 
     OpenEngine opened{tinyModelPath};
-    haptoflow_clip* humming = nullptr;
+    ClipHandle humming{create(hum(0.5))};
 };
 
 TEST_F(ClipApiTest, AWaveIsWrittenAndReadInEveryFormat) {
     for (const haptoflow_clip_format format : {HAPTOFLOW_CLIP_HAPTIC, HAPTOFLOW_CLIP_AHAP, HAPTOFLOW_CLIP_HJIF}) {
         const std::string text = write(humming, format);
-        haptoflow_clip* read = nullptr;
-        ASSERT_EQ(haptoflow_clip_read(text.data(), text.size(), &read), HAPTOFLOW_OK) << message();
+        ClipHandle read;
+        ASSERT_EQ(haptoflow_clip_read(text.data(), text.size(), read.out()), HAPTOFLOW_OK) << message();
         const haptoflow_clip_info info = describe(read);
         EXPECT_EQ(info.format, format);
         EXPECT_NEAR(info.duration_seconds, 0.5, 0.03);
@@ -84,7 +67,6 @@ TEST_F(ClipApiTest, AWaveIsWrittenAndReadInEveryFormat) {
         ASSERT_EQ(haptoflow_clip_curves(read, 11, amplitude.data(), frequency.data()), HAPTOFLOW_OK) << message();
         EXPECT_NEAR(frequency[5], 150.0F, 6.0F);
         EXPECT_NEAR(amplitude[5], describe(humming).largest_amplitude, 0.05F);
-        EXPECT_EQ(haptoflow_clip_close(&read), HAPTOFLOW_OK);
     }
 }
 
@@ -101,7 +83,7 @@ TEST_F(ClipApiTest, TheWaveComesBackInMetresPerSecondSquaredAtAnyRate) {
 }
 
 TEST_F(ClipApiTest, AFasterWaveGivesTheSameClip) {
-    haptoflow_clip* fast = create(hum(0.5, 48000.0), 48000);
+    const ClipHandle fast(create(hum(0.5, 48000.0), 48000));
     std::array<float, 9> slowCurve{};
     std::array<float, 9> fastCurve{};
     EXPECT_EQ(haptoflow_clip_curves(humming, 9, slowCurve.data(), nullptr), HAPTOFLOW_OK);
@@ -109,7 +91,6 @@ TEST_F(ClipApiTest, AFasterWaveGivesTheSameClip) {
     for (std::size_t i = 1; i < 8; ++i) {
         EXPECT_NEAR(fastCurve[i], slowCurve[i], 0.02F) << i;
     }
-    EXPECT_EQ(haptoflow_clip_close(&fast), HAPTOFLOW_OK);
 }
 
 TEST_F(ClipApiTest, WhatIsNoClipIsRefusedWithTheKey) {
@@ -124,8 +105,7 @@ TEST_F(ClipApiTest, WhatIsNoClipIsRefusedWithTheKey) {
     EXPECT_EQ(haptoflow_clip_write(humming, 0, "", few.data(), few.size(), &length), HAPTOFLOW_INVALID_ARGUMENT);
     EXPECT_THAT(message(), HasSubstr("capacity is 4"));
     EXPECT_EQ(haptoflow_voice_play_clip(opened.voice, humming, std::nanf(""), 0), HAPTOFLOW_INVALID_ARGUMENT);
-    haptoflow_clip_options options{};
-    options.struct_size = sizeof(options);
+    auto options = sized<haptoflow_clip_options>();
     options.sample_rate_hz = 3000;
     EXPECT_EQ(haptoflow_clip_create(&options, &read), HAPTOFLOW_INVALID_ARGUMENT);
     EXPECT_THAT(message(), HasSubstr("sample_rate_hz is 3000"));
@@ -140,9 +120,7 @@ TEST_F(ClipApiTest, AClipSoundsWithoutContactAtItsLevelAndEnds) {
     const auto middle = output.begin() + 12000;
     EXPECT_NEAR(*std::max_element(middle, middle + 4800), 20.0F / HAPTOFLOW_DEFAULT_FULL_SCALE_MPS2, 0.01F);
     EXPECT_EQ(peak(std::vector<float>(output.begin() + 26000, output.end())), 0.0F);
-    haptoflow_effect_statistics statistics{};
-    statistics.struct_size = sizeof(statistics);
-    EXPECT_EQ(haptoflow_voice_effect_statistics(opened.voice, HAPTOFLOW_EFFECT_CLIP, &statistics), HAPTOFLOW_OK);
+    const haptoflow_effect_statistics statistics = opened.effect(HAPTOFLOW_EFFECT_CLIP);
     EXPECT_EQ(statistics.events, 1U);
     EXPECT_GT(statistics.samples, 23000U);
 }
@@ -154,9 +132,7 @@ TEST_F(ClipApiTest, AVoiceThatWasNeverToldOfAContactPlaysOneToo) {
 
 TEST_F(ClipApiTest, WithoutAClipNothingOfItRuns) {
     (void)hover(0.2);
-    haptoflow_effect_statistics statistics{};
-    statistics.struct_size = sizeof(statistics);
-    EXPECT_EQ(haptoflow_voice_effect_statistics(opened.voice, HAPTOFLOW_EFFECT_CLIP, &statistics), HAPTOFLOW_OK);
+    const haptoflow_effect_statistics statistics = opened.effect(HAPTOFLOW_EFFECT_CLIP);
     EXPECT_EQ(statistics.runs + statistics.prepared + statistics.events, 0U);
 }
 
@@ -191,26 +167,21 @@ TEST_F(ClipApiTest, ALoopGoesOnUntilItIsEnded) {
 TEST_F(ClipApiTest, ReplacedOrEndedInTheMiddleItMakesNoStep) {
     play(humming, 1.0F, 1);
     std::vector<float> output = hover(0.3);
-    haptoflow_clip* other = create(hum(0.2));
-    for (int round = 0; round < 20; ++round) {
-        play(round % 3 == 2 ? nullptr : other);
-        const std::vector<float> next = hover(0.03 + 0.001 * round);
+    const ClipHandle other(create(hum(0.2)));
+    const std::array<haptoflow_clip*, 3> inTurn{other, other, nullptr};
+    for (std::size_t round = 0; round < 20; ++round) {
+        play(inTurn[round % 3]);
+        const std::vector<float> next = hover(0.03 + 0.001 * static_cast<double>(round));
         output.insert(output.end(), next.begin(), next.end());
     }
-    EXPECT_EQ(haptoflow_clip_close(&other), HAPTOFLOW_OK);
-    float largest = 0.0F;
-    for (std::size_t i = 1; i < output.size(); ++i) {
-        largest = std::max(largest, std::abs(output[i] - output[i - 1]));
-    }
     // The wave's own steps are below 0.005; the tail of an ended one begins with 4 % of its value, up to 0.2.
-    EXPECT_LT(largest, 0.016F);
+    EXPECT_LT(largestStep(output), 0.016F);
 }
 
 TEST_F(ClipApiTest, AClosedClipPlaysToItsEndAndManyInOneBlockLeaveTheLast) {
     for (int i = 0; i < 5; ++i) {
-        haptoflow_clip* each = create(hum(0.3));
+        const ClipHandle each(create(hum(0.3)));
         play(each, 0.1F * static_cast<float>(i + 1));
-        EXPECT_EQ(haptoflow_clip_close(&each), HAPTOFLOW_OK);
     }
     const std::vector<float> output = hover(0.25);
     EXPECT_NEAR(peak(std::vector<float>(output.begin() + 4800, output.end())), 0.05F, 0.01F);
@@ -252,7 +223,7 @@ TEST_F(ClipApiTest, AnotherDeviceRateEndsItAndTheNextSounds) {
     for (int block = 0; block < 20; ++block) {
         opened.publish(liftedState());
         (void)opened.render(480, 44100.0);
-        EXPECT_EQ(haptoflow_engine_step(opened.engine), HAPTOFLOW_OK);
+        opened.step();
     }
     play(humming);
     EXPECT_GT(peak(opened.render(4410, 44100.0)), 0.05F);

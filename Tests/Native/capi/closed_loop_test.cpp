@@ -7,6 +7,7 @@
 #include <complex>
 #include <cstdlib>
 #include <numbers>
+#include <numeric>
 #include <string>
 
 namespace haptoflow::capi::testing {
@@ -49,15 +50,10 @@ std::vector<double> meanSpectrum(const std::vector<float>& waveform) {
 
 /// Goodness-of-fit coefficient: the cosine between two spectra.
 double goodnessOfFit(const std::vector<double>& first, const std::vector<double>& second) {
-    double product = 0.0;
-    double firstSquares = 0.0;
-    double secondSquares = 0.0;
-    for (std::size_t bin = 0; bin < first.size(); ++bin) {
-        product += first[bin] * second[bin];
-        firstSquares += first[bin] * first[bin];
-        secondSquares += second[bin] * second[bin];
-    }
-    return product / std::sqrt(firstSquares * secondSquares);
+    const auto product = [](const std::vector<double>& one, const std::vector<double>& other) {
+        return std::inner_product(one.begin(), one.end(), other.begin(), 0.0);
+    };
+    return product(first, second) / std::sqrt(product(first, first) * product(second, second));
 }
 
 class ClosedLoopTest : public ::testing::TestWithParam<uint32_t> {};
@@ -77,7 +73,7 @@ TEST_P(ClosedLoopTest, LevelAndSpectrumStayConstantForAConstantInput) {
     for (uint32_t update = 0; rendered < seconds; ++update) {
         open.publish(state);
         (void)open.render(0, outputHz);
-        ASSERT_EQ(haptoflow_engine_step(open.engine), HAPTOFLOW_OK) << message();
+        open.step();
         const auto frames =
             static_cast<uint32_t>(outputHz * (update + 1) / 72.0) - static_cast<uint32_t>(outputHz * update / 72.0);
         const std::vector<float> block = open.render(frames, outputHz);

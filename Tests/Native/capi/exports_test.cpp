@@ -55,7 +55,7 @@ TEST(ExportsTest, TheLibraryContainsTheEngineAndNothingOfTheHeadlessContactModel
 }
 
 TEST(ExportsTest, EveryFunctionOfTheHeaderHasACommentWithOneThreadTag) {
-    const std::string text = headerText();
+    const std::string text = textOf(HAPTOFLOW_TEST_HEADER);
     const std::regex beginning(R"(\nHAPTOFLOW_API )");
     const auto count = std::distance(std::sregex_iterator(text.begin(), text.end(), beginning), std::sregex_iterator());
     const auto functions = declaredFunctions();

@@ -71,41 +71,35 @@ struct Golden {
 
 class GeneratorApiTest : public WithTinyModel {
 protected:
-    void TearDown() override {
-        EXPECT_EQ(haptoflow_generator_close(&generator_), HAPTOFLOW_OK);
-        WithTinyModel::TearDown();
-    }
-
-    void create(haptoflow_generator_options options) {
-        ASSERT_EQ(haptoflow_generator_create(&options, &generator_), HAPTOFLOW_OK) << message();
-    }
-
     void createMidpointOfThreeSteps() {
-        create(generatorOptions("standard"));
+        const auto options = generatorOptions(runtime_, model_, "standard");
+        ASSERT_EQ(haptoflow_generator_create(&options, generator_.out()), HAPTOFLOW_OK) << message();
         ASSERT_EQ(haptoflow_generator_set_solver(generator_, HAPTOFLOW_SOLVER_MIDPOINT, 3), HAPTOFLOW_OK);
     }
 
+    /// Generates into `segments_`.
+    haptoflow_status generate(const haptoflow_batch& batch) {
+        return haptoflow_generator_generate(generator_, &batch, segments_.data());
+    }
+
     void expectGoldenSegments() {
-        std::vector<float> segments(3 * samples);
-        const haptoflow_batch batch = golden_.batch();
-        ASSERT_EQ(haptoflow_generator_generate(generator_, &batch, segments.data()), HAPTOFLOW_OK) << message();
-        for (std::size_t index = 0; index < segments.size(); ++index) {
-            ASSERT_NEAR(segments[index], golden_.segments[index], 1e-5F * golden_.levels[index / samples]) << index;
+        ASSERT_EQ(generate(golden_.batch()), HAPTOFLOW_OK) << message();
+        for (std::size_t index = 0; index < segments_.size(); ++index) {
+            ASSERT_NEAR(segments_[index], golden_.segments[index], 1e-5F * golden_.levels[index / samples]) << index;
         }
     }
 
     Golden golden_;
-    haptoflow_generator* generator_ = nullptr;
+    GeneratorHandle generator_;
+    std::vector<float> segments_ = std::vector<float>(3 * samples);
 };
 
 TEST_F(GeneratorApiTest, TheSolverCanBeChangedAndResetToTheTiersOwn) {
     createMidpointOfThreeSteps();
     expectGoldenSegments();
     ASSERT_EQ(haptoflow_generator_set_solver(generator_, HAPTOFLOW_SOLVER_OF_TIER, 0), HAPTOFLOW_OK);
-    std::vector<float> segments(3 * samples);
-    const haptoflow_batch batch = golden_.batch();
-    ASSERT_EQ(haptoflow_generator_generate(generator_, &batch, segments.data()), HAPTOFLOW_OK);
-    EXPECT_NE(segments, golden_.segments);
+    ASSERT_EQ(generate(golden_.batch()), HAPTOFLOW_OK);
+    EXPECT_NE(segments_, golden_.segments);
     EXPECT_EQ(haptoflow_generator_set_solver(generator_, HAPTOFLOW_SOLVER_OF_TIER, 2), HAPTOFLOW_INVALID_ARGUMENT);
     EXPECT_EQ(haptoflow_generator_set_solver(generator_, HAPTOFLOW_SOLVER_EULER, 17), HAPTOFLOW_INVALID_ARGUMENT);
     EXPECT_EQ(haptoflow_generator_set_solver(generator_, 9, 1), HAPTOFLOW_INVALID_ARGUMENT);
@@ -113,17 +107,16 @@ TEST_F(GeneratorApiTest, TheSolverCanBeChangedAndResetToTheTiersOwn) {
 
 TEST_F(GeneratorApiTest, TheNoiseOfALatentIsRefusedByATierThatHasNone) {
     createMidpointOfThreeSteps();
-    std::vector<float> segments(3 * samples);
     haptoflow_batch batch = golden_.batch();
-    batch.latent_noise = segments.data();
-    EXPECT_EQ(haptoflow_generator_generate(generator_, &batch, segments.data()), HAPTOFLOW_INVALID_ARGUMENT);
+    batch.latent_noise = segments_.data();
+    EXPECT_EQ(generate(batch), HAPTOFLOW_INVALID_ARGUMENT);
     EXPECT_THAT(message(), HasSubstr("latent_noise"));
 }
 
 TEST_F(GeneratorApiTest, AGeneratorOutlivesItsRuntimeAndItsModel) {
     createMidpointOfThreeSteps();
-    ASSERT_EQ(haptoflow_model_close(&model_), HAPTOFLOW_OK);
-    ASSERT_EQ(haptoflow_runtime_close(&runtime_), HAPTOFLOW_OK);
+    ASSERT_EQ(haptoflow_model_close(model_.out()), HAPTOFLOW_OK);
+    ASSERT_EQ(haptoflow_runtime_close(runtime_.out()), HAPTOFLOW_OK);
     expectGoldenSegments();
 }
 
@@ -154,117 +147,58 @@ TEST_F(GeneratorApiTest, AGeneratorServesThreadsOneAfterTheOther) {
 TEST_F(GeneratorApiTest, NoiseThatIsNotFiniteIsAnInferenceFailure) {
     createMidpointOfThreeSteps();
     golden_.noise[5] = std::nanf("");
-    std::vector<float> segments(3 * samples);
-    const haptoflow_batch batch = golden_.batch();
-    EXPECT_EQ(haptoflow_generator_generate(generator_, &batch, segments.data()), HAPTOFLOW_INFERENCE_FAILED);
+    EXPECT_EQ(generate(golden_.batch()), HAPTOFLOW_INFERENCE_FAILED);
     EXPECT_THAT(message(), HasSubstr("not finite"));
 }
 
 TEST_F(GeneratorApiTest, AnUnknownTierIsRefused) {
-    const auto options = generatorOptions("ultra");
-    EXPECT_EQ(haptoflow_generator_create(&options, &generator_), HAPTOFLOW_INVALID_ARGUMENT);
+    const auto options = generatorOptions(runtime_, model_, "ultra");
+    EXPECT_EQ(haptoflow_generator_create(&options, generator_.out()), HAPTOFLOW_INVALID_ARGUMENT);
     EXPECT_THAT(message(), HasSubstr("\"ultra\""));
-    EXPECT_EQ(generator_, nullptr);
+    EXPECT_FALSE(generator_);
 }
 
 TEST_F(GeneratorApiTest, ABatchAboveTheLimitIsRefused) {
-    auto options = generatorOptions();
+    auto options = generatorOptions(runtime_, model_);
     options.maximum_batch = HAPTOFLOW_MAXIMUM_BATCH + 1;
-    EXPECT_EQ(haptoflow_generator_create(&options, &generator_), HAPTOFLOW_INVALID_ARGUMENT);
+    EXPECT_EQ(haptoflow_generator_create(&options, generator_.out()), HAPTOFLOW_INVALID_ARGUMENT);
 }
 
 TEST(RuntimeApiTest, TheApiBaseOfALibraryLoadedByTheCallerIsAccepted) {
     // Never closed, so that a leak checker still knows the library whose memory ONNX Runtime keeps until the end.
     static const auto& library = *new haptoflow::testing::DynamicLibrary(HAPTOFLOW_TEST_ONNXRUNTIME);
     const auto getApiBase = library.function<const OrtApiBase* (*)()>("OrtGetApiBase");
-    const haptoflow_runtime_options options{sizeof(options), getApiBase(), nullptr, nullptr, nullptr};
-    haptoflow_runtime* runtime = nullptr;
-    EXPECT_EQ(haptoflow_runtime_open(&options, &runtime), HAPTOFLOW_OK) << message();
-    EXPECT_EQ(haptoflow_runtime_close(&runtime), HAPTOFLOW_OK);
+    auto options = sized<haptoflow_runtime_options>();
+    options.ort_api_base = getApiBase();
+    RuntimeHandle runtime;
+    EXPECT_EQ(haptoflow_runtime_open(&options, runtime.out()), HAPTOFLOW_OK) << message();
 }
 
 TEST(RuntimeApiTest, TheErrorForAMissingLibraryNamesIt) {
-    const haptoflow_runtime_options options{sizeof(options), nullptr, "/nowhere/libonnxruntime.so", nullptr, nullptr};
+    auto options = sized<haptoflow_runtime_options>();
+    options.library_path = "/nowhere/libonnxruntime.so";
     haptoflow_runtime* runtime = nullptr;
     EXPECT_EQ(haptoflow_runtime_open(&options, &runtime), HAPTOFLOW_RUNTIME_UNAVAILABLE);
     EXPECT_THAT(message(), ::testing::StartsWith("/nowhere/libonnxruntime.so"));
     EXPECT_EQ(runtime, nullptr);
 }
 
-}  // namespace
-}  // namespace haptoflow::capi::testing
-
 // A model with the tiers `sketch` (kind `skeleton`) and `standard` (kind `refine`), with and without ONNX Runtime.
-
-namespace haptoflow::capi::testing {
-namespace {
-
-using ::testing::HasSubstr;
 
 class SkeletonApiTest : public ::testing::Test {
 protected:
-    SkeletonApiTest() {
-        const haptoflow_model_options options{sizeof(options), nullptr, 0,
-                                              HAPTOFLOW_TEST_GOLDEN_DIR "/model/skeleton.haptoflow"};
-        EXPECT_EQ(haptoflow_model_open(&options, &model_), HAPTOFLOW_OK) << message();
-    }
-    void TearDown() override {
-        EXPECT_EQ(haptoflow_engine_close(&engine_), HAPTOFLOW_OK);
-        EXPECT_EQ(haptoflow_generator_close(&generator_), HAPTOFLOW_OK);
-        EXPECT_EQ(haptoflow_model_close(&model_), HAPTOFLOW_OK);
+    haptoflow_status createEngine(haptoflow_quality quality, bool hasWorker = false) {
+        const auto options = engineOptions(nullptr, model_, quality, hasWorker);
+        return haptoflow_engine_create(&options, engine_.out());
     }
 
-    haptoflow_status createEngine(haptoflow_quality quality, bool hasWorker = false,
-                                  const haptoflow_runtime* runtime = nullptr) {
-        haptoflow_engine_options options{};
-        options.struct_size = sizeof(options);
-        options.quality = quality;
-        options.runtime = runtime;
-        options.model = model_;
-        options.seed = 1;
-        options.without_worker = hasWorker ? 0 : 1;
-        options.fixed_lead_ms = hasWorker ? 0.0 : 8.0;
-        return haptoflow_engine_create(&options, &engine_);
-    }
-
-    /// Slides over a label for half a second; returns the sound after the first tenth.
-    std::vector<float> slide(uint32_t label, float variation = 0.0F, uint32_t surfaceSeed = 0) {
-        haptoflow_voice voice = 0;
-        EXPECT_EQ(haptoflow_voice_create(engine_, 48000.0, &voice), HAPTOFLOW_OK) << message();
-        haptoflow_contact_state state = slidingState();
-        state.labels[0] = label;
-        state.surface_seed = surfaceSeed;
-        state.variation = variation;
-        std::vector<float> sound;
-        for (int update = 0; update < 36; ++update) {
-            EXPECT_EQ(haptoflow_voice_publish(voice, &state), HAPTOFLOW_OK) << message();
-            std::vector<float> block(667);
-            EXPECT_EQ(haptoflow_voice_render(voice, block.data(), 1, 1, 0, 48000.0), HAPTOFLOW_OK);
-            EXPECT_EQ(haptoflow_engine_step(engine_), HAPTOFLOW_OK) << message();
-            EXPECT_EQ(haptoflow_voice_render(voice, block.data() + 1, 666, 1, 0, 48000.0), HAPTOFLOW_OK);
-            if (update >= 7) {
-                sound.insert(sound.end(), block.begin(), block.end());
-            }
-        }
-        haptoflow_voice_statistics statistics{};
-        statistics.struct_size = sizeof(statistics);
-        EXPECT_EQ(haptoflow_voice_get_statistics(voice, &statistics), HAPTOFLOW_OK);
-        EXPECT_EQ(statistics.inferences, 36U);
-        EXPECT_EQ(statistics.underruns, 0U);
-        sanitised_ = statistics.sanitised;
-        EXPECT_EQ(haptoflow_voice_destroy(&voice), HAPTOFLOW_OK);
-        return sound;
-    }
-
-    haptoflow_model* model_ = nullptr;
-    haptoflow_engine* engine_ = nullptr;
-    haptoflow_generator* generator_ = nullptr;
-    uint64_t sanitised_ = 0;
+    ModelHandle model_{openModel(HAPTOFLOW_TEST_GOLDEN_DIR "/model/skeleton.haptoflow")};
+    EngineHandle engine_;
+    GeneratorHandle generator_;
 };
 
 TEST_F(SkeletonApiTest, TheKindsOfTheTiersAreTold) {
-    haptoflow_tier_info info{};
-    info.struct_size = sizeof(info);
+    auto info = sized<haptoflow_tier_info>();
     ASSERT_EQ(haptoflow_model_tier(model_, 0, &info), HAPTOFLOW_OK);
     EXPECT_STREQ(info.kind, "skeleton");
     EXPECT_EQ(info.steps, 1);
@@ -275,19 +209,28 @@ TEST_F(SkeletonApiTest, TheKindsOfTheTiersAreTold) {
 TEST_F(SkeletonApiTest, ASketchLoadsAndPlaysWithoutOnnxRuntime) {
     ASSERT_EQ(createEngine(HAPTOFLOW_QUALITY_SKETCH), HAPTOFLOW_OK) << message();
     for (const uint32_t label : {0U, 1U}) {
-        const std::vector<float> sound = slide(label);
-        EXPECT_TRUE(allFinite(sound));
+        haptoflow_voice voice = 0;
+        ASSERT_EQ(haptoflow_voice_create(engine_, 48000.0, &voice), HAPTOFLOW_OK) << message();
+        haptoflow_contact_state state = slidingState();
+        state.labels[0] = label;
+        std::vector<float> sound(667);
+        for (int update = 0; update < 36; ++update) {
+            ASSERT_EQ(haptoflow_voice_publish(voice, &state), HAPTOFLOW_OK) << message();
+            ASSERT_EQ(haptoflow_voice_render(voice, sound.data(), 1, 1, 0, 48000.0), HAPTOFLOW_OK);
+            ASSERT_EQ(haptoflow_engine_step(engine_), HAPTOFLOW_OK) << message();
+            ASSERT_EQ(haptoflow_voice_render(voice, sound.data() + 1, 666, 1, 0, 48000.0), HAPTOFLOW_OK);
+            EXPECT_TRUE(allFinite(sound));
+        }
         EXPECT_GT(peak(sound), 1e-4F) << label;
+        EXPECT_EQ(statisticsOf(voice).inferences, 36U);
+        EXPECT_EQ(statisticsOf(voice).underruns, 0U);
     }
 }
 
 TEST_F(SkeletonApiTest, AutomaticQualityWithoutOnnxRuntimeTakesTheSketch) {
     ASSERT_EQ(createEngine(HAPTOFLOW_QUALITY_AUTO, true), HAPTOFLOW_OK) << message();
-    haptoflow_engine_statistics statistics{};
-    statistics.struct_size = sizeof(statistics);
-    ASSERT_EQ(haptoflow_engine_get_statistics(engine_, &statistics), HAPTOFLOW_OK);
-    EXPECT_EQ(statistics.tier, 0U);
-    EXPECT_EQ(statistics.is_measuring, 0U);
+    EXPECT_EQ(statisticsOf(engine_).tier, 0U);
+    EXPECT_EQ(statisticsOf(engine_).is_measuring, 0U);
     EXPECT_EQ(haptoflow_engine_set_quality(engine_, HAPTOFLOW_QUALITY_AUTO), HAPTOFLOW_OK) << message();
     EXPECT_EQ(haptoflow_engine_set_quality(engine_, HAPTOFLOW_QUALITY_STANDARD), HAPTOFLOW_INVALID_ARGUMENT);
     EXPECT_THAT(message(), HasSubstr("\"standard\" needs ONNX Runtime"));
@@ -300,11 +243,8 @@ TEST_F(SkeletonApiTest, ARefinedTierWithoutOnnxRuntimeIsRefused) {
 }
 
 TEST_F(SkeletonApiTest, AGeneratorOfTheSketchReadsThePhasesOfABatch) {
-    haptoflow_generator_options options{};
-    options.struct_size = sizeof(options);
-    options.model = model_;
-    options.tier = "sketch";
-    ASSERT_EQ(haptoflow_generator_create(&options, &generator_), HAPTOFLOW_OK) << message();
+    const auto options = generatorOptions(nullptr, model_, "sketch");
+    ASSERT_EQ(haptoflow_generator_create(&options, generator_.out()), HAPTOFLOW_OK) << message();
     std::mt19937 random(1);
     std::normal_distribution<float> normal;
     // Two requests that differ in their phases only, on the ruled label.

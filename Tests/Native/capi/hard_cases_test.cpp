@@ -2,7 +2,7 @@
 // case the output is finite, within +-1 and without a step, and it is silent within a block and 5 ms after the end of
 // contact.
 
-#include "output_checks.hpp"
+#include "open_engine.hpp"
 
 #include "headless/contact_tracker.hpp"
 #include "headless/test_scenes.hpp"
@@ -13,11 +13,71 @@
 #include <limits>
 #include <numbers>
 #include <random>
+#include <span>
 #include <string>
 #include <tuple>
 
 namespace haptoflow::capi::testing {
 namespace {
+
+/// -60 dB.
+constexpr float silence = 0.001F;
+/// 0.04 m/s^2 at the default full scale: four times the fingertip's lowest detection threshold.
+constexpr float perceptibleLevel = 0.0002F;
+
+/// The signal before the limiter, whose curve is a hyperbola from the knee at 0.7 towards 1.
+std::vector<float> unlimited(const std::vector<float>& output) {
+    constexpr float knee = 0.7F;
+    constexpr float headroom = 1.0F - knee;
+    std::vector<float> given = output;
+    for (float& sample : given) {
+        const float magnitude = std::abs(sample);
+        if (magnitude > knee) {
+            sample = std::copysign(knee - headroom + headroom * headroom / (1.0F - magnitude), sample);
+        }
+    }
+    return given;
+}
+
+/// Expects that the signal, from its beginning, has no step larger than resampler and gate can produce.
+void expectNoStep(const std::vector<float>& output) {
+    const std::vector<float> wave = unlimited(output);
+    EXPECT_LE(largestStepFrom(0.0F, wave), haptoflow::testing::steepestStep(48000.0) * peak(wave));
+}
+
+/// Lifts off and appends the remaining output: below -60 dB after a block and 5 ms, and exactly zero after that.
+void expectSilenceAfterLiftOff(OpenEngine& open, uint32_t touchCounter, std::vector<float>& output) {
+    const std::vector<float> fade = open.update(liftedState(touchCounter), 256 + 240);
+    const std::vector<float> end = open.render(4800);
+    EXPECT_LT(peak(std::span(fade).subspan(256)), silence) << "after the end of contact";
+    EXPECT_EQ(peak(end), 0.0F) << "after the end of contact";
+    output.insert(output.end(), fade.begin(), fade.end());
+    output.insert(output.end(), end.begin(), end.end());
+}
+
+/// Appends a part of the output after checking that it is finite and within +-1.
+void appendChecked(std::vector<float>& output, const std::vector<float>& part, uint32_t update) {
+    EXPECT_TRUE(allFinite(part)) << "update " << update;
+    EXPECT_LE(peak(part), 1.0F) << "update " << update;
+    output.insert(output.end(), part.begin(), part.end());
+}
+
+/// A model and a quality for hard cases.
+struct Subject {
+    const char* name;
+    const std::string* modelPath;
+    haptoflow_quality quality;
+};
+
+const auto subjects = ::testing::Values(Subject{"ShippedDraft", &defaultModelPath, HAPTOFLOW_QUALITY_DRAFT},
+                                        Subject{"ShippedStandard", &defaultModelPath, HAPTOFLOW_QUALITY_STANDARD},
+                                        Subject{"ShippedSketch", &defaultModelPath, HAPTOFLOW_QUALITY_SKETCH},
+                                        Subject{"Untrained", &tinyModelPath, HAPTOFLOW_QUALITY_DRAFT});
+
+/// The test name of a subject and a named case.
+const auto subjectAndCaseName = [](const auto& parameters) {
+    return std::string(std::get<0>(parameters.param).name) + std::get<1>(parameters.param).name;
+};
 
 using State = haptoflow_contact_state;
 
@@ -74,6 +134,19 @@ State blend(std::initializer_list<std::pair<uint32_t, float>> entries) {
     return state;
 }
 
+std::function<State(uint32_t)> blended(std::initializer_list<std::pair<uint32_t, float>> entries) {
+    return [state = blend(entries)](uint32_t) { return state; };
+}
+
+/// A tip that slides, in a state of its own for each update.
+std::function<State(uint32_t)> sliding(const std::function<void(State&, uint32_t)>& change) {
+    return [change](uint32_t update) {
+        State state = slidingState();
+        change(state, update);
+        return state;
+    };
+}
+
 std::vector<HardCase> hardCases() {
     // Speeds that become 0 stop every third update: the first stop begins a touch, and 28 resume it.
     constexpr uint32_t stops = 29;
@@ -92,36 +165,19 @@ std::vector<HardCase> hardCases() {
         {"LargestFloatInEveryField", everyField(std::numeric_limits<float>::max()), 72.0, true},
         {.name = "DenormalsInEveryField", .state = everyField(denormal), .onsets = stops},
         {"NegativeForce", corrupted([](State& state) { state.force_newtons = -3.0F; }), 72.0, true},
-        {"WeightsZero",
-         [](uint32_t) {
-             return blend({{0, 0.0F}, {1, 0.0F}});
-         }},
-        {"WeightsNegative",
-         [](uint32_t) {
-             return blend({{0, -1.0F}, {1, 0.5F}});
-         },
-         72.0, true},
-        {"WeightsNotSummingToOne",
-         [](uint32_t) {
-             return blend({{0, 0.9F}, {1, 0.8F}, {2, 0.7F}});
-         }},
-        {"LabelsUnknown",
-         [](uint32_t) {
-             return blend({{4000000000U, 1.0F}, {77777, 1.0F}});
-         }},
+        {"WeightsZero", blended({{0, 0.0F}, {1, 0.0F}})},
+        {"WeightsNegative", blended({{0, -1.0F}, {1, 0.5F}}), 72.0, true},
+        {"WeightsNotSummingToOne", blended({{0, 0.9F}, {1, 0.8F}, {2, 0.7F}})},
+        {"LabelsUnknown", blended({{4000000000U, 1.0F}, {77777, 1.0F}})},
         {"LabelCountAboveTheLimit", corrupted([](State& state) { state.label_count = 4000000000U; }), 72.0, true},
-        {"NoLabelAtAll", [](uint32_t) { return blend({}); }},
-        {"LabelSwitchedEveryUpdate",
-         [](uint32_t update) {
-             return blend({{update % 3, 1.0F}});
-         }},
+        {"NoLabelAtAll", blended({})},
+        {"LabelSwitchedEveryUpdate", sliding([](State& state, uint32_t update) { state.labels[0] = update % 3; })},
         {"DirectionReversedEveryUpdate", [](uint32_t update) { return slidingState(update % 2 == 0 ? 0.3F : -0.3F); }},
         {"SpeedJumpsEveryUpdate", [](uint32_t update) { return slidingState(update % 2 == 0 ? 0.004F : 18.0F); }},
         {"ForceJumpsEveryUpdate", [](uint32_t update) { return slidingState(0.1F, update % 2 == 0 ? 0.01F : 900.0F); }},
-        {"PlaceSurfaceAndAxesThrownAboutEveryUpdate",
-         [](uint32_t update) {
-             State state = slidingState(update % 2 == 0 ? 0.3F : -0.05F);
+        {"PlaceSurfaceAndAxesThrownAboutEveryUpdate", sliding([](State& state, uint32_t update) {
              const auto angle = static_cast<float>(update);
+             state.velocity_mps[0] = update % 2 == 0 ? 0.3F : -0.05F;
              state.has_place = 1;
              state.surface_seed = update % 3;
              state.place_metres[0] = 9000.0F * std::sin(7.0F * angle);
@@ -129,39 +185,27 @@ std::vector<HardCase> hardCases() {
              state.first_axis[0] = std::cos(angle);
              state.first_axis[1] = std::sin(angle);
              state.second_axis[2] = 1.0F;
-             return state;
-         }},
+         })},
         // Lifted and touching alternate: 43 of 86 updates are touch-downs.
         {.name = "ContactToggledEveryUpdate",
-         .state =
-             [](uint32_t update) {
-                 State state = slidingState();
-                 state.touching = update % 2;
-                 state.touch_counter = (update + 1) / 2;
-                 return state;
-             },
+         .state = sliding([](State& state, uint32_t update) {
+             state.touching = update % 2;
+             state.touch_counter = (update + 1) / 2;
+         }),
          .onsets = 43},
         // In one block the tip touches, lifts and touches again; in the next it lifts, taps and lifts.
         {.name = "ContactToggledFourTimesABlock",
-         .state =
-             [](uint32_t update) {
-                 constexpr std::array<uint32_t, 8> touching{0, 1, 0, 1, 1, 0, 1, 0};
-                 constexpr std::array<uint32_t, 8> touchDowns{0, 1, 1, 2, 2, 2, 3, 3};
-                 State state = slidingState();
-                 state.touching = touching[update % 8];
-                 state.touch_counter = 3 * (update / 8) + touchDowns[update % 8];
-                 return state;
-             },
+         .state = sliding([](State& state, uint32_t update) {
+             constexpr std::array<uint32_t, 8> touching{0, 1, 0, 1, 1, 0, 1, 0};
+             constexpr std::array<uint32_t, 8> touchDowns{0, 1, 1, 2, 2, 2, 3, 3};
+             state.touching = touching[update % 8];
+             state.touch_counter = 3 * (update / 8) + touchDowns[update % 8];
+         }),
          .updateHz = 750.0,
          .statesOfABlock = 4,
          .onsets = 225},
         {.name = "TouchCounterAnewEveryUpdate",
-         .state =
-             [](uint32_t update) {
-                 State state = slidingState();
-                 state.touch_counter = update + 1;
-                 return state;
-             },
+         .state = sliding([](State& state, uint32_t update) { state.touch_counter = update + 1; }),
          .onsets = 86},
     };
     for (const double hertz : {30.0, 45.0, 72.0, 90.0, 120.0, 250.0, 500.0, 1000.0}) {
@@ -185,7 +229,7 @@ protected:
                     open.publish(hardCase.state(update + i));
                 }
                 part = open.render(frames);
-                EXPECT_EQ(haptoflow_engine_step(open.engine), HAPTOFLOW_OK) << message();
+                open.step();
             }
             appendChecked(output, part, update);
         }
@@ -259,15 +303,22 @@ Scene box(double scale = 1.0) {
     return sceneOf({surfaceOf(Box{scale * glm::dvec3(0.2)})});
 }
 
-/// Samples of which every third is changed by `ruin`.
-std::function<TipSample(int)> corrupted(const std::function<void(TipSample&)>& corrupt) {
-    return [corrupt](int frame) {
+/// Samples on the face, changed by `change`.
+std::function<TipSample(int)> changed(const std::function<void(TipSample&, int)>& change) {
+    return [change](int frame) {
         TipSample sample = onFace(frame);
+        change(sample, frame);
+        return sample;
+    };
+}
+
+/// Samples of which every third is changed.
+std::function<TipSample(int)> corrupted(const std::function<void(TipSample&)>& corrupt) {
+    return changed([corrupt](TipSample& sample, int frame) {
         if (frame % 3 == 2) {
             corrupt(sample);
         }
-        return sample;
-    };
+    });
 }
 
 std::function<TipSample(int)> steps(double seconds) {
@@ -320,18 +371,10 @@ std::vector<HardScene> hardScenes() {
         {"StepsOfAMicrosecond", box(), steps(1e-6), false},
         {"StepsOfTenSeconds", box(), steps(10.0), false},
         {"APauseOfTenSeconds", box(),
-         [](int frame) {
-             TipSample sample = onFace(frame);
-             sample.timeSeconds += frame > 50 ? 10.0 : 0.0;
-             return sample;
-         }},
+         changed([](TipSample& sample, int frame) { sample.timeSeconds += frame > 50 ? 10.0 : 0.0; })},
         {"TeleportEveryThirdUpdate", box(), corrupted([](TipSample& sample) { sample.positionMetres.x += 5.0; })},
         {"TeleportOnTheSurface", box(),
-         [](int frame) {
-             TipSample sample = onFace(frame);
-             sample.positionMetres.x += frame % 20 < 10 ? 0.05 : -0.05;
-             return sample;
-         }},
+         changed([](TipSample& sample, int frame) { sample.positionMetres.x += frame % 20 < 10 ? 0.05 : -0.05; })},
         {"PositionsNotFinite", box(), corrupted([](TipSample& sample) {
              sample.positionMetres = {headless::testing::nan, headless::testing::infinity,
                                       -headless::testing::infinity};
@@ -348,12 +391,7 @@ std::vector<HardScene> hardScenes() {
          [](int frame) {
              return TipSample{frame / updateHz, glm::dvec3(0.0005 * std::sin(0.9 * frame), 0.0007, 0.0), {}, {}};
          }},
-        {"ScaleAMillion", box(1e6),
-         [](int frame) {
-             TipSample sample = onFace(frame);
-             sample.positionMetres.y += 1e5 - 0.1;
-             return sample;
-         }},
+        {"ScaleAMillion", box(1e6), changed([](TipSample& sample, int) { sample.positionMetres.y += 1e5 - 0.1; })},
         {"TipOnAnEdge", box(), trembling({0.1, 0.1, 0.03})},
         {"TipOnACorner", box(), trembling({0.1, 0.1, 0.1})},
         {"TipInACorner", innerCorner, trembling({0.0005, 0.0005, 0.0})},

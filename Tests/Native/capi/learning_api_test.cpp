@@ -24,17 +24,11 @@ using ::testing::HasSubstr;
 
 class LearningApiTest : public WithTinyModel {
 protected:
-    void TearDown() override {
-        EXPECT_EQ(haptoflow_learning_close(&learning_), HAPTOFLOW_OK);
-        EXPECT_EQ(learning_, nullptr);
-        WithTinyModel::TearDown();
-    }
-
-    [[nodiscard]] haptoflow_learning_options options() const { return optionsOf(open_.recording, runtime_, model_); }
+    [[nodiscard]] haptoflow_learning_options options() const { return learningOptions(recording_, runtime_, model_); }
 
     MadeRecording made_{{}, {}};
-    MadeHandle open_{infoOf(made_)};
-    haptoflow_learning* learning_ = nullptr;
+    RecordingHandle recording_{recordingOf(infoOf(made_))};
+    Handle<haptoflow_learning, haptoflow_learning_close> learning_;
 };
 
 TEST_F(LearningApiTest, ALearntMaterialIsRegisteredBesideTheModelsLabelsAndProgressEndsAtOne) {
@@ -47,7 +41,7 @@ TEST_F(LearningApiTest, ALearntMaterialIsRegisteredBesideTheModelsLabelsAndProgr
         static_cast<std::vector<double>*>(context)->push_back(share);
     };
     given.progress_context = &shares;
-    ASSERT_EQ(haptoflow_learn_material(&given, &learning_), HAPTOFLOW_OK) << message();
+    ASSERT_EQ(haptoflow_learn_material(&given, learning_.out()), HAPTOFLOW_OK) << message();
     ASSERT_GT(shares.size(), 5U);
     EXPECT_TRUE(std::ranges::is_sorted(shares));
     EXPECT_DOUBLE_EQ(shares.back(), 1.0);
@@ -70,25 +64,17 @@ TEST_F(LearningApiTest, ALearntMaterialIsRegisteredBesideTheModelsLabelsAndProgr
     EXPECT_EQ(haptoflow_model_tier_count(model_, &tiers), HAPTOFLOW_OK);
     EXPECT_EQ(figures.at("other_tiers").size(), tiers - 1U);
 
-    haptoflow_engine_options engineOptions{};
-    engineOptions.struct_size = sizeof(engineOptions);
-    engineOptions.runtime = runtime_;
-    engineOptions.model = model_;
-    engineOptions.without_worker = 1;
-    engineOptions.quality = HAPTOFLOW_QUALITY_DRAFT;
-    haptoflow_engine* engine = nullptr;
-    ASSERT_EQ(haptoflow_engine_create(&engineOptions, &engine), HAPTOFLOW_OK) << message();
+    const EngineHandle engine(createEngine(engineOptions(runtime_, model_)));
     uint32_t index = 0;
     EXPECT_EQ(haptoflow_engine_register_material(engine, text, std::strlen(text), &index), HAPTOFLOW_OK) << message();
     uint32_t labels = 0;
     EXPECT_EQ(haptoflow_model_label_count(model_, &labels), HAPTOFLOW_OK);
     EXPECT_EQ(index, labels);
-    EXPECT_EQ(haptoflow_engine_close(&engine), HAPTOFLOW_OK);
 }
 
 TEST_F(LearningApiTest, ACancellationEndsLearningAndLeavesTheOutputUnchanged) {
-    haptoflow_cancellation* cancellation = nullptr;
-    ASSERT_EQ(haptoflow_cancellation_create(&cancellation), HAPTOFLOW_OK);
+    CancellationHandle cancellation;
+    ASSERT_EQ(haptoflow_cancellation_create(cancellation.out()), HAPTOFLOW_OK);
     auto given = options();
     given.cancellation = cancellation;
     given.progress = [](void* context, double share, const char*) {
@@ -97,27 +83,24 @@ TEST_F(LearningApiTest, ACancellationEndsLearningAndLeavesTheOutputUnchanged) {
         }
     };
     given.progress_context = cancellation;
-    EXPECT_EQ(haptoflow_learn_material(&given, &learning_), HAPTOFLOW_CANCELLED);
-    EXPECT_EQ(learning_, nullptr);
-    EXPECT_EQ(haptoflow_cancellation_close(&cancellation), HAPTOFLOW_OK);
+    EXPECT_EQ(haptoflow_learn_material(&given, learning_.out()), HAPTOFLOW_CANCELLED);
+    EXPECT_FALSE(learning_);
 }
 
 TEST_F(LearningApiTest, ARecordingWithoutMotionNeedsTheCallersSpeedAndForce) {
-    haptoflow_recording_options reading{};
-    reading.struct_size = sizeof(reading);
+    auto reading = sized<haptoflow_recording_options>();
     reading.path = HAPTOFLOW_TEST_GOLDEN_DIR "/recordings/files/no_motion.csv";
-    haptoflow_recording* recording = nullptr;
-    ASSERT_EQ(haptoflow_recording_read(&reading, &recording), HAPTOFLOW_OK) << message();
-    auto given = optionsOf(recording, runtime_, model_);
-    EXPECT_EQ(haptoflow_learn_material(&given, &learning_), HAPTOFLOW_RECORDING_UNUSABLE);
+    RecordingHandle recording;
+    ASSERT_EQ(haptoflow_recording_read(&reading, recording.out()), HAPTOFLOW_OK) << message();
+    auto given = learningOptions(recording, runtime_, model_);
+    EXPECT_EQ(haptoflow_learn_material(&given, learning_.out()), HAPTOFLOW_RECORDING_UNUSABLE);
     EXPECT_THAT(message(), HasSubstr("no_motion.csv: no motion in it or beside it"));
     given.speed_mps = 0.08;
-    EXPECT_EQ(haptoflow_learn_material(&given, &learning_), HAPTOFLOW_RECORDING_UNUSABLE);
+    EXPECT_EQ(haptoflow_learn_material(&given, learning_.out()), HAPTOFLOW_RECORDING_UNUSABLE);
     EXPECT_THAT(message(), HasSubstr("no_motion.csv: no force in it or beside it"));
     given.force_newtons = 1.0;
-    EXPECT_EQ(haptoflow_learn_material(&given, &learning_), HAPTOFLOW_RECORDING_UNUSABLE);
+    EXPECT_EQ(haptoflow_learn_material(&given, learning_.out()), HAPTOFLOW_RECORDING_UNUSABLE);
     EXPECT_THAT(message(), HasSubstr("lasts 0.5 s")) << "nothing but the length is wrong";
-    EXPECT_EQ(haptoflow_recording_close(&recording), HAPTOFLOW_OK);
 }
 
 TEST_F(LearningApiTest, OptionsOutOfRangeAreRefusedByName) {
@@ -134,7 +117,7 @@ TEST_F(LearningApiTest, OptionsOutOfRangeAreRefusedByName) {
     for (const auto& [change, named] : cases) {
         auto given = options();
         change(given);
-        EXPECT_EQ(haptoflow_learn_material(&given, &learning_), HAPTOFLOW_INVALID_ARGUMENT) << named;
+        EXPECT_EQ(haptoflow_learn_material(&given, learning_.out()), HAPTOFLOW_INVALID_ARGUMENT) << named;
         EXPECT_THAT(message(), HasSubstr(named));
     }
 }
@@ -144,7 +127,6 @@ TEST_F(LearningApiTest, SamplesOutOfRangeAreRefusedByName) {
     const std::vector<std::pair<Change, const char*>> cases{
         {[](auto& info) { info.axis_count = 2; }, "2 axes"},
         {[](auto& info) { info.acceleration_mps2 = nullptr; }, "acceleration_mps2"},
-        {[](auto& info) { info.sample_rate_hz = 500.0; }, "500 Hz"},
         {[](auto& info) { info.sample_count = ~uint64_t{0}; }, "sample_count"},
         {[](auto& info) {
              info.force_newtons = nullptr;
@@ -167,8 +149,7 @@ TEST_F(LearningApiTest, SamplesOutOfRangeAreRefusedByName) {
 TEST(RecordingApiTest, ARecordingOfSamplesKeepsThemAndItsTexts) {
     const std::array<float, 4> wave{1.0F, 2.0F, 3.0F, 4.0F};
     const std::array<float, 8> velocity{0.1F, 0.0F, 0.1F, 0.0F, 0.1F, 0.0F, 0.1F, 0.0F};
-    haptoflow_recording_info given{};
-    given.struct_size = sizeof(given);
+    auto given = sized<haptoflow_recording_info>();
     given.axis_count = 1;
     given.sample_rate_hz = 2000.0;
     given.sample_count = wave.size();
@@ -178,10 +159,9 @@ TEST(RecordingApiTest, ARecordingOfSamplesKeepsThemAndItsTexts) {
     given.label = "felt";
     given.licence = "CC0";
     given.provenance = "our hall";
-    const MadeHandle open(given);
-    haptoflow_recording_info info{};
-    info.struct_size = sizeof(info);
-    ASSERT_EQ(haptoflow_recording_get_info(open.recording, &info), HAPTOFLOW_OK) << message();
+    const RecordingHandle open(recordingOf(given));
+    auto info = sized<haptoflow_recording_info>();
+    ASSERT_EQ(haptoflow_recording_get_info(open, &info), HAPTOFLOW_OK) << message();
     EXPECT_EQ(info.sample_count, 4U);
     EXPECT_EQ(info.acceleration_mps2[3], 4.0F);
     EXPECT_EQ(info.velocity_mps[6], 0.1F);
@@ -193,25 +173,23 @@ TEST(RecordingApiTest, ARecordingOfSamplesKeepsThemAndItsTexts) {
 
 TEST(RecordingApiTest, TheWaveIsOneAxisWithoutGravityAndSilentBeyondTheEnd) {
     constexpr double inputHz = 4000.0;
-    constexpr double waveHz = 2000.0;
     constexpr std::size_t samples = 4000;
-    const auto tone = [](double seconds) { return 3.0 * std::sin(2.0 * std::numbers::pi * 150.0 * seconds); };
+    const std::vector<float> tone = haptoflow::testing::sine(150.0, 3.0, 1.0, inputHz);
     std::vector<float> recorded(3 * samples, 0.0F);
     for (std::size_t i = 0; i < samples; ++i) {
-        recorded[3 * i + 1] = static_cast<float>(tone(static_cast<double>(i) / inputHz));
+        recorded[3 * i + 1] = tone[i];
         recorded[3 * i + 2] = 9.81F;
     }
-    haptoflow_recording_info given{};
-    given.struct_size = sizeof(given);
+    auto given = sized<haptoflow_recording_info>();
     given.axis_count = 3;
     given.sample_rate_hz = inputHz;
     given.sample_count = samples;
     given.acceleration_mps2 = recorded.data();
-    const MadeHandle open(given);
+    const RecordingHandle open(recordingOf(given));
     std::vector<float> wave(2100, 1.0F);
-    ASSERT_EQ(haptoflow_recording_wave(open.recording, wave.data(), wave.size()), HAPTOFLOW_OK) << message();
+    ASSERT_EQ(haptoflow_recording_wave(open, wave.data(), wave.size()), HAPTOFLOW_OK) << message();
     for (std::size_t i = 500; i < 1500; i += 7) {
-        EXPECT_NEAR(wave[i], tone(static_cast<double>(i) / waveHz), 0.05) << i;
+        EXPECT_NEAR(wave[i], tone[2 * i], 0.05F) << i;
     }
     EXPECT_EQ(wave.back(), 0.0F) << "beyond the recording's end";
 }

@@ -1,17 +1,13 @@
 #pragma once
 
-#include "haptoflow/haptoflow.h"
-
 #include "learning/made_recording.hpp"
-
-#include <gtest/gtest.h>
+#include "open_handles.hpp"
 
 namespace haptoflow::capi::testing {
 
 /// A generated recording's samples, which must outlive the info.
 inline haptoflow_recording_info infoOf(const learning::testing::MadeRecording& made) {
-    haptoflow_recording_info info{};
-    info.struct_size = sizeof(info);
+    auto info = sized<haptoflow_recording_info>();
     info.axis_count = 1;
     info.sample_rate_hz = 4000.0;
     info.sample_count = made.acceleration.size();
@@ -22,25 +18,15 @@ inline haptoflow_recording_info infoOf(const learning::testing::MadeRecording& m
     return info;
 }
 
-/// An open recording of generated samples.
-class MadeHandle {
-public:
-    explicit MadeHandle(const haptoflow_recording_info& info) {
-        EXPECT_EQ(haptoflow_recording_create(&info, &recording), HAPTOFLOW_OK) << haptoflow_last_message();
-    }
-    ~MadeHandle() { EXPECT_EQ(haptoflow_recording_close(&recording), HAPTOFLOW_OK); }
-    MadeHandle(const MadeHandle&) = delete;
-    MadeHandle& operator=(const MadeHandle&) = delete;
-    MadeHandle(MadeHandle&&) = delete;
-    MadeHandle& operator=(MadeHandle&&) = delete;
-
+inline haptoflow_recording* recordingOf(const haptoflow_recording_info& info) {
     haptoflow_recording* recording = nullptr;
-};
+    EXPECT_EQ(haptoflow_recording_create(&info, &recording), HAPTOFLOW_OK) << message();
+    return recording;
+}
 
-inline haptoflow_learning_options optionsOf(const haptoflow_recording* recording, const haptoflow_runtime* runtime,
-                                            const haptoflow_model* model) {
-    haptoflow_learning_options options{};
-    options.struct_size = sizeof(options);
+inline haptoflow_learning_options learningOptions(const haptoflow_recording* recording,
+                                                  const haptoflow_runtime* runtime, const haptoflow_model* model) {
+    auto options = sized<haptoflow_learning_options>();
     options.recording = recording;
     options.runtime = runtime;
     options.model = model;

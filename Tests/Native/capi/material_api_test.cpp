@@ -4,10 +4,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#if defined(__GLIBC__)
-#include <malloc.h>
-#endif
-
 #include <fstream>
 #include <functional>
 #include <string>
@@ -53,12 +49,6 @@ protected:
         state.labels[0] = label;
         return state;
     }
-    haptoflow_effect_statistics tone() {
-        haptoflow_effect_statistics statistics{};
-        statistics.struct_size = sizeof(statistics);
-        EXPECT_EQ(haptoflow_voice_effect_statistics(open_.voice, HAPTOFLOW_EFFECT_TONE, &statistics), HAPTOFLOW_OK);
-        return statistics;
-    }
 
     OpenEngine open_{tinyModelPath};
 };
@@ -72,8 +62,7 @@ TEST_F(MaterialApiTest, AReadMaterialIsDescribedUntilItIsClosed) {
     const std::string text = material([](auto& made) { made["level_offset_db"] = -3.5; });
     haptoflow_material* read = nullptr;
     ASSERT_EQ(haptoflow_material_read(text.data(), text.size(), &read), HAPTOFLOW_OK) << message();
-    haptoflow_material_info info{};
-    info.struct_size = sizeof(info);
+    auto info = sized<haptoflow_material_info>();
     ASSERT_EQ(haptoflow_material_describe(read, &info), HAPTOFLOW_OK) << message();
     EXPECT_STREQ(info.name, "denim");
     EXPECT_STREQ(info.category, "cloth");
@@ -110,16 +99,15 @@ TEST_F(MaterialApiTest, ARegisteredMaterialIsCountedDescribedAndRendered) {
     ASSERT_EQ(add(material(), &index), HAPTOFLOW_OK) << message();
     EXPECT_EQ(index, labels());
     EXPECT_EQ(count(), 1U);
-    haptoflow_label_info info{};
-    info.struct_size = sizeof(info);
+    auto info = sized<haptoflow_label_info>();
     ASSERT_EQ(haptoflow_engine_material(open_.engine, index, &info), HAPTOFLOW_OK) << message();
     EXPECT_STREQ(info.name, "denim");
     EXPECT_STREQ(info.category, "cloth");
     EXPECT_EQ(info.stiffness_newtons_per_metre, 300.0);
     EXPECT_EQ(info.wavelength_metres, 0.002);
     EXPECT_GT(peak(open_.update(on(index))), 0.0F);
-    EXPECT_GT(tone().runs, 0U);
-    EXPECT_EQ(tone().is_asked_for, 1U);
+    EXPECT_GT(open_.effect(HAPTOFLOW_EFFECT_TONE).runs, 0U);
+    EXPECT_EQ(open_.effect(HAPTOFLOW_EFFECT_TONE).is_asked_for, 1U);
     EXPECT_EQ(open_.statistics().sanitised, 0U);
 }
 
@@ -146,16 +134,13 @@ TEST_F(MaterialApiTest, AReplacementSoundsWithTheNextStateAndARefusedOneLeavesTh
     const std::string broken = material([](json& text) { text["version"] = 9; });
     EXPECT_EQ(haptoflow_engine_replace_material(open_.engine, index, broken.data(), broken.size()),
               HAPTOFLOW_MATERIAL_INVALID);
-    haptoflow_label_info info{};
-    info.struct_size = sizeof(info);
+    auto info = sized<haptoflow_label_info>();
     ASSERT_EQ(haptoflow_engine_material(open_.engine, index, &info), HAPTOFLOW_OK);
     EXPECT_STREQ(info.name, "denim");
     const std::string loud = material([](json& text) { text["level_offset_db"] = 12.0; });
     ASSERT_EQ(haptoflow_engine_replace_material(open_.engine, index, loud.data(), loud.size()), HAPTOFLOW_OK)
         << message();
-    for (int update = 0; update < 10; ++update) {
-        (void)open_.update(on(index));
-    }
+    (void)open_.play(10, on(index));
     EXPECT_GT(peak(open_.update(on(index))), 4.0F * soft);
     EXPECT_EQ(count(), 1U);
     for (const uint32_t none : {0U, index + 1, UINT32_MAX}) {

@@ -5,16 +5,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string>
 #include <vector>
 
 namespace haptoflow::capi::testing {
 
-inline const std::string defaultModelPath = HAPTOFLOW_TEST_DEFAULT_MODEL;
+using haptoflow::testing::largestStep;
+using haptoflow::testing::largestStepFrom;
+using haptoflow::testing::peak;
 
 inline haptoflow_contact_state slidingState(float speedMps = 0.1F, float forceNewtons = 1.0F) {
-    haptoflow_contact_state state{};
-    state.struct_size = sizeof(state);
+    auto state = sized<haptoflow_contact_state>();
     state.touching = 1;
     state.touch_counter = 1;
     state.label_count = 1;
@@ -25,42 +27,27 @@ inline haptoflow_contact_state slidingState(float speedMps = 0.1F, float forceNe
 }
 
 inline haptoflow_contact_state liftedState(uint32_t touchCounter = 1) {
-    haptoflow_contact_state state{};
-    state.struct_size = sizeof(state);
+    auto state = sized<haptoflow_contact_state>();
     state.touch_counter = touchCounter;
     return state;
 }
 
-/// An engine with one voice. Without a worker it is stepped after each update, so that its output is deterministic.
+/// An engine with one voice. Without a worker it is stepped after each update.
 class OpenEngine {
 public:
     explicit OpenEngine(const std::string& modelPath, bool hasWorker = false,
-                        haptoflow_quality quality = HAPTOFLOW_QUALITY_DRAFT, uint64_t seed = 1,
-                        double rateHz = 48000.0) {
-        const haptoflow_model_options modelOptions{sizeof(modelOptions), nullptr, 0, modelPath.c_str()};
-        EXPECT_EQ(haptoflow_model_open(&modelOptions, &model), HAPTOFLOW_OK) << message();
-        haptoflow_engine_options options{};
-        options.struct_size = sizeof(options);
-        options.quality = quality;
-        options.runtime = runtime;
-        options.model = model;
+                        haptoflow_quality quality = HAPTOFLOW_QUALITY_DRAFT, uint64_t seed = 1, double rateHz = 48000.0)
+        : model(openModel(modelPath)) {
+        haptoflow_engine_options options = engineOptions(runtime, model, quality, hasWorker);
         options.seed = seed;
-        options.without_worker = hasWorker ? 0 : 1;
-        options.fixed_lead_ms = hasWorker ? 0.0 : 8.0;
-        EXPECT_EQ(haptoflow_engine_create(&options, &engine), HAPTOFLOW_OK) << message();
+        *engine.out() = createEngine(options);
         EXPECT_EQ(haptoflow_voice_create(engine, rateHz, &voice), HAPTOFLOW_OK) << message();
-    }
-    OpenEngine(const OpenEngine&) = delete;
-    OpenEngine& operator=(const OpenEngine&) = delete;
-    ~OpenEngine() {
-        EXPECT_EQ(haptoflow_engine_close(&engine), HAPTOFLOW_OK);
-        EXPECT_EQ(haptoflow_model_close(&model), HAPTOFLOW_OK);
-        EXPECT_EQ(haptoflow_runtime_close(&runtime), HAPTOFLOW_OK);
     }
 
     void publish(const haptoflow_contact_state& state) {
         EXPECT_EQ(haptoflow_voice_publish(voice, &state), HAPTOFLOW_OK) << message();
     }
+    void step() { EXPECT_EQ(haptoflow_engine_step(engine), HAPTOFLOW_OK) << message(); }
     std::vector<float> render(uint32_t frames, double rateHz = 48000.0) {
         std::vector<float> samples(frames);
         EXPECT_EQ(haptoflow_voice_render(voice, samples.data(), frames, 1, 0, rateHz), HAPTOFLOW_OK);
@@ -70,36 +57,39 @@ public:
     std::vector<float> update(const haptoflow_contact_state& state, uint32_t frames = 667) {
         publish(state);
         std::vector<float> output = render(1);
-        EXPECT_EQ(haptoflow_engine_step(engine), HAPTOFLOW_OK) << message();
+        step();
         const std::vector<float> rest = render(frames - 1);
         output.insert(output.end(), rest.begin(), rest.end());
         return output;
     }
-    [[nodiscard]] haptoflow_voice_statistics statistics() const {
-        haptoflow_voice_statistics statistics{};
-        statistics.struct_size = sizeof(statistics);
-        EXPECT_EQ(haptoflow_voice_get_statistics(voice, &statistics), HAPTOFLOW_OK);
-        return statistics;
+    /// The output of so many updates, each with the state of its number.
+    std::vector<float> play(int updates, const std::function<haptoflow_contact_state(int)>& stateOf) {
+        std::vector<float> output;
+        for (int number = 0; number < updates; ++number) {
+            const std::vector<float> next = update(stateOf(number));
+            output.insert(output.end(), next.begin(), next.end());
+        }
+        return output;
     }
-    [[nodiscard]] haptoflow_engine_statistics engineStatistics() const {
-        haptoflow_engine_statistics statistics{};
-        statistics.struct_size = sizeof(statistics);
-        EXPECT_EQ(haptoflow_engine_get_statistics(engine, &statistics), HAPTOFLOW_OK);
+    std::vector<float> play(int updates, const haptoflow_contact_state& state = slidingState()) {
+        return play(updates, [&state](int) { return state; });
+    }
+    [[nodiscard]] haptoflow_voice_statistics statistics() const { return statisticsOf(voice); }
+    [[nodiscard]] haptoflow_engine_statistics engineStatistics() const { return statisticsOf(engine); }
+    [[nodiscard]] haptoflow_effect_statistics effect(haptoflow_effect effect) const {
+        auto statistics = sized<haptoflow_effect_statistics>();
+        EXPECT_EQ(haptoflow_voice_effect_statistics(voice, effect, &statistics), HAPTOFLOW_OK) << message();
         return statistics;
     }
 
-    haptoflow_runtime* runtime = openRuntime();
-    haptoflow_model* model = nullptr;
-    haptoflow_engine* engine = nullptr;
+    RuntimeHandle runtime{openRuntime()};
+    ModelHandle model;
+    EngineHandle engine;
     haptoflow_voice voice = 0;
 };
 
-using haptoflow::testing::largestStep;
-using haptoflow::testing::largestStepFrom;
-using haptoflow::testing::peak;
-
 inline bool allFinite(const std::vector<float>& samples) {
-    return std::all_of(samples.begin(), samples.end(), [](float sample) { return std::isfinite(sample); });
+    return std::ranges::all_of(samples, [](float sample) { return std::isfinite(sample); });
 }
 
 }  // namespace haptoflow::capi::testing

@@ -17,12 +17,7 @@ namespace {
 
 class VoiceEffectsApiTest : public ::testing::Test {
 protected:
-    haptoflow_effect_statistics of(haptoflow_effect effect) {
-        haptoflow_effect_statistics statistics{};
-        statistics.struct_size = sizeof(statistics);
-        EXPECT_EQ(haptoflow_voice_effect_statistics(open_.voice, effect, &statistics), HAPTOFLOW_OK) << message();
-        return statistics;
-    }
+    [[nodiscard]] haptoflow_effect_statistics of(haptoflow_effect effect) const { return open_.effect(effect); }
 
     static haptoflow_contact_state landing(uint32_t effects) {
         haptoflow_contact_state state = slidingState(0.0F);
@@ -54,9 +49,7 @@ TEST_F(VoiceEffectsApiTest, ALandingThatRequestsItsImpactIsRenderedAndCounted) {
 TEST_F(VoiceEffectsApiTest, AVoiceUsesOnlyTheProcessorsThatWereSet) {
     EXPECT_EQ(haptoflow_voice_set_delay(open_.voice, 0.01), HAPTOFLOW_OK) << message();
     EXPECT_EQ(haptoflow_voice_set_actuator(open_.voice, "voice-coil", 10), HAPTOFLOW_OK) << message();
-    for (int update = 0; update < 20; ++update) {
-        (void)open_.update(slidingState());
-    }
+    (void)open_.play(20);
     for (const haptoflow_effect effect : {HAPTOFLOW_EFFECT_DELAY, HAPTOFLOW_EFFECT_COMPENSATION}) {
         EXPECT_EQ(of(effect).prepared, 1U) << effect;
         EXPECT_EQ(of(effect).is_asked_for, 1U);
@@ -65,9 +58,7 @@ TEST_F(VoiceEffectsApiTest, AVoiceUsesOnlyTheProcessorsThatWereSet) {
     EXPECT_EQ(of(HAPTOFLOW_EFFECT_EXPOSURE_GUARD).prepared, 0U);
     EXPECT_EQ(haptoflow_voice_set_delay(open_.voice, 0.0), HAPTOFLOW_OK);
     EXPECT_EQ(haptoflow_voice_set_actuator(open_.voice, nullptr, 0), HAPTOFLOW_OK);
-    for (int update = 0; update < 5; ++update) {
-        (void)open_.update(slidingState());
-    }
+    (void)open_.play(5);
     const uint64_t runs = of(HAPTOFLOW_EFFECT_DELAY).runs;
     (void)open_.update(slidingState());
     EXPECT_EQ(of(HAPTOFLOW_EFFECT_DELAY).runs, runs) << "a processor that is switched off does not run";
@@ -94,15 +85,12 @@ TEST_F(VoiceEffectsApiTest, DelayAndGuardOutOfRangeAreRefusedByName) {
 }
 
 TEST_F(VoiceEffectsApiTest, TheExposureOfAVoiceWithoutAGuardIsZeroWithAGainOfOne) {
-    haptoflow_exposure exposure{};
-    exposure.struct_size = sizeof(exposure);
+    auto exposure = sized<haptoflow_exposure>();
     EXPECT_EQ(haptoflow_voice_exposure(open_.voice, &exposure), HAPTOFLOW_OK);
     EXPECT_EQ(exposure.gain, 1.0);
     EXPECT_EQ(exposure.daily_mps2, 0.0);
     EXPECT_EQ(haptoflow_voice_set_exposure_guard(open_.voice, 1, 0.0F), HAPTOFLOW_OK);
-    for (int update = 0; update < 40; ++update) {
-        (void)open_.update(slidingState());
-    }
+    (void)open_.play(40);
     EXPECT_EQ(haptoflow_voice_exposure(open_.voice, &exposure), HAPTOFLOW_OK);
     EXPECT_EQ(exposure.reason, HAPTOFLOW_EXPOSURE_NONE);
     EXPECT_EQ(exposure.gain, 1.0);
@@ -114,19 +102,14 @@ TEST_F(VoiceEffectsApiTest, ASignalReplacesTheTextureAndItsStartsAndStopsAreCoun
     ASSERT_EQ(haptoflow_voice_set_delay(open_.voice, 0.01), HAPTOFLOW_OK) << message();
     ASSERT_EQ(haptoflow_voice_set_signal(open_.voice, 200.0, 6.0), HAPTOFLOW_OK) << message();
     (void)open_.update(liftedState(0));
-    for (int update = 0; update < 5; ++update) {
-        (void)open_.update(slidingState());
-    }
+    (void)open_.play(5);
     EXPECT_NEAR(peak(open_.update(slidingState())), 6.0F / static_cast<float>(HAPTOFLOW_DEFAULT_FULL_SCALE_MPS2),
                 1e-3F);
-    for (int update = 0; update < 5; ++update) {
-        (void)open_.update(liftedState());
-    }
+    (void)open_.play(5, liftedState());
     EXPECT_EQ(of(HAPTOFLOW_EFFECT_TEXTURE).is_asked_for, 0U);
     EXPECT_EQ(of(HAPTOFLOW_EFFECT_SIGNAL).is_asked_for, 1U);
     EXPECT_EQ(of(HAPTOFLOW_EFFECT_SIGNAL).events, 1U);
-    haptoflow_signal_statistics cycles{};
-    cycles.struct_size = sizeof(cycles);
+    auto cycles = sized<haptoflow_signal_statistics>();
     ASSERT_EQ(haptoflow_voice_signal_statistics(open_.voice, &cycles), HAPTOFLOW_OK) << message();
     EXPECT_EQ(cycles.starts, 1U);
     EXPECT_EQ(cycles.stops, 1U);
@@ -149,14 +132,12 @@ TEST_F(VoiceEffectsApiTest, ASignalOutOfRangeIsRefusedByNameAndTheOldOneStays) {
     }
     EXPECT_EQ(of(HAPTOFLOW_EFFECT_SIGNAL).is_asked_for, 1U);
     EXPECT_EQ(haptoflow_voice_set_signal(999, 200.0, 1.0), HAPTOFLOW_INVALID_ARGUMENT);
-    haptoflow_signal_statistics cycles{};
-    cycles.struct_size = sizeof(cycles);
+    auto cycles = sized<haptoflow_signal_statistics>();
     EXPECT_EQ(haptoflow_voice_signal_statistics(999, &cycles), HAPTOFLOW_INVALID_ARGUMENT);
 }
 
 TEST_F(VoiceEffectsApiTest, AnUnknownEffectIsRefusedByName) {
-    haptoflow_effect_statistics statistics{};
-    statistics.struct_size = sizeof(statistics);
+    auto statistics = sized<haptoflow_effect_statistics>();
     for (const haptoflow_effect effect : {-1, HAPTOFLOW_EFFECT_COUNT, INT32_MAX}) {
         EXPECT_EQ(haptoflow_voice_effect_statistics(open_.voice, effect, &statistics), HAPTOFLOW_INVALID_ARGUMENT);
         EXPECT_THAT(message(), ::testing::HasSubstr("effect is " + std::to_string(effect)));
@@ -177,14 +158,12 @@ std::vector<float> swellingTone(double rateHz, double seconds) {
 
 class WaveFeaturesApiTest : public ::testing::Test {
 protected:
-    void TearDown() override { EXPECT_EQ(haptoflow_wave_features_close(&features_), HAPTOFLOW_OK); }
-
     static haptoflow_wave_features_options options(uint32_t sampleRateHz = 0, double frameSeconds = 0.0) {
         return {sizeof(haptoflow_wave_features_options), sampleRateHz, frameSeconds, 0.0, 0.0};
     }
 
     void create(const haptoflow_wave_features_options& options) {
-        ASSERT_EQ(haptoflow_wave_features_create(&options, &features_), HAPTOFLOW_OK) << message();
+        ASSERT_EQ(haptoflow_wave_features_create(&options, features_.out()), HAPTOFLOW_OK) << message();
     }
 
     std::vector<haptoflow_wave_frame> process(const std::vector<float>& wave, std::size_t block, uint64_t room = 32) {
@@ -201,7 +180,7 @@ protected:
         return all;
     }
 
-    haptoflow_wave_features* features_ = nullptr;
+    Handle<haptoflow_wave_features, haptoflow_wave_features_close> features_;
 };
 
 TEST_F(WaveFeaturesApiTest, FramesEqualThoseOfTheEffectsLibrary) {
@@ -235,15 +214,15 @@ TEST_F(WaveFeaturesApiTest, ADeviceWithOneFrequencyGetsItFromTheNextFrameOn) {
 TEST_F(WaveFeaturesApiTest, OptionsOutOfRangeAreRefusedByName) {
     for (const uint32_t rate : {1999U, 3000U, 44100U, 194000U}) {
         const auto wrong = options(rate);
-        EXPECT_EQ(haptoflow_wave_features_create(&wrong, &features_), HAPTOFLOW_INVALID_ARGUMENT);
+        EXPECT_EQ(haptoflow_wave_features_create(&wrong, features_.out()), HAPTOFLOW_INVALID_ARGUMENT);
         EXPECT_THAT(message(), ::testing::HasSubstr("sample_rate_hz"));
     }
     const auto shortFrames = options(0, 0.001);
-    EXPECT_EQ(haptoflow_wave_features_create(&shortFrames, &features_), HAPTOFLOW_INVALID_ARGUMENT);
+    EXPECT_EQ(haptoflow_wave_features_create(&shortFrames, features_.out()), HAPTOFLOW_INVALID_ARGUMENT);
     auto range = options();
     range.minimum_frequency_hz = 300.0;
     range.maximum_frequency_hz = 200.0;
-    EXPECT_EQ(haptoflow_wave_features_create(&range, &features_), HAPTOFLOW_INVALID_ARGUMENT);
+    EXPECT_EQ(haptoflow_wave_features_create(&range, features_.out()), HAPTOFLOW_INVALID_ARGUMENT);
     EXPECT_EQ(features_, nullptr);
     create(options());
     EXPECT_EQ(haptoflow_wave_features_set_range(features_, 0.0, 100.0), HAPTOFLOW_INVALID_ARGUMENT);
@@ -251,34 +230,33 @@ TEST_F(WaveFeaturesApiTest, OptionsOutOfRangeAreRefusedByName) {
               HAPTOFLOW_INVALID_ARGUMENT);
 }
 
+using DeviceWaveHandle = Handle<haptoflow_device_wave, haptoflow_device_wave_close>;
+
 TEST(DeviceLoudnessApiTest, AKindOrRateOrFullScaleOutOfRangeIsRefusedByName) {
     float share = 0.0F;
     for (const haptoflow_device_kind kind : {-1, 3, INT32_MAX}) {
         EXPECT_EQ(haptoflow_device_share(kind, 1.0F, &share), HAPTOFLOW_INVALID_ARGUMENT);
         EXPECT_THAT(message(), ::testing::HasSubstr("expected 0 to 2"));
     }
-    haptoflow_device_wave* wave = nullptr;
-    EXPECT_EQ(haptoflow_device_wave_create(1000.0, &wave), HAPTOFLOW_INVALID_ARGUMENT);
-    ASSERT_EQ(haptoflow_device_wave_create(8000.0, &wave), HAPTOFLOW_OK) << message();
+    DeviceWaveHandle wave;
+    EXPECT_EQ(haptoflow_device_wave_create(1000.0, wave.out()), HAPTOFLOW_INVALID_ARGUMENT);
+    ASSERT_EQ(haptoflow_device_wave_create(8000.0, wave.out()), HAPTOFLOW_OK) << message();
     float sample = 0.5F;
     for (const float scale : {0.0F, -1.0F, INFINITY, std::nanf("")}) {
         EXPECT_EQ(haptoflow_device_wave_process(wave, &sample, 1, scale), HAPTOFLOW_INVALID_ARGUMENT);
         EXPECT_EQ(sample, 0.5F);
     }
-    EXPECT_EQ(haptoflow_device_wave_close(&wave), HAPTOFLOW_OK);
-    EXPECT_EQ(wave, nullptr);
 }
 
 TEST(DeviceLoudnessApiTest, TheFullScaleOfTheWaveDoesNotChangeWhatIsPlayed) {
     std::vector<float> whole = swellingTone(8000.0, 0.5);
     std::vector<float> scaled = whole;
     std::ranges::for_each(scaled, [](float& sample) { sample /= 200.0F; });
-    haptoflow_device_wave* wave = nullptr;
-    ASSERT_EQ(haptoflow_device_wave_create(8000.0, &wave), HAPTOFLOW_OK) << message();
+    DeviceWaveHandle wave;
+    ASSERT_EQ(haptoflow_device_wave_create(8000.0, wave.out()), HAPTOFLOW_OK) << message();
     EXPECT_EQ(haptoflow_device_wave_process(wave, whole.data(), whole.size(), 1.0F), HAPTOFLOW_OK);
     EXPECT_EQ(haptoflow_device_wave_reset(wave), HAPTOFLOW_OK);
     EXPECT_EQ(haptoflow_device_wave_process(wave, scaled.data(), scaled.size(), 200.0F), HAPTOFLOW_OK);
-    EXPECT_EQ(haptoflow_device_wave_close(&wave), HAPTOFLOW_OK);
     for (std::size_t i = 0; i < whole.size(); ++i) {
         ASSERT_NEAR(whole[i], scaled[i], 1e-5F) << i;
     }

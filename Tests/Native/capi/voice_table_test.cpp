@@ -16,6 +16,7 @@
 #include <atomic>
 #include <functional>
 #include <future>
+#include <list>
 #include <memory>
 #include <thread>
 #include <vector>
@@ -190,33 +191,14 @@ constexpr double loudMps2 = 1.0;
 
 class VoiceSumTest : public ::testing::Test {
 protected:
-    VoiceSumTest() {
-        const haptoflow_model_options options{sizeof(options), nullptr, 0, defaultModelPath.c_str()};
-        EXPECT_EQ(haptoflow_model_open(&options, &model_), HAPTOFLOW_OK) << message();
-    }
-    ~VoiceSumTest() override {
-        for (haptoflow_engine*& engine : engines_) {
-            EXPECT_EQ(haptoflow_engine_close(&engine), HAPTOFLOW_OK);
-        }
-        EXPECT_EQ(haptoflow_model_close(&model_), HAPTOFLOW_OK);
-        EXPECT_EQ(haptoflow_runtime_close(&runtime_), HAPTOFLOW_OK);
-    }
-
     /// A voice that begins to slide in its next block, the first of an engine of its own.
     haptoflow_voice slidingVoice(double fullScaleMps2, float ceiling = 1.0F) {
-        haptoflow_engine_options options{};
-        options.struct_size = sizeof(options);
-        options.quality = HAPTOFLOW_QUALITY_DRAFT;
-        options.runtime = runtime_;
-        options.model = model_;
-        options.seed = 1;
-        options.without_worker = 1;
-        options.fixed_lead_ms = 8.0;
+        haptoflow_engine_options options = engineOptions(runtime_, model_);
         options.full_scale_mps2 = fullScaleMps2;
-        EXPECT_EQ(haptoflow_engine_create(&options, &engines_.emplace_back()), HAPTOFLOW_OK) << message();
+        EngineHandle& engine = engines_.emplace_back(createEngine(options));
         haptoflow_voice voice = 0;
         const haptoflow_contact_state state = slidingState(0.3F, 3.0F);
-        EXPECT_EQ(haptoflow_voice_create(engines_.back(), 48000.0, &voice), HAPTOFLOW_OK) << message();
+        EXPECT_EQ(haptoflow_voice_create(engine, 48000.0, &voice), HAPTOFLOW_OK) << message();
         EXPECT_EQ(haptoflow_voice_set_ceiling(voice, ceiling), HAPTOFLOW_OK);
         EXPECT_EQ(haptoflow_voice_publish(voice, &state), HAPTOFLOW_OK);
         return voice;
@@ -250,9 +232,9 @@ protected:
         return wave;
     }
 
-    haptoflow_runtime* runtime_ = openRuntime();
-    haptoflow_model* model_ = nullptr;
-    std::vector<haptoflow_engine*> engines_;
+    RuntimeHandle runtime_{openRuntime()};
+    ModelHandle model_{openModel(defaultModelPath)};
+    std::list<EngineHandle> engines_;
 };
 
 TEST_F(VoiceSumTest, TwoVoicesPassTheCurveOnceAsASumAndAreNotClipped) {

@@ -8,6 +8,7 @@
 #include "effects/impacts.hpp"
 #include "effects/signal.hpp"
 #include "support/counting_new.hpp"
+#include "support/wave_measures.hpp"
 
 #include <gtest/gtest.h>
 
@@ -189,23 +190,6 @@ void playThrough(Delay& delay, std::vector<float>& samples) {
     playThrough(delay, samples, 0, samples.size());
 }
 
-std::vector<float> sineWave(double frequencyHz, double lineRateHz, std::size_t count, double amplitudeMps2 = 1.0) {
-    std::vector<float> out(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        out[i] = static_cast<float>(
-            amplitudeMps2 * std::sin(2.0 * std::numbers::pi * frequencyHz * static_cast<double>(i) / lineRateHz));
-    }
-    return out;
-}
-
-double largestStep(const std::vector<float>& samples) {
-    double largest = 0.0;
-    for (std::size_t i = 1; i < samples.size(); ++i) {
-        largest = std::max(largest, static_cast<double>(std::abs(samples[i] - samples[i - 1])));
-    }
-    return largest;
-}
-
 TEST(DelayTest, AnImpulseIsDelayedByTheRoundedNumberOfSamplesAtEveryRate) {
     for (const double lineRateHz : everyRateHz) {
         for (const double seconds : {0.0, 1.4 / lineRateHz, 1.6 / lineRateHz, 0.0103, 0.1303, 0.5}) {
@@ -225,10 +209,7 @@ TEST(DelayTest, AnImpulseIsDelayedByTheRoundedNumberOfSamplesAtEveryRate) {
 
 TEST(DelayTest, ADelayOfZeroLeavesTheSignalUnchanged) {
     Delay delay(48000.0);
-    std::mt19937 random(3);
-    std::normal_distribution<float> noise(0.0F, 30.0F);
-    std::vector<float> samples(10000);
-    std::ranges::generate(samples, [&] { return noise(random); });
+    std::vector<float> samples = noiseOf(10000);
     samples[17] = std::numeric_limits<float>::denorm_min();
     samples[18] = -0.0F;
     const std::vector<float> sent = samples;
@@ -245,7 +226,7 @@ TEST(DelayTest, AChangeWhileSoundingCrossfadesWithoutAClickAndIsThenExact) {
         for (const auto& [before, after] : {std::pair{0.0, 0.2}, {0.2, 0.0}, {0.5, 0.01}, {0.05, 0.051}}) {
             Delay delay(lineRateHz);
             const auto second = static_cast<std::size_t>(lineRateHz);
-            std::vector<float> samples = sineWave(63.0, lineRateHz, 2 * second);
+            std::vector<float> samples = haptoflow::testing::sine(63.0, 1.0, 2.0, lineRateHz);
             const std::vector<float> sent = samples;
             delay.setDelaySeconds(before);
             playThrough(delay, samples, 0, second);
@@ -254,8 +235,7 @@ TEST(DelayTest, AChangeWhileSoundingCrossfadesWithoutAClickAndIsThenExact) {
             // The steepest step of the sinusoid, plus the crossfade between two taps that differ by at most 2.
             const double sineStep = 2.0 * std::numbers::pi * 63.0 / lineRateHz;
             const double fadeStep = std::numbers::pi / (Delay::fadeSeconds * lineRateHz);
-            EXPECT_LE(largestStep(
-                          std::vector<float>(samples.begin() + static_cast<std::ptrdiff_t>(second) - 2, samples.end())),
+            EXPECT_LE(haptoflow::testing::largestStep(std::span(samples).subspan(second - 2)),
                       1.01 * (sineStep + fadeStep))
                 << lineRateHz << " Hz, from " << before << " to " << after;
             const auto later = static_cast<std::size_t>(std::llround(after * lineRateHz));
@@ -271,7 +251,7 @@ TEST(DelayTest, ChangesDuringAFadeWaitForItsEndAndOnlyTheNewestCounts) {
     constexpr double lineRateHz = 10000.0;
     Delay waiting(lineRateHz);
     Delay reference(lineRateHz);
-    std::vector<float> samples = sineWave(90.0, lineRateHz, 20000);
+    std::vector<float> samples = haptoflow::testing::sine(90.0, 1.0, 2.0, lineRateHz);
     std::vector<float> expected = samples;
     const auto fade = static_cast<std::size_t>(std::lround(Delay::fadeSeconds * lineRateHz));
     playThrough(waiting, samples, 0, 10000);
@@ -292,16 +272,12 @@ TEST(DelayTest, ChangesDuringAFadeWaitForItsEndAndOnlyTheNewestCounts) {
 
 TEST(DelayTest, DelaysOutOfRangeAreClampedAndNaNIsIgnored) {
     Delay delay(8000.0);
-    delay.setDelaySeconds(9.0);
-    EXPECT_DOUBLE_EQ(delay.delaySeconds(), 0.5);
-    delay.setDelaySeconds(std::numeric_limits<double>::quiet_NaN());
-    EXPECT_DOUBLE_EQ(delay.delaySeconds(), 0.5);
-    delay.setDelaySeconds(std::numeric_limits<double>::infinity());
-    EXPECT_DOUBLE_EQ(delay.delaySeconds(), 0.5);
-    delay.setDelaySeconds(-1.0);
-    EXPECT_DOUBLE_EQ(delay.delaySeconds(), 0.0);
-    delay.setDelaySeconds(-std::numeric_limits<double>::infinity());
-    EXPECT_DOUBLE_EQ(delay.delaySeconds(), 0.0);
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    for (const auto& [set, found] : {std::pair{9.0, 0.5}, {nan, 0.5}, {infinity, 0.5}, {-1.0, 0.0}, {-infinity, 0.0}}) {
+        delay.setDelaySeconds(set);
+        EXPECT_DOUBLE_EQ(delay.delaySeconds(), found) << set;
+    }
 }
 
 TEST(DelayTest, IsIdleOnlyOnceTheLineHoldsNothingButSilence) {

@@ -1,6 +1,7 @@
 #include "effects/exposure_guard.hpp"
 
 #include "support/counting_new.hpp"
+#include "support/wave_measures.hpp"
 
 #include <gtest/gtest.h>
 
@@ -46,11 +47,7 @@ public:
             block = sent;
             guard_.process(block);
             untouched = untouched && block == sent;
-            double squares = 0.0;
-            for (const float sample : block) {
-                squares += static_cast<double>(sample) * static_cast<double>(sample);
-            }
-            lastRmsMps2 = std::sqrt(squares / static_cast<double>(block.size()));
+            lastRmsMps2 = haptoflow::testing::rms(block);
             const double gain = guard_.report().gain;
             const double blockSeconds = static_cast<double>(block.size()) / rateHz_;
             steepestDbPerSecond =
@@ -313,12 +310,7 @@ TEST(ExposureGuardTest, NonFiniteSamplesBecomeZeroAndDoNotCount) {
     samples[7] = -std::numeric_limits<float>::infinity();
     samples[8] = std::numeric_limits<float>::max();
     guard.process(samples);
-    EXPECT_EQ(samples[5], 0.0F);
-    EXPECT_EQ(samples[6], 0.0F);
-    EXPECT_EQ(samples[7], 0.0F);
-    for (const float sample : samples) {
-        ASSERT_TRUE(std::isfinite(sample));
-    }
+    EXPECT_EQ(std::vector<float>(samples.begin() + 5, samples.begin() + 8), std::vector<float>(3, 0.0F));
     EXPECT_TRUE(std::isfinite(guard.report().dailyMps2));
     EXPECT_TRUE(std::isfinite(guard.report().shortTermMps2));
     EXPECT_GT(guard.report().gain, 0.0);

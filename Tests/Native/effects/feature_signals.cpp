@@ -1,5 +1,7 @@
 #include "effects/feature_signals.hpp"
 
+#include "support/wave_measures.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -13,12 +15,7 @@ constexpr double waveRateHz = 2000.0;
 }  // namespace
 
 std::vector<float> featureSine(double frequencyHz, double amplitudeMps2, double seconds) {
-    std::vector<float> wave(static_cast<std::size_t>(seconds * waveRateHz));
-    for (std::size_t i = 0; i < wave.size(); ++i) {
-        const double cycles = frequencyHz * static_cast<double>(i) / waveRateHz;
-        wave[i] = static_cast<float>(amplitudeMps2 * std::sin(2.0 * std::numbers::pi * cycles));
-    }
-    return wave;
+    return haptoflow::testing::sine(frequencyHz, amplitudeMps2, seconds, waveRateHz);
 }
 
 std::vector<float> featureNoise(double rmsMps2, double seconds, unsigned seed) {
@@ -34,15 +31,13 @@ std::vector<float> textureNoise(double rmsMps2, double seconds, unsigned seed) {
     double first = 0.0;
     double second = 0.0;
     double slow = 0.0;
-    double squares = 0.0;
     for (float& sample : wave) {
         first += 0.6 * (static_cast<double>(sample) - first);
         second += 0.6 * (first - second);
         slow += 0.12 * (second - slow);
         sample = static_cast<float>(second - slow);
-        squares += (second - slow) * (second - slow);
     }
-    const double scale = rmsMps2 / std::sqrt(squares / static_cast<double>(wave.size()));
+    const double scale = rmsMps2 / haptoflow::testing::rms(wave);
     for (float& sample : wave) {
         sample = static_cast<float>(scale * static_cast<double>(sample));
     }

@@ -5,6 +5,7 @@
 #include "support/counting_new.hpp"
 #include "support/wave_measures.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,6 +19,8 @@
 
 namespace haptoflow::effects::relief_tests {
 namespace {
+
+using ::testing::HasSubstr;
 
 constexpr double rateHz = 48000.0;
 constexpr double wholeTurn = 2.0 * std::numbers::pi;
@@ -89,9 +92,8 @@ std::vector<float> played(const Stroke& stroke, double seconds, Relief* relief =
     return wave;
 }
 
-double rms(std::span<const float> wave) {
-    return std::pow(10.0, haptoflow::testing::levelDecibels(wave) / 20.0);
-}
+using haptoflow::testing::rms;
+
 std::span<const float> settled(const std::vector<float>& wave) {
     return std::span(wave).subspan(wave.size() / 4);
 }
@@ -99,13 +101,8 @@ double decibels(double ratio) {
     return 20.0 * std::log10(ratio);
 }
 
-/// The amplitude at a frequency, a whole number of whose periods the wave holds.
 double amplitudeAt(std::span<const float> wave, double hz) {
-    std::complex<double> sum = 0.0;
-    for (std::size_t n = 0; n < wave.size(); ++n) {
-        sum += static_cast<double>(wave[n]) * std::polar(1.0, -wholeTurn * hz * static_cast<double>(n) / rateHz);
-    }
-    return 2.0 * std::abs(sum) / static_cast<double>(wave.size());
+    return haptoflow::testing::amplitudeAt(wave, hz, rateHz);
 }
 
 /// What the contact makes of a sine's acceleration, with the band's lower limit.
@@ -164,18 +161,14 @@ TEST(ReliefTest, AnotherMaterialUnderTheTipMakesNoStep) {
             relief.process(piece);
             wave.insert(wave.end(), piece.begin(), piece.end());
         }
-        double step = 0.0;
-        for (std::size_t i = 24001; i < wave.size(); ++i) {
-            step = std::max(step, static_cast<double>(std::abs(wave[i] - wave[i - 1])));
-        }
-        return step;
+        return haptoflow::testing::largestStep(std::span(wave).subspan(24000));
     };
-    const double hard = playedWith([](int) { return 5000.0; });
+    const float hard = playedWith([](int) { return 5000.0; });
     // Wood and glass in turn; without care the spring's 2 N would become 8 N, 400 m/s^2 on 15 g.
-    const double inTurn = playedWith([](int state) { return state % 10 < 5 ? 1200.0 : 5000.0; });
-    EXPECT_LT(inTurn, 4.0 * hard);
+    const float inTurn = playedWith([](int state) { return state % 10 < 5 ? 1200.0 : 5000.0; });
+    EXPECT_LT(inTurn, 4.0F * hard);
     // Numbers of no use count as the softest.
-    EXPECT_LT(playedWith([](int state) { return state % 2 == 0 ? std::nan("") : -1.0; }), 2.0 * hard);
+    EXPECT_LT(playedWith([](int state) { return state % 2 == 0 ? std::nan("") : -1.0; }), 2.0F * hard);
 }
 
 /// The amplitudes that a motor of one frequency gets for a wave at 48 kHz, one for each frame.
@@ -374,11 +367,7 @@ TEST(ReliefTest, LiftedOffItIsSilentWithinFiveMillisecondsWithoutAStep) {
     relief.process(after);
     EXPECT_TRUE(relief.isIdle());
     EXPECT_EQ(largest(std::span(after).last(64)), 0.0);
-    double usual = 0.0;
-    for (std::size_t n = 1; n < before.size(); ++n) {
-        usual = std::max(usual, static_cast<double>(std::abs(before[n] - before[n - 1])));
-    }
-    EXPECT_LE(std::abs(after[0] - before.back()), usual);
+    EXPECT_LE(std::abs(after[0] - before.back()), haptoflow::testing::largestStep(before));
 }
 
 TEST(ReliefTest, AMapThatIsExchangedAndAPlaceThatJumpsMakeNoStep) {
@@ -493,18 +482,14 @@ TEST(ReliefMapTest, AMapThatCannotBeFeltIsRefusedWithTheReason) {
         return description;
     };
     constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-    EXPECT_NE(messageOf({0.0F}, good), "");
-    EXPECT_NE(messageOf({0.0F, nan}, good).find("finite"), std::string::npos);
-    EXPECT_NE(messageOf({0.0F, 0.0F}, changed([](auto& d) { d.columns = 0; })).find("texels"), std::string::npos);
-    EXPECT_NE(messageOf({0.0F, 0.0F}, changed([](auto& d) {
-                            d.columns = 1U << 20U;
-                            d.rows = 1U << 20U;
-                        })),
-              "");
-    EXPECT_NE(messageOf({0.0F, 0.0F}, changed([](auto& d) { d.sizeMetres[1] = 0.0; })).find("size"), std::string::npos);
-    EXPECT_NE(messageOf({0.0F, 0.0F}, changed([](auto& d) { d.depthMetres = nan; })).find("depth"), std::string::npos);
-    EXPECT_NE(messageOf({0.0F, 0.0F}, changed([](auto& d) { d.tipRadiusMetres = -1.0; })).find("radius"),
-              std::string::npos);
+    EXPECT_THAT(messageOf({0.0F}, good), HasSubstr("a height for each"));
+    EXPECT_THAT(messageOf({0.0F, nan}, good), HasSubstr("finite"));
+    const auto refusal = [&](auto change) { return messageOf({0.0F, 0.0F}, changed(change)); };
+    EXPECT_THAT(refusal([](auto& d) { d.columns = 0; }), HasSubstr("texels"));
+    EXPECT_THAT(refusal([](auto& d) { d.columns = d.rows = 1U << 20U; }), HasSubstr("texels"));
+    EXPECT_THAT(refusal([](auto& d) { d.sizeMetres[1] = 0.0; }), HasSubstr("size"));
+    EXPECT_THAT(refusal([](auto& d) { d.depthMetres = nan; }), HasSubstr("depth"));
+    EXPECT_THAT(refusal([](auto& d) { d.tipRadiusMetres = -1.0; }), HasSubstr("radius"));
 }
 
 /// Normals by central differences, as image editors make them.

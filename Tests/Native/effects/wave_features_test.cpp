@@ -63,6 +63,18 @@ std::vector<WaveTransient> transientsOf(const std::vector<float>& wave, const Wa
     return transients;
 }
 
+void expectEqual(const std::vector<WaveFrame>& frames, const std::vector<WaveFrame>& expected) {
+    ASSERT_EQ(frames.size(), expected.size());
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        ASSERT_EQ(frames[i].firstSample, expected[i].firstSample);
+        ASSERT_EQ(frames[i].intensity, expected[i].intensity);
+        ASSERT_EQ(frames[i].amplitudeMps2, expected[i].amplitudeMps2);
+        ASSERT_EQ(frames[i].frequencyHz, expected[i].frequencyHz);
+        ASSERT_EQ(frames[i].transient.amplitudeMps2, expected[i].transient.amplitudeMps2);
+        ASSERT_EQ(frames[i].transient.offsetSeconds, expected[i].transient.offsetSeconds);
+    }
+}
+
 double decibelsBetween(double value, double reference) {
     return 20.0 * std::log10(value / reference);
 }
@@ -210,16 +222,8 @@ TEST(WaveFeaturesTest, TheBlockLengthsDoNotChangeTheFrames) {
     const std::vector<WaveFrame> expected = allFrames(whole, wave, wave.size());
     for (const std::size_t block : {1U, 3U, 10U, 28U, 27U, 977U}) {
         WaveFeatures features;
-        const std::vector<WaveFrame> frames = allFrames(features, wave, block);
-        ASSERT_EQ(frames.size(), expected.size()) << block;
-        for (std::size_t i = 0; i < frames.size(); ++i) {
-            ASSERT_EQ(frames[i].firstSample, expected[i].firstSample);
-            ASSERT_EQ(frames[i].intensity, expected[i].intensity);
-            ASSERT_EQ(frames[i].amplitudeMps2, expected[i].amplitudeMps2);
-            ASSERT_EQ(frames[i].frequencyHz, expected[i].frequencyHz);
-            ASSERT_EQ(frames[i].transient.amplitudeMps2, expected[i].transient.amplitudeMps2);
-            ASSERT_EQ(frames[i].transient.offsetSeconds, expected[i].transient.offsetSeconds);
-        }
+        SCOPED_TRACE(block);
+        expectEqual(allFrames(features, wave, block), expected);
     }
 }
 
@@ -268,10 +272,7 @@ TEST(WaveFeaturesTest, NoSampleIsLostIfAFrameDoesNotFit) {
     while (narrow.process({}, one).frames == 1) {
         frames.push_back(one[0]);
     }
-    ASSERT_EQ(frames.size(), expected.size());
-    for (std::size_t i = 0; i < frames.size(); ++i) {
-        ASSERT_EQ(frames[i].intensity, expected[i].intensity);
-    }
+    expectEqual(frames, expected);
 }
 
 TEST(WaveFeaturesTest, AnOnsetIsFoundOnceAndWithinAMillisecondWhereverItFallsInAFrame) {
@@ -298,17 +299,13 @@ TEST(WaveFeaturesTest, AnOnsetIsFoundOnceAndWithinAMillisecondWhereverItFallsInA
 TEST(WaveFeaturesTest, OnsetsKeepTheRefractoryTimeApart) {
     std::vector<float> wave(4000, 0.0F);
     for (std::size_t start = 200; start < 3800; start += 160) {
-        const std::vector<float> tap = decayingSinusoidFrom(start, 250.0, 40.0, 900.0, 2.0);
-        for (std::size_t i = 0; i < wave.size(); ++i) {
-            wave[i] += tap[i];
-        }
+        wave = sumOf(wave, decayingSinusoidFrom(start, 250.0, 40.0, 900.0, 2.0));
     }
     EXPECT_EQ(transientsOf(wave).size(), 23U) << "80 ms apart";
     // Each tap is twenty times as strong as the one before; the second comes 20 ms after the first.
     std::vector<float> growing(1000, 0.0F);
     for (const auto& [start, amplitude] : {std::pair{200U, 2.0}, {240U, 40.0}, {340U, 800.0}}) {
-        std::ranges::transform(growing, decayingSinusoidFrom(start, 250.0, amplitude, 900.0, 0.5), growing.begin(),
-                               std::plus());
+        growing = sumOf(growing, decayingSinusoidFrom(start, 250.0, amplitude, 900.0, 0.5));
     }
     std::vector<double> seconds;
     transientsOf(growing, {}, &seconds);
@@ -357,14 +354,7 @@ TEST(WaveFeaturesTest, AResetClearsTheHistory) {
     used.reset();
     WaveFeatures fresh;
     const std::vector<float> wave = featureSine(120.0, 3.0, 0.3);
-    const std::vector<WaveFrame> first = allFrames(used, wave, 28);
-    const std::vector<WaveFrame> second = allFrames(fresh, wave, 28);
-    ASSERT_EQ(first.size(), second.size());
-    for (std::size_t i = 0; i < first.size(); ++i) {
-        ASSERT_EQ(first[i].intensity, second[i].intensity);
-        ASSERT_EQ(first[i].firstSample, second[i].firstSample);
-        ASSERT_EQ(first[i].transient.amplitudeMps2, second[i].transient.amplitudeMps2);
-    }
+    expectEqual(allFrames(used, wave, 28), allFrames(fresh, wave, 28));
 }
 
 TEST(WaveFeaturesTest, NonFiniteSamplesCountAsZeroAndTheFramesAreFinite) {
@@ -376,11 +366,7 @@ TEST(WaveFeaturesTest, NonFiniteSamplesCountAsZeroAndTheFramesAreFinite) {
     }
     WaveFeatures features;
     WaveFeatures reference;
-    const std::vector<WaveFrame> frames = allFrames(features, wave, 28);
-    const std::vector<WaveFrame> expected = allFrames(reference, zeros, 28);
-    for (std::size_t i = 0; i < frames.size(); ++i) {
-        ASSERT_EQ(frames[i].intensity, expected[i].intensity);
-    }
+    expectEqual(allFrames(features, wave, 28), allFrames(reference, zeros, 28));
     WaveFeatures shaken;
     for (const WaveFrame& frame : allFrames(shaken, std::vector<float>(2000, std::numeric_limits<float>::max()), 28)) {
         ASSERT_TRUE(std::isfinite(frame.intensity));

@@ -147,32 +147,22 @@ TEST(CancellationTest, ALateActionRunsAtOnceAndADestroyedActionNever) {
 /// The test's ONNX Runtime presented as version 1.16, without newer functions.
 class OldRuntime {
 public:
-    static std::shared_ptr<const Runtime> open(const std::shared_ptr<LogSink>& log = nullptr) {
+    static std::shared_ptr<const Runtime> open() {
         const auto newest = testRuntime();
         real() = newest->api();
-        real().CreateEnvWithCustomLogger = createEnvironment;
         // Functions added after 1.16 are missing.
         real().SetUserLoggingFunction = nullptr;
         real().SessionOptionsSetLoadCancellationFlag = nullptr;
         static const OrtApiBase base{
             [](std::uint32_t version) noexcept -> const OrtApi* { return version <= 16 ? &real() : nullptr; },
             []() noexcept -> const char* { return "1.16.3"; }};
-        return Runtime::fromApiBase(&base, log);
-    }
-    static OrtLoggingFunction& logger() {
-        static OrtLoggingFunction function = nullptr;
-        return function;
+        return Runtime::fromApiBase(&base);
     }
 
 private:
     static OrtApi& real() {
         static OrtApi api{};
         return api;
-    }
-    static OrtStatus* ORT_API_CALL createEnvironment(OrtLoggingFunction function, void* context, OrtLoggingLevel level,
-                                                     const char* name, OrtEnv** environment) noexcept {
-        logger() = function;
-        return testRuntime()->api().CreateEnvWithCustomLogger(function, context, level, name, environment);
     }
 };
 
@@ -234,47 +224,6 @@ TEST(LoadLimitsTest, ACancellationIsForwardedToALoadingOnnxRuntime) {
     EXPECT_THROW((void)loadDraft(tinyModel(), {.cancellation = cancellation}, runtime), LoadCancelled);
     EXPECT_EQ(RuntimeCancelledWhileLoading::flagsSet(), 1);
     EXPECT_EQ(RuntimeCancelledWhileLoading::sessionsMade(), 0);
-}
-
-struct LogRecord {
-    static void callback(void* context, int severity, const char* message) {
-        static_cast<LogRecord*>(context)->severities.push_back(severity);
-        static_cast<LogRecord*>(context)->messages.emplace_back(message);
-    }
-    std::vector<int> severities;
-    std::vector<std::string> messages;
-};
-
-TEST(OldRuntimeTest, TheProcessWideLogReachesTheCallback) {
-    LogRecord record;
-    const auto log = std::make_shared<LogSink>(LogRecord::callback, &record);
-    const auto runtime = OldRuntime::open(log);
-    ASSERT_NE(OldRuntime::logger(), nullptr);
-    OldRuntime::logger()(nullptr, ORT_LOGGING_LEVEL_ERROR, "onnxruntime", "haptoflow", "here", "made by the test");
-    OldRuntime::logger()(nullptr, ORT_LOGGING_LEVEL_INFO, "onnxruntime", "haptoflow", "here", "chatter");
-    EXPECT_THAT(record.messages, ::testing::ElementsAre("onnxruntime: made by the test"));
-    EXPECT_THAT(record.severities, ::testing::ElementsAre(3));
-    log->close();
-    OldRuntime::logger()(nullptr, ORT_LOGGING_LEVEL_ERROR, "onnxruntime", "haptoflow", "here", "too late");
-    EXPECT_EQ(record.messages.size(), 1U);
-}
-
-TEST(LogTest, TheLogOfAFailingGraphReachesOnlyTheCallbackOfItsRuntime) {
-    LogRecord record;
-    LogRecord others;
-    const auto log = std::make_shared<LogSink>(LogRecord::callback, &record);
-    const auto runtime = Runtime::open(HAPTOFLOW_TEST_ONNXRUNTIME, log);
-    const auto other =
-        Runtime::open(HAPTOFLOW_TEST_ONNXRUNTIME, std::make_shared<LogSink>(LogRecord::callback, &others));
-    const model::ModelFile failing = tinyWithLevel(inflatedLevel());
-    EXPECT_THROW((void)loadDraft(failing, {}, runtime), model::ModelError);
-    EXPECT_THAT(record.messages, ::testing::Contains(::testing::HasSubstr("ConstantOfShape")));
-    EXPECT_THAT(record.severities, ::testing::Each(::testing::Ge(2)));
-    EXPECT_THAT(others.messages, ::testing::IsEmpty());
-    log->close();
-    const std::size_t before = record.messages.size();
-    EXPECT_THROW((void)loadDraft(failing, {}, runtime), model::ModelError);
-    EXPECT_EQ(record.messages.size(), before);
 }
 
 // Models whose graphs do not match the format. The graphs are blobs of tiny.haptoflow that no tier uses.

@@ -117,8 +117,7 @@ TEST(RealTimeTest, ForbiddenCallsAndSystemCallsAreDetected) {
 
 TEST(RealTimeTest, ForbiddenCallsInsideTheLibraryAreDetected) {
     const OpenEngine open(capi::testing::tinyModelPath);
-    haptoflow_engine_statistics statistics{};
-    statistics.struct_size = sizeof(statistics);
+    auto statistics = capi::testing::sized<haptoflow_engine_statistics>();
     const std::uint64_t before = forbiddenCalls();
     {
         const WatchedSection watched;
@@ -178,9 +177,7 @@ void watchUnderLoad(const OpenEngine& open, const Callback& callback) {
     EXPECT_GT(statistics.inferences, 10U);
     EXPECT_GT(statistics.onsets, 3U);
     EXPECT_GT(statistics.rate_changes, 0U);
-    haptoflow_effect_statistics listen{};
-    listen.struct_size = sizeof(listen);
-    ASSERT_EQ(haptoflow_voice_effect_statistics(open.voice, HAPTOFLOW_EFFECT_LISTEN, &listen), HAPTOFLOW_OK);
+    const haptoflow_effect_statistics listen = open.effect(HAPTOFLOW_EFFECT_LISTEN);
     EXPECT_GT(listen.prepared, 3U);
     EXPECT_GT(listen.runs, 1000U);
 }
@@ -258,10 +255,13 @@ TEST(RealTimeTest, NoCallbackOfTheMixerEffectUnderLoadAllocatesLocksOrEntersTheK
     unity::testing::HostedEffect effect(host.effect("HaptoFlow Voice"));
     std::uint32_t place = 0;
     ASSERT_EQ(haptoflow_voice_place(open.voice, &place), HAPTOFLOW_OK);
-    effect.set("Voice", static_cast<float>(place));
+    const auto ownPlace = static_cast<float>(place);
+    effect.set("Voice", ownPlace);
     effect.set("Channel", 1.0F);
     const unity::AudioEffectDefinition& definition = effect.definition();
     const int strength = effect.indexOf("Strength");
+    const int voice = effect.indexOf("Voice");
+    const int channel = effect.indexOf("Channel");
     OutputRecord record;
     std::array<float, 256> silence{};
     std::array<float, 256> block{};
@@ -272,6 +272,13 @@ TEST(RealTimeTest, NoCallbackOfTheMixerEffectUnderLoadAllocatesLocksOrEntersTheK
         state.flags = ++calls % 900 < 30 ? unity::flagPlaying | unity::flagPaused : unity::flagPlaying;
         if (calls % 50 == 0) {
             (void)definition.setParameter(&state, strength, calls % 100 == 0 ? 1.0F : 0.5F);
+            (void)definition.setParameter(&state, channel, static_cast<float>(calls / 50 % 3) - 1.0F);
+            (void)definition.setParameter(&state, voice, calls % 350 == 0 ? 40.0F : ownPlace);
+            std::array<char, 16> text{};
+            (void)definition.getParameter(&state, static_cast<int>(calls / 50 % 3), nullptr, text.data());
+        }
+        if (calls % 1'300 == 0) {
+            (void)definition.reset(&state);
         }
         (void)definition.process(&state, silence.data(), block.data(), frames, 2, 2);
         state.previousTick = state.currentTick;

@@ -1,10 +1,7 @@
-#include "allocation_counter.hpp"
 #include "stepped_voice.hpp"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
-#include <memory>
 #include <optional>
 #include <thread>
 
@@ -15,53 +12,6 @@ using AudioThreadTest = VoiceEffectTest;
 
 bool isWithinFullScale(const Sound& sound) {
     return std::ranges::all_of(sound.samples, [](float sample) { return std::abs(sample) <= 1.0F; });
-}
-
-TEST_F(AudioThreadTest, ProcessingNeverAllocates) {
-    HostedEffect effect(definition());
-    const AudioEffectDefinition& callbacks = definition();
-    AudioEffectState& state = effect.state();
-    std::vector<float> in(20000, 0.1F);
-    std::vector<float> out(20000);
-    std::size_t calls = 0;
-    for (int i = 0; i < 40; ++i) {
-        voice_.slide();
-        const std::uint32_t frames = i % 10 == 9 ? 10000 : 256;
-        effect.setFlags(i % 8 == 5 ? flagPlaying | flagPaused : flagPlaying);
-        effect.setSampleRate(i < 30 ? 48000 : 24000);
-        if (i % 6 == 0) {
-            effect.suspend(5000);
-        }
-        {
-            const AllocationCounter counter;
-            callbacks.setParameter(&state, 0, i % 2 == 0 ? 0.4F : 1.0F);
-            callbacks.setParameter(&state, 1, i % 9 == 7 ? 40.0F : 0.0F);
-            callbacks.setParameter(&state, 2, static_cast<float>(i % 4) - 1.0F);
-            if (i % 13 == 12) {
-                callbacks.reset(&state);
-            }
-            callbacks.process(&state, in.data(), out.data(), frames, 2, 2);
-            std::array<char, 16> text{};
-            callbacks.getParameter(&state, i % 3, nullptr, text.data());
-            calls += counter.calls();
-        }
-        voice_.generate();
-    }
-    EXPECT_EQ(calls, 0U);
-    EXPECT_GT(voice_.statistics().inferences, 5U);
-
-    const AllocationCounter counter;
-    const auto proof = std::make_unique<std::vector<float>>(10);
-    EXPECT_GT(counter.calls(), 0U) << "the counter does not count";
-}
-
-TEST_F(AudioThreadTest, AllocationsInsideTheLibraryAreCounted) {
-    AudioEffectState state{};
-    state.structSize = sizeof(state);
-    const AllocationCounter counter;
-    ASSERT_EQ(definition().create(&state), resultOk);
-    EXPECT_GT(counter.calls(), 0U);
-    EXPECT_EQ(definition().release(&state), resultOk);
 }
 
 TEST_F(AudioThreadTest, ParametersCanBeSetFromAnotherThread) {

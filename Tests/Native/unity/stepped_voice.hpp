@@ -24,15 +24,9 @@ inline constexpr std::size_t frameOfAudio = 480;
 class SteppedVoice {
 public:
     SteppedVoice(const haptoflow_runtime* runtime, const haptoflow_model* model) {
-        haptoflow_engine_options options{};
-        options.struct_size = sizeof(options);
-        options.quality = HAPTOFLOW_QUALITY_STANDARD;
-        options.runtime = runtime;
-        options.model = model;
+        haptoflow_engine_options options = capi::testing::engineOptions(runtime, model, HAPTOFLOW_QUALITY_STANDARD);
         options.seed = 11;
-        options.without_worker = 1;
-        options.fixed_lead_ms = 8.0;
-        EXPECT_EQ(haptoflow_engine_create(&options, &engine_), HAPTOFLOW_OK) << haptoflow_last_message();
+        *engine_.out() = capi::testing::createEngine(options);
         EXPECT_EQ(haptoflow_voice_create(engine_, 48000.0, &voice_), HAPTOFLOW_OK) << haptoflow_last_message();
     }
     SteppedVoice(const SteppedVoice&) = delete;
@@ -46,7 +40,7 @@ public:
         }
     }
 
-    void close() { EXPECT_EQ(haptoflow_engine_close(&engine_), HAPTOFLOW_OK) << haptoflow_last_message(); }
+    void close() { EXPECT_EQ(haptoflow_engine_close(engine_.out()), HAPTOFLOW_OK) << haptoflow_last_message(); }
 
     /// Publishes a sliding state that differs a little each time.
     void slide() {
@@ -63,12 +57,7 @@ public:
                   HAPTOFLOW_OK);
     }
 
-    [[nodiscard]] haptoflow_voice_statistics statistics() const {
-        haptoflow_voice_statistics statistics{};
-        statistics.struct_size = sizeof(statistics);
-        EXPECT_EQ(haptoflow_voice_get_statistics(voice_, &statistics), HAPTOFLOW_OK) << haptoflow_last_message();
-        return statistics;
-    }
+    [[nodiscard]] haptoflow_voice_statistics statistics() const { return capi::testing::statisticsOf(voice_); }
     [[nodiscard]] float place() const {
         std::uint32_t place = 0;
         EXPECT_EQ(haptoflow_voice_place(voice_, &place), HAPTOFLOW_OK) << haptoflow_last_message();
@@ -77,8 +66,7 @@ public:
 
 private:
     void publish(std::uint32_t touching, float speedMps) {
-        haptoflow_contact_state state{};
-        state.struct_size = sizeof(state);
+        auto state = capi::testing::sized<haptoflow_contact_state>();
         state.touching = touching;
         state.touch_counter = 1;
         state.label_count = 1;
@@ -88,7 +76,7 @@ private:
         EXPECT_EQ(haptoflow_voice_publish(voice_, &state), HAPTOFLOW_OK) << haptoflow_last_message();
     }
 
-    haptoflow_engine* engine_ = nullptr;
+    capi::testing::EngineHandle engine_;
     haptoflow_voice voice_ = 0;
     int slides_ = 0;
 };

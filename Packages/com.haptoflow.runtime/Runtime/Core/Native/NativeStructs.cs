@@ -12,12 +12,6 @@ namespace HaptoFlow.Native
         public uint StructSize;
         public IntPtr OrtApiBase;
         public IntPtr LibraryPath;
-
-        /// <summary>Always null. A managed callback from ONNX Runtime's threads would have to be a static method marked
-        /// for ahead-of-time compilation. Messages go to the standard error stream, which Unity's player log
-        /// contains.</summary>
-        public IntPtr Log;
-        public IntPtr LogContext;
     }
 
     [Preserve, StructLayout(LayoutKind.Sequential)]
@@ -54,9 +48,6 @@ namespace HaptoFlow.Native
         public double StiffnessNewtonsPerMetre;
         public double FrictionCoefficient;
         public double WavelengthMetres;
-        public double SpeedLevelExponent;
-        public double ForceLevelExponent;
-        public double FrequencyExponent;
     }
 
     [Preserve, StructLayout(LayoutKind.Sequential)]
