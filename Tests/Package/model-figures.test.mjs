@@ -41,18 +41,18 @@ const measured = {
   'Training/haptoflow_paper/results/accuracy-and-time.md': 'npm run evaluate',
   'Training/haptoflow_paper/results/few-shot.md': 'haptoflow-paper few-shot --page',
   'Training/haptoflow_paper/results/place.md': 'haptoflow-paper place --page',
-  'Training/results/default/README.md': 'npm run evaluate, haptoflow-benchmark discriminate, and the words by hand',
+  'Training/results/README.md': 'npm run evaluate, haptoflow-benchmark discriminate, and the words by hand',
   'Training/haptoflow_paper/results/accuracy-time.json': 'npm run evaluate',
   'Training/haptoflow_paper/results/few-shot.json': 'haptoflow-paper few-shot',
-  'Training/results/default/label-discrimination.json': 'haptoflow-benchmark discriminate',
+  'Training/results/label-discrimination.json': 'haptoflow-benchmark discriminate',
 };
 
 /**
- * Of models that are not in the repository, a file of the published sizes with random weights and a distilled one; and what effects do,
- * which hardly depends on the model: scripts/pack/pictures.py of ca588762 drew it.
+ * Of models that are not in the repository, a file of the published sizes with random weights and a distilled one; what a model and
+ * the one before it sounded like; and what effects do, which hardly depends on the model: scripts/pack/pictures.py of ca588762 drew it.
  */
-const ofOtherModels = ['published-costs.png', 'distilled-spectra.png', 'effect-impact.png', 'effect-edge.png', 'effect-delay.png', 'features-of-the-wave.png'];
-const pictures = ['Documentation~/images', 'Samples~/StylusTracing', 'Samples~/TextureGallery', 'Samples~/Workshop', 'Training/results/default', 'Training/haptoflow_paper/results']
+const ofOtherModels = ['before-after.png', 'published-costs.png', 'distilled-spectra.png', 'effect-impact.png', 'effect-edge.png', 'effect-delay.png', 'features-of-the-wave.png'];
+const pictures = ['Documentation~/images', 'Samples~/StylusTracing', 'Samples~/TextureGallery', 'Samples~/Workshop', 'Training/results', 'Training/haptoflow_paper/results']
   .flatMap((folder) => readdirSync(inRepository(...folder.split('/'))).map((name) => `${folder}/${name}`))
   .filter((file) => file.endsWith('.png') && !ofOtherModels.includes(path.basename(file)));
 

@@ -19,7 +19,7 @@ from haptoflow_training.studies.plans import latency_plan, similarity_plan
 from haptoflow_training.studies.session_file import read_faultless, read_folder, read_session
 from haptoflow_training.studies.analysis import listed_names
 
-SESSIONS = Path(__file__).parents[1] / "Golden" / "studies" / "sessions"
+SESSIONS = Path(__file__).parents[1] / "Golden" / "studies"
 
 
 @pytest.fixture(scope="module")

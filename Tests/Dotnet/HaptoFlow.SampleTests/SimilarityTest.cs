@@ -226,14 +226,14 @@ namespace HaptoFlow.SampleTests
     internal static class RecordedSession
     {
         /// <summary>If HAPTOFLOW_RECORD_SESSIONS is set, replaces the sessions of the study in
-        /// Tests/Golden/studies/sessions by the only session of the folder.</summary>
+        /// Tests/Golden/studies by the only session of the folder.</summary>
         public static void Keep(string folder, string study)
         {
             if (string.IsNullOrEmpty(Environment.GetEnvironmentVariable("HAPTOFLOW_RECORD_SESSIONS")))
             {
                 return;
             }
-            string sessions = RepositoryFiles.In("Tests", "Golden", "studies", "sessions");
+            string sessions = RepositoryFiles.In("Tests", "Golden", "studies");
             foreach (string old in Directory.GetFiles(sessions, study + "-*"))
             {
                 File.Delete(old);

@@ -57,7 +57,7 @@ std::vector<std::string> examplesOf(const std::string& text) {
 }
 
 std::vector<fs::path> documentationPages() {
-    std::vector<fs::path> pages{repository / "README.md", repository / "Training/results/default/README.md"};
+    std::vector<fs::path> pages{repository / "README.md", repository / "Training/results/README.md"};
     for (const char* folder : {"Documentation~", "Samples~"}) {
         for (const auto& entry : fs::recursive_directory_iterator(repository / folder)) {
             if (entry.path().extension() == ".md") {

@@ -31,7 +31,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     )
     parser.epilog = (
         "example:\n  haptoflow-benchmark discriminate --engine build/native/haptoflow"
-        " --out Training/results/default\n"
+        " --out Training/results\n"
         "  haptoflow-benchmark discriminate --model own.haptoflow --recordings recordings --out out/own/discrimination"
     )
     parser.add_argument(
