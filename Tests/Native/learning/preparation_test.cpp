@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <functional>
 #include <limits>
 #include <numbers>
@@ -93,7 +94,7 @@ TEST(RecordingCheckTest, AUsableRecordingIsAcceptedAndEachDefectIsNamedWithItsRe
 
 TEST(RecordingCheckTest, APauseOfAMinuteBetweenTwoPartsIsNoDamage) {
     const MadeRecording made({}, {});
-    const auto pause = static_cast<std::ptrdiff_t>(60.0 * made.view().rateHz);
+    const auto pause = static_cast<std::size_t>(60.0 * made.view().rateHz);
     const auto middle = static_cast<std::ptrdiff_t>(made.acceleration.size() / 2);
     MadeRecording paused = made;
     constexpr float unknown = std::numeric_limits<float>::quiet_NaN();

@@ -184,12 +184,12 @@ TEST(MaterialFileTest, TheGoldenFilesAreReadAndTheirSpacesEqualThoseOfTheirModel
     const Json golden = readJson(goldenFolder + "expected.json");
     const ModelFile tiny = ModelFile::read(HAPTOFLOW_TEST_GOLDEN_DIR "/model/tiny.haptoflow");
     const ModelFile shipped = ModelFile::read(HAPTOFLOW_TEST_DEFAULT_MODEL);
-    EXPECT_EQ(spaceOf(tiny.header()), golden.at("spaces").at("tiny"));
-    EXPECT_EQ(spaceOf(shipped.header()), golden.at("spaces").at("default"));
+    EXPECT_EQ(spaceOf(tiny.header()), golden.at("spaces").at("tiny").get<std::string>());
+    EXPECT_EQ(spaceOf(shipped.header()), golden.at("spaces").at("default").get<std::string>());
     for (const auto& [name, expected] : golden.at("materials").items()) {
         const MaterialFile material = readMaterial(goldenFolder + name + ".haptomaterial");
-        EXPECT_EQ(material.label.name, expected.at("name"));
-        EXPECT_EQ(material.space, expected.at("space"));
+        EXPECT_EQ(material.label.name, expected.at("name").get<std::string>());
+        EXPECT_EQ(material.space, expected.at("space").get<std::string>());
     }
 }
 
