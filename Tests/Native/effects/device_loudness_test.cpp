@@ -83,6 +83,19 @@ TEST(DeviceWaveTest, AnImpactOutOfSilenceKeepsItsAttackAndDoesNotOvershoot) {
     EXPECT_LT(peak(wave), deviceShare(DeviceKind::waveform, 80.0F) * 1.001F);
 }
 
+TEST(DeviceWaveTest, AnyInputGivesFiniteSamplesWithinTheRange) {
+    EnvelopeGain device = deviceWave(8000.0);
+    std::vector<float> wave(4000, 0.5F);
+    wave[10] = std::nanf("");
+    wave[400] = INFINITY;
+    wave[900] = -std::numeric_limits<float>::max();
+    wave[1500] = 1e-42F;
+    device.process(wave);
+    for (const float sample : wave) {
+        ASSERT_TRUE(std::isfinite(sample) && std::abs(sample) <= 1.0F) << sample;
+    }
+}
+
 TEST(DeviceWaveTest, ARateOutOfRangeIsRefused) {
     for (const double rateHz : {0.0, 1999.0, 192001.0, std::numeric_limits<double>::quiet_NaN()}) {
         EXPECT_THROW((void)deviceWave(rateHz), std::invalid_argument) << rateHz;
