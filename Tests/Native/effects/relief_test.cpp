@@ -15,6 +15,7 @@
 #include <limits>
 #include <numbers>
 #include <random>
+#include <utility>
 #include <vector>
 
 namespace haptoflow::effects::relief_tests {
@@ -450,19 +451,23 @@ TEST(ReliefMapTest, AGrooveNarrowerThanTheTipIsShallow) {
     EXPECT_NEAR(ball.heightMetres({0.5, 0.5}), 0.001 - 0.0005 * 0.0005 / (2.0 * 0.002), 2e-5);
 }
 
-TEST(ReliefMapTest, AverageHeightsAreKeptInEveryResolutionOfAnOddMap) {
-    std::vector<float> heights;
-    for (int row = 0; row < 37; ++row) {
-        for (int column = 0; column < 53; ++column) {
-            heights.push_back(0.001F * static_cast<float>((row * 7 + column * 3) % 11));
+TEST(ReliefMapTest, AverageHeightsAreKeptInEveryResolutionOfAnOddMapAndOfANarrowOne) {
+    for (const auto& [columns, rows] : {std::pair{53U, 37U}, std::pair{4U, 64U}, std::pair{64U, 4U}}) {
+        std::vector<float> heights;
+        for (std::uint32_t row = 0; row < rows; ++row) {
+            for (std::uint32_t column = 0; column < columns; ++column) {
+                heights.push_back(0.001F * static_cast<float>((row * 7 + column * 3) % 11));
+            }
         }
+        const ReliefMap map(
+            heights,
+            {.columns = columns, .rows = rows, .sizeMetres = {0.001 * columns, 0.001 * rows}, .depthMetres = 0.02});
+        double mean = 0.0;
+        for (const float height : heights) {
+            mean += static_cast<double>(height) / static_cast<double>(heights.size());
+        }
+        EXPECT_NEAR(map.heightMetres({0.5, 0.5}, map.resolutionFor(1e9)), mean, 1e-4) << columns << " x " << rows;
     }
-    const ReliefMap map(heights, {.columns = 53, .rows = 37, .sizeMetres = {0.053, 0.037}, .depthMetres = 0.02});
-    double mean = 0.0;
-    for (const float height : heights) {
-        mean += static_cast<double>(height) / static_cast<double>(heights.size());
-    }
-    EXPECT_NEAR(map.heightMetres({0.5, 0.5}, map.resolutionFor(1e9)), mean, 1e-4);
 }
 
 TEST(ReliefMapTest, AMapThatCannotBeFeltIsRefusedWithTheReason) {
