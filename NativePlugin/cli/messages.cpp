@@ -56,7 +56,7 @@ std::ostream& resultStream() {
     return headless::isStandardOutputTaken() ? std::cerr : std::cout;
 }
 
-ProgressBar progressLines(std::string_view command, std::function<double()> clockSeconds,
+ProgressBar progressLines(std::string_view command, const std::function<double()>& clockSeconds,
                           std::function<void(const std::string&)> say) {
     constexpr double betweenLinesSeconds = 10.0;
     return [command = std::string(command), clockSeconds, say = std::move(say),

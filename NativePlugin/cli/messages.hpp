@@ -37,7 +37,7 @@ using ProgressBar = std::function<void(double, std::string_view)>;
 [[nodiscard]] ProgressBar progressBar(std::string_view command, bool quiet);
 
 /// Prints a line, "render: 42 %", every ten seconds of a clock in seconds.
-[[nodiscard]] ProgressBar progressLines(std::string_view command, std::function<double()> clockSeconds,
+[[nodiscard]] ProgressBar progressLines(std::string_view command, const std::function<double()>& clockSeconds,
                                         std::function<void(const std::string&)> say);
 
 /// Prints "haptoflow: " and the text to standard error. Control characters, which may come from a file, are escaped.

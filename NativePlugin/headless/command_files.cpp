@@ -138,7 +138,8 @@ std::string plain(std::string_view word) {
     return text;
 }
 
-/// The edit distance of two words. Home-made: CLI11 has no suggestions.
+/// The number of letters to change, by which `suggestion` finds what a misspelt word meant. Written here, because CLI11
+/// suggests nothing.
 std::size_t lettersApart(std::string_view one, std::string_view other) {
     const std::string a = plain(one);
     const std::string b = plain(other);

@@ -103,7 +103,7 @@ private:
     bool started_ = false;
     std::optional<glm::dvec3> tipMetres_;
     double tipSeconds_ = 0.0;
-    /// The tip in the previous frame, and in the one before it.
+    /// Where the tip was one frame ago, and two frames ago; empty if it was nowhere then.
     std::optional<TimedPlace> pathStart_;
     std::optional<TimedPlace> pathBefore_;
 

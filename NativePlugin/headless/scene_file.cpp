@@ -293,7 +293,7 @@ std::vector<std::pair<std::string, double>> readMaterial(const Node& node) {
 SceneRelief readRelief(const Node& node) {
     node.requireObject({"image", "normals", "size", "depth", "tiled", "share"});
     if (node.has("image") == node.has("normals")) {
-        node.failWith("expected one of the keys \"image\" (heights) and \"normals\", each with the name of a PNG file");
+        node.failWith(R"(expected one of the keys "image" (heights) and "normals", each with the name of a PNG file)");
     }
     SceneRelief relief;
     relief.isNormalMap = node.has("normals");

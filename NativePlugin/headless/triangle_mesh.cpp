@@ -110,10 +110,10 @@ void TriangleMesh::joinVertices() {
 }
 
 void TriangleMesh::keepTrianglesWithArea(const std::vector<Triangle>& triangles) {
-    for (std::size_t index = 0; index < triangles.size(); ++index) {
+    for (const Triangle& triangle : triangles) {
         Triangle corners{};
         for (std::size_t corner = 0; corner < 3; ++corner) {
-            corners[corner] = joined_[triangles[index][corner]];
+            corners[corner] = joined_[triangle[corner]];
         }
         const glm::dvec3 ab = vertices_[corners[1]] - vertices_[corners[0]];
         const glm::dvec3 ac = vertices_[corners[2]] - vertices_[corners[0]];

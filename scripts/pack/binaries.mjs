@@ -14,7 +14,7 @@ export function loadAlignment(elf) {
 /** Whether an ELF names a library that it needs, such as "libc.so.6". */
 export const needsLibrary = (elf, name) => elf.includes(`\0${name}\0`, 0, 'latin1');
 
-/** Whether a version such as [2, 34] is newer than another. */
+/** Whether one version is newer than another; a version is [major, minor]. */
 export const isNewerThan = ([major, minor], [otherMajor, otherMinor]) => major > otherMajor || (major === otherMajor && minor > otherMinor);
 
 /** The oldest glibc with every function that an ELF wants, such as [2, 30]; null for a library of another C library. */

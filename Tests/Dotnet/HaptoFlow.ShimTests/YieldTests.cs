@@ -202,7 +202,7 @@ namespace HaptoFlow.ShimTests
             Assert.That(HandYields.UntilSeconds(HapticHand.Right), Is.Zero);
         }
 
-        /// <summary>Makes way in the right hand, and returns the time.</summary>
+        /// <summary>Makes the outputs of the right hand yield from now on, and returns the present time in seconds.</summary>
         private static double Yield(float seconds)
         {
             Haptics.Yield(HapticHand.Right, seconds);

@@ -155,7 +155,7 @@ namespace HaptoFlow.Tests
             Assert.That(Array.ConvertAll(styluses, FeltAlone), Is.EqualTo(places.Select(place => place.Label)));
         }
 
-        /// <summary>In the next frame a tip feels one material alone.</summary>
+        /// <summary>Waits for the next frame, and asserts that the tip then feels this label and no blend.</summary>
         internal static IEnumerator FeelsNext(HapticStylus stylus, string label, string why = "")
         {
             yield return null;

@@ -115,7 +115,7 @@ def analyse_similarity(sessions: Sequence[Session]) -> SimilarityResult:
                 raise InputError(f"{session.path}: {row['method']} on {row['material']} is rated twice; expected once")
             ratings[cell] = row["rating"]
     _refuse_gaps(ratings, materials, methods, sessions)
-    # What the settings fixed before the first answer; the smallest if sessions differ.
+    # Each session fixed its bound before its first answer. Where bounds differ, the smallest is the strictest.
     bound = min(session_bound(session) or EQUIVALENCE_POINTS for session in sessions)
     by_material = {name: analysed(of_material, bound) for name, of_material in zip(materials, ratings, strict=True)}
     return SimilarityResult(materials, methods, ratings, by_material, bound)
